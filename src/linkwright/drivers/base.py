@@ -1,0 +1,85 @@
+"""Drivers and what all their laws have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from linkwright.registry import Registry
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from linkwright.model.fields import Field
+
+    Array = NDArray[np.float64]
+
+
+class Law(ABC):
+    """A joint coordinate as a function of time; ``rotary`` laws are in rad, the others in m.
+
+    ``key`` is the key of the driver in the file that chooses the law.
+    """
+
+    key: ClassVar[str]
+    rotary: bool
+
+    @abstractmethod
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        """Coordinate and its exact first and second derivative at the times ``t`` (n,) in s."""
+
+    def natural_duration(self) -> float | None:
+        """Time in s after which the law repeats or ends; None where it has no such time."""
+        return None
+
+    def dimensions(self) -> Mapping[str, float]:
+        """Names of the law's dimensions within the driver (``speed``) with their SI values."""
+        return {}
+
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> Law:
+        """The same law with the values that ``value`` gives for the names of ``dimensions``."""
+        return self
+
+    @classmethod
+    @abstractmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        """What the file may say about the law, ``key`` among it."""
+
+    @classmethod
+    @abstractmethod
+    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
+        """The law from the values that were read by ``fields``."""
+
+    @abstractmethod
+    def text_values(self) -> Mapping[str, object]:
+        """The values of ``fields``, for writing a file."""
+
+
+@dataclass(frozen=True)
+class Driver:
+    """Prescribes the coordinate of a joint.
+
+    Revolute: the angle of ``link`` against ``relative_to`` (x axis to x axis, counter-clockwise positive).
+    Prismatic: the joint's displacement; ``link`` is the block, ``relative_to`` the guide link.
+    """
+
+    name: str
+    joint: str
+    link: str
+    relative_to: str
+    law: Law
+
+    def dimensions(self) -> Mapping[str, float]:
+        """Addresses of the driver's dimensions (``driver.speed``) with their SI values."""
+        return {f"{self.name}.{name}": value for name, value in self.law.dimensions().items()}
+
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> Driver:
+        """The same driver with the values that ``value`` gives for the addresses of ``dimensions``."""
+        law = self.law.with_dimensions(lambda name: value(f"{self.name}.{name}"), parameters)
+        return replace(self, law=law)
+
+
+LAWS: Registry[type[Law]] = Registry("driver law", "linkwright.drivers")

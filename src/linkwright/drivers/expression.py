@@ -1,0 +1,58 @@
+"""A coordinate given by an expression of the time ``t``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+from linkwright.drivers.base import LAWS, Law
+from linkwright.model.expressions import Expression, array_functions
+from linkwright.model.fields import Field, Formula
+
+if TYPE_CHECKING:
+    from linkwright.drivers.base import Array
+
+
+@LAWS.register("position")
+@dataclass(frozen=True)
+class ExpressionLaw(Law):
+    """q = expression(t), ``t`` in s, differentiated exactly; ``parameters`` are the values of its other names."""
+
+    key: ClassVar[str] = "position"
+    expression: Expression
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    rotary: bool = True
+
+    @cached_property
+    def _derivatives(self) -> tuple[Expression, Expression, Expression]:
+        first = self.expression.diff("t")
+        return self.expression, first, first.diff("t")
+
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        values, functions = {**self.parameters, "t": t}, array_functions()
+        q, qd, qdd = (each.evaluate(values, functions) + 0.0 * t for each in self._derivatives)
+        return q, qd, qdd
+
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> ExpressionLaw:
+        return ExpressionLaw(self.expression, _used(self.expression, parameters), self.rotary)
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        return {"position": Formula("angle" if rotary else "length", doc="coordinate, an expression of the time t")}
+
+    @classmethod
+    def from_values(
+        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
+    ) -> ExpressionLaw:
+        expression = values["position"]
+        assert isinstance(expression, Expression)
+        return cls(expression, _used(expression, parameters), rotary)
+
+    def text_values(self) -> Mapping[str, object]:
+        return {"position": self.expression}
+
+
+def _used(expression: Expression, parameters: Mapping[str, float]) -> dict[str, float]:
+    return {name: value for name, value in parameters.items() if name in expression.names}

@@ -1,0 +1,86 @@
+"""A coordinate given by a table over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.drivers.base import LAWS, Law
+from linkwright.errors import LinkwrightError
+from linkwright.model.fields import Field, TimeTable, TimeTableValues
+
+if TYPE_CHECKING:
+    from linkwright.drivers.base import Array
+
+
+@LAWS.register("table")
+@dataclass(frozen=True)
+class TableLaw(Law):
+    """q interpolated through (times, positions); s and rad (m), times increasing.
+
+    ``cubic``: spline with continuous second derivative, ends "not a knot"; ``periodic``: spline that repeats,
+    the difference of last and first position being added each period; ``linear``: piecewise straight, its
+    second derivative 0. Outside the table's times only ``periodic`` is defined; the others raise.
+    """
+
+    key: ClassVar[str] = "table"
+    times: tuple[float, ...]
+    positions: tuple[float, ...]
+    interpolation: str = "cubic"
+    rotary: bool = True
+
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        import numpy as np
+
+        first, last = self.times[0], self.times[-1]
+        slack = 1e-9 * (last - first)
+        if self.interpolation == "periodic":
+            return self._periodic(t)
+        if np.any(t < first - slack) or np.any(t > last + slack):
+            raise LinkwrightError(
+                f"the driver's table covers {first:g} s to {last:g} s, but the motion asks for {np.min(t):g} s to "
+                f"{np.max(t):g} s; shorten the cycle or extend the table"
+            )
+        inside = np.clip(t, first, last)
+        return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)
+
+    def _spline(self, t: Array) -> tuple[Array, Array, Array]:
+        from scipy.interpolate import CubicSpline
+
+        spline: Any = CubicSpline(self.times, self.positions)
+        return spline(t), spline(t, 1), spline(t, 2)
+
+    def _periodic(self, t: Array) -> tuple[Array, Array, Array]:
+        import numpy as np
+        from scipy.interpolate import CubicSpline
+
+        times = np.asarray(self.times)
+        drift = (self.positions[-1] - self.positions[0]) / (times[-1] - times[0])
+        rest = np.asarray(self.positions) - drift * (times - times[0])
+        rest[-1] = rest[0]
+        spline: Any = CubicSpline(times, rest, bc_type="periodic")
+        return spline(t) + drift * (t - times[0]), spline(t, 1) + drift, spline(t, 2)
+
+    def _linear(self, t: Array) -> tuple[Array, Array, Array]:
+        import numpy as np
+
+        slopes = np.diff(self.positions) / np.diff(self.times)
+        part = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(slopes) - 1)
+        return np.interp(t, self.times, self.positions), slopes[part], 0.0 * t
+
+    def natural_duration(self) -> float | None:
+        return self.times[-1] - self.times[0]
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        return {"table": TimeTable("angle" if rotary else "length", doc="positions over time")}
+
+    @classmethod
+    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> TableLaw:
+        table = values["table"]
+        assert isinstance(table, TimeTableValues)
+        return cls(table.times, table.positions, table.interpolation, rotary)
+
+    def text_values(self) -> Mapping[str, object]:
+        return {"table": TimeTableValues(self.times, self.positions, self.interpolation)}

@@ -1,0 +1,127 @@
+"""A program laid out for arrays of one shape: a list of calls on buffers that stay."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.lines import Lines
+from linkwright.engine.registers import NUMBER, ROW, TRUTH, Registers
+
+Call = tuple[Callable[..., Any], tuple[Any, ...]]
+
+UFUNCS: dict[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "sqrt": np.sqrt,
+    "abs": np.absolute,
+    "sin": np.sin,
+    "cos": np.cos,
+    "less": np.less,
+    "less_equal": np.less_equal,
+    "and": np.logical_and,
+    "or": np.logical_or,
+    "not": np.logical_not,
+}
+_ZERO = np.zeros(())
+
+
+class BoundPlan:
+    """Buffers and calls for ``designs`` designs (None: one, without an axis) and ``positions`` positions.
+
+    Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the
+    boundary through :meth:`set_design`), call :meth:`run`, read ``outputs`` of shape
+    (outputs, designs, positions) or (outputs, positions) and ``carried``.
+    """
+
+    def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
+        self._lines = lines
+        single = designs is None
+        self._design_shape: tuple[int, ...] = () if designs is None else (designs, 1)
+        full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
+        shapes = {
+            "parameter": self._design_shape,
+            "position": (positions,) if single else (1, positions),
+            "field": full,
+            "state": full,
+        }
+        self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *full))
+        numbers = np.empty((registers.numbers, *full))
+        truths = np.empty((registers.truths, *full), dtype=np.bool_)
+        pools: dict[str, NDArray[Any]] = {ROW: self.outputs, NUMBER: numbers, TRUTH: truths}
+        self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
+        self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
+        self._design_numbers = np.empty(len(self._numbers_at))
+        self._design_truths = np.empty(len(self._truths_at), dtype=np.bool_)
+        self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in shapes}
+        arrays: list[NDArray[Any]] = []
+        for index, line in enumerate(lines.lines):
+            if line.op == "constant":
+                array: NDArray[Any] = np.array(line.constant)
+            elif line.is_input:
+                array = self._design_place(index) if single and not line.varies else np.empty(shapes[line.op])
+                self.inputs[line.op].append(array)
+            elif not line.varies:
+                dtype = np.bool_ if line.truth else np.float64
+                array = self._design_place(index) if single else np.empty(self._design_shape, dtype=dtype)
+            else:
+                kind, number = registers.places[index]
+                array = pools[kind][number]
+            arrays.append(array)
+        self._arrays = arrays
+        self._calls = self._calls_for([i for i, x in enumerate(lines.lines) if x.varies and x.is_operation])
+        self._calls += [(np.copyto, (self.outputs[row], arrays[i])) for row, i in registers.copies]
+        self._design_calls = [] if single else self._calls_for(lines.design_lines())
+
+    def _design_place(self, index: int) -> NDArray[Any]:
+        if index in self._truths_at:
+            return self._design_truths[self._truths_at.index(index), ...]
+        if index in self._numbers_at:
+            return self._design_numbers[self._numbers_at.index(index), ...]
+        return _ZERO
+
+    def _calls_for(self, chosen: list[int]) -> list[Call]:
+        calls: list[Call] = []
+        for index in chosen:
+            line, out = self._lines.lines[index], self._arrays[index]
+            args = [self._arrays[a] for a in line.args]
+            if line.op == "select":
+                if out is not args[2]:
+                    calls.append((np.copyto, (out, args[2])))
+                calls.append((np.copyto, (out, args[1], "same_kind", args[0])))
+            elif line.op == "number":
+                calls.append((np.copyto, (out, args[0])))
+            elif line.op == "truth":
+                calls.append((np.not_equal, (args[0], _ZERO, out)))
+            else:
+                calls.append((UFUNCS[line.op], (*args, out)))
+        return calls
+
+    def set_design(self, values: list[Any]) -> None:
+        """Values of all lines per design, by line number (plans without an axis for the designs)."""
+        if self._numbers_at:
+            self._design_numbers[:] = [values[i] for i in self._numbers_at]
+        if self._truths_at:
+            self._design_truths[:] = [values[i] for i in self._truths_at]
+
+    def run_design(self) -> None:
+        """Evaluate the lines per design (plans with an axis for the designs)."""
+        for function, args in self._design_calls:
+            function(*args)
+
+    def run(self) -> None:
+        """Evaluate the lines per position and fill the outputs."""
+        for function, args in self._calls:
+            function(*args)
+
+    def carry(self) -> None:
+        """Make the next states the states."""
+        following = [np.array(self._arrays[i]) for i in self._lines.carried]
+        for array, value in zip(self.inputs["state"], following, strict=True):
+            array[...] = value

@@ -1,0 +1,117 @@
+"""What a compiled program is called with: numbers and addresses in one array."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.ir_kernel import Block
+from linkwright.engine.program import Program
+
+Floats = NDArray[np.float64]
+Arrays = Mapping[str, ArrayLike]
+_LINE = 64  # bytes of a cache line
+
+
+def address_of(array: NDArray[np.float64] | NDArray[np.int64]) -> int:
+    """Where an array's first number lies."""
+    return int(array.__array_interface__["data"][0])
+
+
+def aligned(shape: tuple[int, ...]) -> Floats:
+    """An uninitialised C-contiguous array that starts at a cache line."""
+    count = int(np.prod(shape))
+    room = np.empty(count + _LINE // 8)
+    start = (-address_of(room) % _LINE) // 8
+    return room[start : start + count].reshape(shape)
+
+
+class Inputs:
+    """Positions and fields of a program as contiguous arrays of one length.
+
+    ``length``: n; ``stride``: the length of the rows that the code sees, which is never below
+    the vector width where lanes are positions (the last value is repeated).
+    """
+
+    def __init__(
+        self, program: Program, width: int, positions: Arrays, fields: Arrays, *, length: int | None = None
+    ) -> None:
+        self.positions = _taken("position", program.positions, positions)
+        self.fields = _taken("field", program.fields, fields)
+        lengths = {array.shape[-1] for array in (*self.positions, *self.fields)}
+        if length is not None:
+            lengths.add(length)
+        if not lengths:
+            lengths = {np.shape(array)[-1] for array in positions.values()}
+        if len(lengths) != 1:
+            raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
+        self.length = lengths.pop()
+        self.width = width
+        self.stride = self.length
+        if 0 < self.length < width and not program.next_states:
+            self.stride = width
+            self.positions = [_padded(array, width) for array in self.positions]
+            self.fields = [_padded(array, width) for array in self.fields]
+
+    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0) -> NDArray[np.int64]:
+        """The call block for some designs from number ``first`` on; addresses as numbers."""
+        full, rest = divmod(self.length, self.width)
+        if full:
+            tail = (self.length - self.width, self.width - rest, self.width) if rest else (-1, 0, 0)
+        else:
+            tail = (0, 0, rest)
+        block = np.zeros(Block.INPUTS + len(self.positions) + len(self.fields), dtype=np.int64)
+        block[Block.DESIGNS], block[Block.LENGTH] = designs, self.stride
+        block[Block.FULL_END] = full * self.width
+        block[Block.TAIL_START], block[Block.TAIL_LOW], block[Block.TAIL_HIGH] = tail
+        block[Block.PARAMETERS], block[Block.OUT], block[Block.STARTS] = parameters, out, starts
+        sources = [address_of(a) for a in self.positions]
+        sources += [address_of(a) + 8 * first * self.stride for a in self.fields]
+        block[Block.INPUTS :] = sources
+        return block
+
+
+def _taken(kind: str, names: tuple[str, ...], arrays: Arrays) -> list[Floats]:
+    missing = [name for name in names if name not in arrays]
+    if missing:
+        raise ValueError(f"the program needs the {kind} inputs {', '.join(missing)}: give them")
+    return [np.ascontiguousarray(arrays[name], dtype=np.float64) for name in names]
+
+
+def _padded(array: Floats, width: int) -> Floats:
+    missing = width - array.shape[-1]
+    return np.concatenate([array, np.repeat(array[..., -1:], missing, axis=-1)], axis=-1)
+
+
+class SingleCall:
+    """A call for one design on arrays that stay where they are."""
+
+    def __init__(self, program: Program, width: int, positions: Arrays, fields: Arrays) -> None:
+        self.inputs = Inputs(program, width, positions, fields)
+        self.parameters: Floats = np.empty(len(program.parameters))
+        self._given = [(positions, name, positions[name]) for name in program.positions]
+        self._given += [(fields, name, fields[name]) for name in program.fields]
+        used = [*self.inputs.positions, *self.inputs.fields]
+        self._kept = all(own is given for own, (_, _, given) in zip(used, self._given, strict=True))
+        self._positions, self._fields = positions, fields
+        self._out: Floats | None = None
+        self._block = self.inputs.block(address_of(self.parameters), 0)
+        self.address = address_of(self._block)
+        self.shape = (len(program.outputs), self.inputs.length)
+
+    def fits(self, positions: Arrays, fields: Arrays) -> bool:
+        """Whether the same arrays are given again."""
+        if not self._kept or positions is not self._positions or fields is not self._fields:
+            return False
+        return all(source[name] is array for source, name, array in self._given)
+
+    def set_out(self, out: Floats) -> None:
+        """Where the outputs go."""
+        if out is self._out:
+            return
+        if out.shape != self.shape or out.dtype != np.float64 or not out.flags.c_contiguous:
+            raise ValueError(f"out must be a C-contiguous array of floats of the shape {self.shape}")
+        self._out = out
+        self._block[Block.OUT] = address_of(out)

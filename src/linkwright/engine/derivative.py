@@ -1,0 +1,160 @@
+"""Exact derivatives of programs with respect to their parameters, forward and reverse."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from linkwright.engine.adjoint import Adjoints
+from linkwright.engine.gradient import GradientProgram, Group
+from linkwright.engine.program import Program
+from linkwright.engine.replay import Replay, depending
+from linkwright.engine.tangent import numeric_outputs, tangents
+from linkwright.engine.trace import Scalar
+
+__all__ = ["GradientProgram", "Term", "forward", "reverse", "value_and_gradient"]
+
+TermKind = Literal["sum", "mean", "rms"]
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A part of an objective: ``weight`` times the sum, mean or root mean square of an output."""
+
+    output: str
+    kind: TermKind = "sum"
+    weight: float = 1.0
+
+
+def forward(program: Program, wrt: Sequence[str]) -> Program:
+    """A program with the outputs of ``program`` and ``output|input`` = d(output)/d(input).
+
+    ``wrt``: names of parameters, positions or fields. What is under ``stop`` and the states
+    count as constants; truth outputs have no derivative. Cost: about one to two evaluations
+    per input. Raises ValueError for an input that the program does not have.
+    """
+    _check_inputs(program, wrt, (*program.parameters, *program.positions, *program.fields))
+    replay = Replay(program)
+    outputs: dict[str, Scalar | bool] = {name: replay.values[i] for name, i in program.outputs}
+    for name in wrt:
+        found = tangents(replay, name)
+        for output, index in numeric_outputs(program):
+            outputs[f"{output}|{name}"] = found.get(index, 0.0)
+    following = {name: replay.values[i] for name, i in program.next_states}
+    return Program.of(replay.trace, outputs, following)
+
+
+def reverse(
+    program: Program, seeds: Sequence[str], wrt: Sequence[str] | None = None, valid: str | None = "valid"
+) -> GradientProgram:
+    """The gradient of sum over positions of seed times output, for seeds given at evaluation.
+
+    ``seeds``: names of outputs; each one's weights are a field ``seed:output`` (designs, n).
+    Otherwise as :func:`value_and_gradient`.
+    """
+    group = Group(tuple(Term(name) for name in seeds), "sum", seeded=True)
+    return _gradient(program, [group], wrt, valid)
+
+
+def value_and_gradient(
+    program: Program,
+    objective: Sequence[Term | tuple[str, TermKind]],
+    wrt: Sequence[str] | None = None,
+    valid: str | None = "valid",
+) -> GradientProgram:
+    """Value and gradient of an objective, the sum of its terms, in one pass over the positions.
+
+    ``wrt``: names of parameters, None for all of them in the order of the program. Only the
+    positions where the output ``valid`` holds enter (all, without such an output). ``stop`` and
+    states are constants. Sums and means count as one kind each; every root mean square, and
+    every further kind, needs a reverse sweep of its own. Raises ValueError for unknown names,
+    and for programs that carry states (see :func:`~linkwright.engine.states.states_as_fields`).
+    """
+    terms = [t if isinstance(t, Term) else Term(*t) for t in objective]
+    groups: list[Group] = []
+    for kind in ("sum", "mean"):
+        same = tuple(t for t in terms if t.kind == kind)
+        if same:
+            groups.append(Group(same, kind))
+    groups += [Group((t,), "rms") for t in terms if t.kind == "rms"]
+    unknown = [t.kind for t in terms if t.kind not in ("sum", "mean", "rms")]
+    if unknown or not terms:
+        raise ValueError(f"an objective has terms of the kinds sum, mean and rms, not {unknown}")
+    return _gradient(program, groups, wrt, valid)
+
+
+def _check_inputs(program: Program, names: Sequence[str], known: Sequence[str]) -> None:
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise ValueError(f"the program has no input {', '.join(unknown)} to differentiate by")
+
+
+def _gradient(
+    program: Program, groups: list[Group], wrt: Sequence[str] | None, valid: str | None
+) -> GradientProgram:
+    if program.next_states:
+        raise ValueError("a program that carries states has no gradient: take its states as fields first")
+    wanted = program.parameters if wrt is None else tuple(wrt)
+    _check_inputs(program, wanted, program.parameters)
+    outputs = dict(numeric_outputs(program))
+    unknown = [t.output for group in groups for t in group.terms if t.output not in outputs]
+    if unknown:
+        raise ValueError(f"the program has no output {', '.join(unknown)} to differentiate")
+    active = depending(program, wanted)
+    boundary = _boundary(program, active)
+    judged = valid if valid in program.output_names else None
+    along = _along_positions(program, groups, active, boundary, judged)
+    return GradientProgram(
+        along, _per_design(program, wanted, active, boundary), wanted, tuple(groups), tuple(boundary), judged
+    )
+
+
+def _boundary(program: Program, active: set[int]) -> list[int]:
+    """Lines per design, changing with the parameters, that lines per position or outputs use."""
+    used = {a for node in program.nodes if node.varies for a in node.args}
+    used.update(i for _, i in program.outputs)
+    return sorted(i for i in used if i in active and not program.nodes[i].varies)
+
+
+def _along_positions(
+    program: Program, groups: list[Group], active: set[int], boundary: list[int], valid: str | None
+) -> Program:
+    replay = Replay(program)
+    places = dict(program.outputs)
+    varying = {i for i, node in enumerate(program.nodes) if node.varies}
+    outputs: dict[str, Scalar | bool] = {}
+    if valid is not None:
+        outputs[valid] = replay.values[places[valid]]
+    for number, group in enumerate(groups):
+        adjoints = Adjoints(replay, active)
+        for term in group.terms:
+            value = replay.values[places[term.output]]
+            outputs[term.output] = value
+            adjoints.add(places[term.output], group.seed(replay.trace, term, value))
+        adjoints.sweep_back(varying)
+        for index in boundary:
+            if index in adjoints.found:
+                outputs[adjoint_name(number, index)] = adjoints.found[index].value
+    return Program.of(replay.trace, outputs)
+
+
+def adjoint_name(group: int, index: int) -> str:
+    """The output of a position's share of a boundary line's adjoint."""
+    return f"adjoint:{group}:{index}"
+
+
+def _per_design(program: Program, wrt: Sequence[str], active: set[int], boundary: list[int]) -> Program:
+    """From the adjoints of the boundary (parameters ``adjoint:i``) to those of the parameters."""
+    fixed = [i for i, node in enumerate(program.nodes) if not node.varies]
+    replay = Replay(program, fixed)
+    adjoints = Adjoints(replay, active)
+    for index in boundary:
+        adjoints.add(index, replay.trace.parameter(f"adjoint:{index}"))
+    adjoints.sweep_back(set(fixed))
+    place = {node.name: i for i, node in enumerate(program.nodes) if node.op == "parameter"}
+    outputs: dict[str, Scalar | bool] = {}
+    for name in wrt:
+        adjoint = adjoints.found.get(place[name])
+        outputs[name] = 0.0 if adjoint is None else adjoint.value
+    return Program.of(replay.trace, outputs)

@@ -1,0 +1,272 @@
+"""A program as one function of machine code: loops over designs and positions around its lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkwright.engine.ir_accumulators import AccumulatorWriter
+from linkwright.engine.ir_lines import LineWriter
+from linkwright.engine.lines import Lines
+from linkwright.engine.reductions import Accumulation
+from linkwright.engine.schedule import depth_first
+
+#: Name of the function: one argument, the address of the call block.
+ENTRY = "linkwright_run"
+
+
+class Block:
+    """Places of the call block, an array of 64-bit numbers and addresses."""
+
+    DESIGNS, LENGTH, FULL_END, TAIL_START, TAIL_LOW, TAIL_HIGH, PARAMETERS, OUT, STARTS = range(9)
+    INPUTS = 9
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """Numbers of inputs of each kind and of outputs."""
+
+    parameters: int
+    positions: int
+    fields: int
+    states: int
+    outputs: int
+
+    @classmethod
+    def of(cls, lines: Lines) -> Shape:
+        """Counted from the lines."""
+        kinds = [line.op for line in lines.lines]
+        parameters, positions, fields, states = (
+            kinds.count(kind) for kind in ("parameter", "position", "field", "state")
+        )
+        return cls(parameters, positions, fields, states, len(lines.outputs))
+
+
+def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None) -> str:
+    """The module: lanes are positions, or designs where states are carried."""
+    if lines.carried:
+        from linkwright.engine.ir_states import StateKernel
+
+        return StateKernel(lines, width, accumulation).text()
+    return PositionKernel(lines, width, accumulation).text()
+
+
+class PositionKernel:
+    """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
+
+    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
+        self.lines = lines
+        self.shape = Shape.of(lines)
+        self.width = width
+        self.writer = LineWriter(lines, width, wide=False)
+        self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, "%fresh")
+
+    def text(self) -> str:
+        """The module's text."""
+        self._write_lines()
+        updates = [] if self.sums is None else self._updates()
+        body = [
+            f"define void @{ENTRY}(ptr noalias readonly %block) nounwind {{",
+            "entry:",
+            *load_block(self.shape),
+            *self._tail_mask(),
+            "br label %design",
+            "design:",
+            "%d = phi i64 [ 0, %entry ], [ %d.next, %finish ]",
+            *self._design_inputs(),
+            *self.writer.preamble,
+            "br label %segment",
+            *self._segment(),
+            *self._loop(updates),
+            *self._finish(),
+            "}",
+        ]
+        return module_text(body, self.width)
+
+    def _write_lines(self) -> None:
+        rows: dict[int, list[int]] = {}
+        for row, index in enumerate(self.lines.outputs):
+            rows.setdefault(index, []).append(row)
+        for index in depth_first(self.lines):
+            line = self.lines.lines[index]
+            if line.is_operation:
+                self.writer.write(index)
+            elif line.op in ("position", "field"):
+                self.writer.body += self._load(index)
+            if self.sums is None:
+                for row in rows.get(index, ()):
+                    self._store(row, index)
+
+    def _load(self, index: int) -> list[str]:
+        line = self.lines.lines[index]
+        base = f"%position{line.place}" if line.op == "position" else f"%fieldrow{line.place}"
+        return [
+            f"%l{index} = getelementptr double, ptr {base}, i64 %i",
+            f"%v{index} = load {self.writer.vector}, ptr %l{index}, align 8",
+        ]
+
+    def _store(self, row: int, index: int) -> None:
+        code: list[str] = []
+        value = self.writer.as_number(index, code)
+        self.writer.body += [
+            *code,
+            f"%o{row} = getelementptr double, ptr %row{row}, i64 %i",
+            f"store {self.writer.vector} {value}, ptr %o{row}, align 8",
+        ]
+
+    def _design_inputs(self) -> list[str]:
+        shape = self.shape
+        code = [
+            f"%p.at = mul i64 %d, {shape.parameters}",
+            "%p.row = getelementptr double, ptr %parameters, i64 %p.at",
+        ]
+        for index, line in enumerate(self.lines.lines):
+            if line.op == "parameter":
+                code += [
+                    f"%pp{index} = getelementptr double, ptr %p.row, i64 {line.place}",
+                    f"%v{index} = load double, ptr %pp{index}, align 8",
+                ]
+        if shape.fields:
+            code.append("%f.at = mul i64 %d, %length")
+        for place in range(shape.fields):
+            code.append(f"%fieldrow{place} = getelementptr double, ptr %field{place}, i64 %f.at")
+        return code + self._out_rows()
+
+    def _out_rows(self) -> list[str]:
+        if self.sums is not None:
+            count = len(self.sums.steps)
+            return [f"%o.at = mul i64 %d, {count}", "%out.row = getelementptr double, ptr %out, i64 %o.at"]
+        code = [f"%o.step = mul i64 %length, {self.shape.outputs}", "%o.at = mul i64 %d, %o.step"]
+        code.append("%row0 = getelementptr double, ptr %out, i64 %o.at")
+        for row in range(1, self.shape.outputs):
+            code.append(f"%row{row} = getelementptr double, ptr %row{row - 1}, i64 %length")
+        return code
+
+    def _tail_mask(self) -> list[str]:
+        integers = f"<{self.width} x i64>"
+        lanes = lane_numbers(self.width)
+        return [
+            *self.writer.spread("%tail.low", "%low", "i64"),
+            *self.writer.spread("%tail.high", "%high", "i64"),
+            f"%above = icmp sge {integers} {lanes}, %low",
+            f"%below = icmp slt {integers} {lanes}, %high",
+            f"%tail.mask = and {self.writer.mask} %above, %below",
+            "%has.full = icmp sgt i64 %full.end, 0",
+            "%has.tail = icmp sge i64 %tail.start, 0",
+            f"%tail.end = add i64 %tail.start, {self.width}",
+            "%first.start = select i1 %has.full, i64 0, i64 %tail.start",
+            "%first.end = select i1 %has.full, i64 %full.end, i64 %tail.end",
+            "%first.again = and i1 %has.full, %has.tail",
+            f"%first.mask = select i1 %has.full, {self.writer.mask} "
+            f"<{', '.join(['i1 true'] * self.width)}>, {self.writer.mask} %tail.mask",
+        ]
+
+    def _segment(self) -> list[str]:
+        mask = self.writer.mask
+        return [
+            "segment:",
+            "%start = phi i64 [ %first.start, %design ], [ %tail.start, %turned ]",
+            "%end = phi i64 [ %first.end, %design ], [ %tail.end, %turned ]",
+            "%again = phi i1 [ %first.again, %design ], [ false, %turned ]",
+            f"%fresh = phi {mask} [ %first.mask, %design ], [ %tail.mask, %turned ]",
+            *self._phis("s", {"%design": None, "%turned": "b"}),
+            "br label %loop",
+        ]
+
+    def _phis(self, name: str, sources: dict[str, str | None]) -> list[str]:
+        code = []
+        for k, (step, _) in enumerate(self.sums.steps if self.sums else ()):
+            assert self.sums is not None
+            values = {
+                origin: self.sums.start(step) if value is None else f"%{value}{k}"
+                for origin, value in sources.items()
+            }
+            edges = ", ".join(f"[ {value}, {origin} ]" for origin, value in values.items())
+            code.append(f"%{name}{k} = phi {self.sums.kind(step)} {edges}")
+        return code
+
+    def _updates(self) -> list[str]:
+        assert self.sums is not None
+        code = self.sums.update()
+        if any(step.startswith("arg") for step, _ in self.sums.steps):
+            integers = self.sums.integers
+            position = [
+                *self.writer.spread("%i", "%i.all", "i64"),
+                f"%position = add {integers} %i.all, {lane_numbers(self.width)}",
+            ]
+            code = position + code
+        return code
+
+    def _loop(self, updates: list[str]) -> list[str]:
+        return [
+            "loop:",
+            "%i = phi i64 [ %start, %segment ], [ %i.next, %loop ]",
+            *self._phis("a", {"%segment": "s", "%loop": "b"}),
+            *self.writer.body,
+            *updates,
+            f"%i.next = add i64 %i, {self.width}",
+            "%more = icmp slt i64 %i.next, %end",
+            "br i1 %more, label %loop, label %turned",
+            "turned:",
+            "br i1 %again, label %segment, label %finish",
+        ]
+
+    def _finish(self) -> list[str]:
+        code = ["finish:"]
+        if self.sums is not None:
+            steps = self.sums.steps
+            for k in range(len(steps)):
+                code.append(f"%z{k} = getelementptr double, ptr %out.row, i64 {k}")
+            for k in sorted(range(len(steps)), key=lambda k: steps[k][0].startswith("arg")):
+                code += self.sums.finish_lanes(k, f"%z{k}")
+        return [
+            *code,
+            "%d.next = add i64 %d, 1",
+            "%d.more = icmp slt i64 %d.next, %designs",
+            "br i1 %d.more, label %design, label %done",
+            "done:",
+            "ret void",
+        ]
+
+
+def lane_numbers(width: int) -> str:
+    """0, 1, 2, … as a constant vector."""
+    return f"<{', '.join(f'i64 {lane}' for lane in range(width))}>"
+
+
+def load_block(shape: Shape) -> list[str]:
+    """Instructions that read the call block."""
+    numbers = [
+        ("designs", Block.DESIGNS),
+        ("length", Block.LENGTH),
+        ("full.end", Block.FULL_END),
+        ("tail.start", Block.TAIL_START),
+        ("tail.low", Block.TAIL_LOW),
+        ("tail.high", Block.TAIL_HIGH),
+    ]
+    names = [f"position{k}" for k in range(shape.positions)] + [f"field{k}" for k in range(shape.fields)]
+    pointers = [("parameters", Block.PARAMETERS), ("out", Block.OUT), ("starts", Block.STARTS)]
+    pointers += [(name, Block.INPUTS + k) for k, name in enumerate(names)]
+    code = []
+    for kind, entries in (("i64", numbers), ("ptr", pointers)):
+        for name, place in entries:
+            code.append(f"%at.{name} = getelementptr i64, ptr %block, i64 {place}")
+            code.append(f"%{name} = load {kind}, ptr %at.{name}, align 8")
+    return code
+
+
+def module_text(body: list[str], width: int) -> str:
+    """The function with the declarations that it may need."""
+    vector, integers = f"<{width} x double>", f"<{width} x i64>"
+    suffix, pointers = f"v{width}f64", f"<{width} x ptr>"
+    declarations = [
+        *(f"declare {vector} @llvm.{name}.{suffix}({vector})" for name in ("sqrt", "fabs")),
+        *(f"declare double @llvm.{name}.f64(double)" for name in ("sqrt", "fabs")),
+        *(f"declare double @llvm.vector.reduce.{name}.{suffix}({vector})" for name in ("fmin", "fmax")),
+        f"declare double @llvm.vector.reduce.fadd.{suffix}(double, {vector})",
+        *(f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})" for name in ("add", "smin")),
+        f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, <{width} x i1>, {vector})",
+        f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, <{width} x i1>)",
+        "declare double @linkwright_sin(double) nounwind willreturn readnone",
+        "declare double @linkwright_cos(double) nounwind willreturn readnone",
+    ]
+    return "\n".join([*declarations, *body, ""])

@@ -1,0 +1,172 @@
+"""Lines of a program as LLVM intermediate representation."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+from linkwright.engine.lines import Line, Lines
+
+#: What the compiler may assume: signs of zero, reciprocals, fused and regrouped operations.
+#: Never that there is no NaN and no infinity.
+FAST = "nsz arcp contract reassoc"
+_ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
+_COMPARISON = {"less": "olt", "less_equal": "ole"}
+_LOGIC = {"and": "and", "or": "or"}
+_LIBRARY = {"sin": "linkwright_sin", "cos": "linkwright_cos"}
+
+
+def number(value: float) -> str:
+    """A double as LLVM writes it exactly."""
+    return "0x" + struct.pack(">d", value).hex().upper()
+
+
+class LineWriter:
+    """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
+
+    ``wide``: whether the lines per design are vectors too (the lanes are designs).
+    """
+
+    def __init__(self, lines: Lines, width: int, wide: bool) -> None:
+        self.lines = lines.lines
+        self.outputs = lines.outputs
+        self.width = width
+        self.wide = wide
+        self.vector = f"<{width} x double>"
+        self.mask = f"<{width} x i1>"
+        self.preamble: list[str] = []
+        self.body: list[str] = []
+        self._splats: set[int] = set()
+        self._as_number: set[int] = set()
+
+    def is_vector(self, index: int) -> bool:
+        """Whether a line is held in all lanes."""
+        return self.wide or self.lines[index].varies
+
+    def type_of(self, index: int, vector: bool) -> str:
+        """LLVM type of a line's value."""
+        if self.lines[index].truth:
+            return self.mask if vector else "i1"
+        return self.vector if vector else "double"
+
+    def operand(self, index: int, vector: bool) -> str:
+        """A line's value as an operand, spread over the lanes where a vector is wanted."""
+        line = self.lines[index]
+        if line.op == "constant":
+            return self.constant(line.constant, vector)
+        if not vector or self.is_vector(index):
+            return f"%v{index}"
+        if index not in self._splats:
+            self._splats.add(index)
+            self.preamble += self.spread(f"%v{index}", f"%w{index}", "i1" if line.truth else "double")
+        return f"%w{index}"
+
+    def constant(self, value: float, vector: bool) -> str:
+        """A number as an operand."""
+        text = number(value)
+        return f"<{', '.join([f'double {text}'] * self.width)}>" if vector else text
+
+    def spread(self, scalar: str, name: str, kind: str) -> list[str]:
+        """Instructions that put a scalar into all lanes of ``name``."""
+        vector = f"<{self.width} x {kind}>"
+        return [
+            f"{name}.0 = insertelement {vector} poison, {kind} {scalar}, i32 0",
+            f"{name} = shufflevector {vector} {name}.0, {vector} poison, <{self.width} x i32> zeroinitializer",
+        ]
+
+    def write(self, index: int) -> None:
+        """Write an operation where it belongs: before the loop or in it."""
+        line = self.lines[index]
+        vector = self.is_vector(index)
+        target = self.body if line.varies else self.preamble
+        instructions = self._instructions(index, line, vector)
+        target += instructions
+
+    def as_number(self, index: int, into: list[str]) -> str:
+        """A line of the loop as a vector of numbers, truth values as 1.0 and 0.0."""
+        operand = self.operand(index, True)
+        if not self.lines[index].truth:
+            return operand
+        if index not in self._as_number:
+            self._as_number.add(index)
+            into.append(f"%f{index} = uitofp {self.mask} {operand} to {self.vector}")
+        return f"%f{index}"
+
+    def _instructions(self, index: int, line: Line, vector: bool) -> list[str]:
+        kind = self.type_of(index, vector)
+        value = f"%v{index}"
+        args = [self.operand(a, vector) for a in line.args]
+        if line.op in _ARITHMETIC:
+            return [f"{value} = {_ARITHMETIC[line.op]} {FAST} {kind} {args[0]}, {args[1]}"]
+        if line.op in _COMPARISON:
+            operands = self.type_of(line.args[0], vector)
+            return [f"{value} = fcmp {_COMPARISON[line.op]} {operands} {args[0]}, {args[1]}"]
+        if line.op in _LOGIC:
+            return [f"{value} = {_LOGIC[line.op]} {kind} {args[0]}, {args[1]}"]
+        if line.op in _LIBRARY:
+            return self._library_call(_LIBRARY[line.op], value, args[0], vector)
+        return _OTHER[line.op](self, line, value, kind, args, vector)
+
+    def _library_call(self, function: str, value: str, argument: str, vector: bool) -> list[str]:
+        if not vector:
+            return [f"{value} = call double @{function}(double {argument})"]
+        lines, last = [], "poison"
+        for lane in range(self.width):
+            name = value if lane == self.width - 1 else f"{value}.i{lane}"
+            lines += [
+                f"{value}.x{lane} = extractelement {self.vector} {argument}, i32 {lane}",
+                f"{value}.y{lane} = call double @{function}(double {value}.x{lane})",
+                f"{name} = insertelement {self.vector} {last}, double {value}.y{lane}, i32 {lane}",
+            ]
+            last = name
+        return lines
+
+    def intrinsic(self, name: str, value: str, kind: str, argument: str, vector: bool) -> str:
+        """A call of a floating-point intrinsic with one argument."""
+        suffix = f"v{self.width}f64" if vector else "f64"
+        return f"{value} = call {FAST} {kind} @llvm.{name}.{suffix}({kind} {argument})"
+
+
+_Writer = Callable[[LineWriter, Line, str, str, list[str], bool], list[str]]
+
+
+def _negation(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    return [f"{value} = fneg {FAST} {kind} {args[0]}"]
+
+
+def _root(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    return [w.intrinsic("sqrt", value, kind, args[0], vector)]
+
+
+def _magnitude(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    return [w.intrinsic("fabs", value, kind, args[0], vector)]
+
+
+def _inverse(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    true = f"<{', '.join(['i1 true'] * w.width)}>" if vector else "true"
+    return [f"{value} = xor {kind} {args[0]}, {true}"]
+
+
+def _choice(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    condition = w.mask if vector else "i1"
+    return [f"{value} = select {condition} {args[0]}, {kind} {args[1]}, {kind} {args[2]}"]
+
+
+def _to_number(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    return [f"{value} = uitofp {w.mask if vector else 'i1'} {args[0]} to {kind}"]
+
+
+def _to_truth(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
+    operands = w.vector if vector else "double"
+    return [f"{value} = fcmp une {operands} {args[0]}, {w.constant(0.0, vector)}"]
+
+
+_OTHER: dict[str, _Writer] = {
+    "neg": _negation,
+    "sqrt": _root,
+    "abs": _magnitude,
+    "not": _inverse,
+    "select": _choice,
+    "number": _to_number,
+    "truth": _to_truth,
+}

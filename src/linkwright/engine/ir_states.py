@@ -1,0 +1,162 @@
+"""A program that carries states, as machine code: lanes are designs, positions one after another."""
+
+from __future__ import annotations
+
+from linkwright.engine.ir_accumulators import AccumulatorWriter
+from linkwright.engine.ir_kernel import ENTRY, Shape, lane_numbers, load_block, module_text
+from linkwright.engine.ir_lines import LineWriter
+from linkwright.engine.lines import Lines
+from linkwright.engine.reductions import Accumulation
+from linkwright.engine.schedule import depth_first
+
+
+class StateKernel:
+    """The last vector repeats the last design in the lanes that are left over."""
+
+    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
+        self.lines = lines
+        self.shape = Shape.of(lines)
+        self.width = width
+        self.integers = f"<{width} x i64>"
+        self.pointers = f"<{width} x ptr>"
+        self.all = f"<{', '.join(['i1 true'] * width)}>"
+        self.writer = LineWriter(lines, width, wide=True)
+        self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, None)
+
+    def text(self) -> str:
+        """The module's text."""
+        self._write_lines()
+        updates = [] if self.sums is None else self.sums.update()
+        body = [
+            f"define void @{ENTRY}(ptr noalias readonly %block) nounwind {{",
+            "entry:",
+            *load_block(self.shape),
+            "%last = sub i64 %designs, 1",
+            *self.writer.spread("%last", "%last.all", "i64"),
+            *self._splat("%length", "%length.all"),
+            "br label %design",
+            "design:",
+            "%d = phi i64 [ 0, %entry ], [ %d.next, %finish ]",
+            *self._design_inputs(),
+            *self.writer.preamble,
+            "br label %loop",
+            "loop:",
+            "%i = phi i64 [ 0, %design ], [ %i.next, %loop ]",
+            *self._phis(),
+            *self._position_inputs(),
+            *self.writer.body,
+            *updates,
+            "%i.next = add i64 %i, 1",
+            "%more = icmp slt i64 %i.next, %length",
+            "br i1 %more, label %loop, label %finish",
+            *self._finish(),
+            "}",
+        ]
+        return module_text(body, self.width)
+
+    def _splat(self, scalar: str, name: str) -> list[str]:
+        return self.writer.spread(scalar, name, "i64")
+
+    def _numbers(self, value: int) -> str:
+        return f"<{', '.join([f'i64 {value}'] * self.width)}>"
+
+    def _write_lines(self) -> None:
+        for index in depth_first(self.lines):
+            if self.lines.lines[index].is_operation:
+                self.writer.write(index)
+        if self.sums is not None:
+            return
+        for row, index in enumerate(self.lines.outputs):
+            value = self.writer.as_number(index, self.writer.body)
+            self.writer.body += [
+                f"%o{row}.row = mul i64 %length, {row}",
+                f"%o{row}.at = add i64 %o{row}.row, %i",
+                f"%o{row}.base = getelementptr double, ptr %out, i64 %o{row}.at",
+                *self._scatter(value, f"%o{row}.base", "%out.offset", f"%o{row}"),
+            ]
+
+    def _gather(self, name: str, base: str, offset: str) -> list[str]:
+        v = self.writer
+        suffix = f"v{self.width}f64.v{self.width}p0"
+        return [
+            f"{name}.at = getelementptr double, ptr {base}, {self.integers} {offset}",
+            f"{name} = call {v.vector} @llvm.masked.gather.{suffix}({self.pointers} {name}.at, i32 8, "
+            f"{v.mask} {self.all}, {v.vector} zeroinitializer)",
+        ]
+
+    def _scatter(self, value: str, base: str, offset: str, name: str) -> list[str]:
+        v = self.writer
+        suffix = f"v{self.width}f64.v{self.width}p0"
+        return [
+            f"{name}.to = getelementptr double, ptr {base}, {self.integers} {offset}",
+            f"call void @llvm.masked.scatter.{suffix}({v.vector} {value}, {self.pointers} {name}.to, i32 8, "
+            f"{v.mask} {self.all})",
+        ]
+
+    def _design_inputs(self) -> list[str]:
+        sums = None if self.sums is None else len(self.sums.steps)
+        row = self._numbers(self.shape.outputs if sums is None else sums)
+        kind = self.integers
+        code = [
+            *self._splat("%d", "%d.all"),
+            f"%d.lanes = add {kind} %d.all, {lane_numbers(self.width)}",
+            f"%d.below = icmp slt {kind} %d.lanes, %last.all",
+            f"%lane = select {self.writer.mask} %d.below, {kind} %d.lanes, {kind} %last.all",
+            f"%parameter.offset = mul {kind} %lane, {self._numbers(self.shape.parameters)}",
+            f"%state.offset = mul {kind} %lane, {self._numbers(self.shape.states)}",
+            f"%field.offset = mul {kind} %lane, %length.all",
+            f"%row.offset = mul {kind} %lane, {row}",
+        ]
+        factor = "%length.all" if sums is None else self._numbers(1)
+        code.append(f"%out.offset = mul {kind} %row.offset, {factor}")
+        for index, line in enumerate(self.lines.lines):
+            if line.op in ("parameter", "state"):
+                table = "%parameters" if line.op == "parameter" else "%starts"
+                name = f"%v{index}" if line.op == "parameter" else f"%start{line.place}"
+                code.append(f"%base{index} = getelementptr double, ptr {table}, i64 {line.place}")
+                code += self._gather(name, f"%base{index}", f"%{line.op}.offset")
+        return code
+
+    def _phis(self) -> list[str]:
+        v = self.writer
+        code = []
+        for index, line in enumerate(self.lines.lines):
+            if line.op == "state":
+                following = v.operand(self.lines.carried[line.place], True)
+                edges = f"[ %start{line.place}, %design ], [ {following}, %loop ]"
+                code.append(f"%v{index} = phi {v.vector} {edges}")
+        for k, (step, _) in enumerate(self.sums.steps if self.sums else ()):
+            assert self.sums is not None
+            edges = f"[ {self.sums.start(step)}, %design ], [ %b{k}, %loop ]"
+            code.append(f"%a{k} = phi {self.sums.kind(step)} {edges}")
+        return code
+
+    def _position_inputs(self) -> list[str]:
+        code = self._splat("%i", "%position")
+        for index, line in enumerate(self.lines.lines):
+            if line.op == "position":
+                code += [
+                    f"%l{index} = getelementptr double, ptr %position{line.place}, i64 %i",
+                    f"%x{index} = load double, ptr %l{index}, align 8",
+                    *self.writer.spread(f"%x{index}", f"%v{index}", "double"),
+                ]
+            elif line.op == "field":
+                code.append(f"%l{index} = getelementptr double, ptr %field{line.place}, i64 %i")
+                code += self._gather(f"%v{index}", f"%l{index}", "%field.offset")
+        return code
+
+    def _finish(self) -> list[str]:
+        code = ["finish:"]
+        for k in range(len(self.sums.steps) if self.sums else 0):
+            assert self.sums is not None
+            converted, value = self.sums.as_double(k)
+            code += [*converted, f"%z{k} = getelementptr double, ptr %out, i64 {k}"]
+            code += self._scatter(value, f"%z{k}", "%out.offset", f"%z{k}")
+        return [
+            *code,
+            f"%d.next = add i64 %d, {self.width}",
+            "%d.more = icmp slt i64 %d.next, %designs",
+            "br i1 %d.more, label %design, label %done",
+            "done:",
+            "ret void",
+        ]

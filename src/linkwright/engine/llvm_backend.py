@@ -1,0 +1,181 @@
+"""Evaluation by compiled code: all positions of one or many designs in one call."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine import machine_code
+from linkwright.engine.cache import loaded_code
+from linkwright.engine.call_block import Inputs, SingleCall, address_of, aligned
+from linkwright.engine.ir_kernel import ENTRY, kernel_text
+from linkwright.engine.lines import Lines
+from linkwright.engine.machine_code import available
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Accumulation, Reduction
+from linkwright.engine.threads import spread_over
+
+__all__ = ["CompiledProgram", "available", "compile_program"]
+
+Floats = NDArray[np.float64]
+Arrays = Mapping[str, ArrayLike]
+Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
+_NONE: Arrays = {}
+#: Values (designs times positions) of one call; a call cannot be interrupted.
+_CHUNK_VALUES = 1 << 18
+
+
+def compile_program(
+    program: Program, reductions: Sequence[Reduction] | None = None, valid: str | None = None
+) -> CompiledProgram | None:
+    """The program as machine code, or None where llvmlite is missing.
+
+    Without ``reductions`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
+    them they are summed up inside the loop (:meth:`CompiledProgram.sweep`), over the positions
+    where the truth output ``valid`` holds. Machine code is kept in memory and on disk.
+    Raises ValueError for unknown outputs.
+    """
+    if not available():
+        return None
+    accumulation = None if reductions is None else Accumulation(program, tuple(reductions), valid)
+    needed = program if accumulation is None else accumulation.needed
+    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
+    width = machine_code.host().width
+    code = loaded_code(key, lambda: kernel_text(Lines.of(needed), width, accumulation), ENTRY)
+    return CompiledProgram(needed, accumulation, code, width)
+
+
+class CompiledProgram:
+    """A program's machine code. May be used from several threads.
+
+    Results do not depend on the number of threads, to the last bit.
+    """
+
+    def __init__(
+        self, program: Program, accumulation: Accumulation | None, code: machine_code.Loaded, width: int
+    ) -> None:
+        self.program = program
+        self.accumulation = accumulation
+        self.width = width
+        self._function = code.function
+        self._code = code
+        self._own = threading.local()
+
+    def run(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays = _NONE,
+        out: Floats | None = None,
+        *,
+        start: ArrayLike | None = None,
+    ) -> Floats:
+        """Outputs of one design, (outputs, n), in ``out`` where given (C-contiguous).
+
+        ``parameters``: (parameters,); ``positions``, ``fields``: (n,) per name; ``start``: (states,).
+        The same mappings of the same arrays given again cost nothing but the call. Raises
+        ValueError for missing inputs, unequal lengths and an ``out`` of another shape.
+        """
+        call: SingleCall | None = getattr(self._own, "call", None)
+        if call is None or not call.fits(positions, fields):
+            call = self._own.call = SingleCall(self.program, self.width, positions, fields)
+        if self.program.next_states or call.inputs.stride != call.inputs.length:
+            return self._run_by_store(parameters, positions, fields, out, start)
+        call.parameters[:] = parameters
+        if out is None:
+            out = aligned(call.shape)
+        call.set_out(out)
+        self._function(call.address)
+        return out
+
+    def _run_by_store(
+        self, parameters: ArrayLike, positions: Arrays, fields: Arrays, out: Floats | None, start: ArrayLike | None
+    ) -> Floats:
+        table = np.asarray(parameters, dtype=np.float64)[None, :]
+        rows = {name: np.asarray(fields[name])[None, :] for name in self.program.fields}
+        stored = self.store(table, positions, rows, start=start)[0]
+        if out is None:
+            return stored
+        out[...] = stored
+        return out
+
+    def store(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays = _NONE,
+        *,
+        start: ArrayLike | None = None,
+        threads: int = 1,
+        length: int | None = None,
+    ) -> Floats:
+        """Outputs of many designs, shape (designs, outputs, n).
+
+        ``parameters``: (designs, parameters); ``fields``: (designs, n) per name; ``start``:
+        (designs, states), the states before the first position; ``length``: n where no input
+        is an array.
+        """
+        inputs = Inputs(self.program, self.width, positions, fields, length=length)
+        table, starts = self._tables(parameters, start)
+        out = aligned((len(table), len(self.program.outputs), inputs.stride))
+        self._call(inputs, table, starts, out, threads)
+        stored: Floats = out[:, :, : inputs.length]
+        return stored
+
+    def sweep(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays = _NONE,
+        *,
+        start: ArrayLike | None = None,
+        threads: int = 1,
+        length: int | None = None,
+    ) -> Results:
+        """Reductions of many designs: ``output.kind`` and ``valid.count`` to (designs,) arrays.
+
+        Inputs as for :meth:`store`. Where no position is valid: NaN, position number -1, count 0.
+        """
+        if self.accumulation is None:
+            raise ValueError("this program was compiled without reductions: compile it with them to sweep")
+        inputs = Inputs(self.program, self.width, positions, fields, length=length)
+        table, starts = self._tables(parameters, start)
+        sums = np.empty((len(table), len(self.accumulation.steps)))
+        self._call(inputs, table, starts, sums, threads)
+        return self.accumulation.finish(sums, inputs.length)
+
+    def _tables(self, parameters: ArrayLike, start: ArrayLike | None) -> tuple[Floats, Floats]:
+        table = np.ascontiguousarray(parameters, dtype=np.float64)
+        wanted, states = len(self.program.parameters), self.program.states
+        if table.ndim != 2 or table.shape[1] != wanted:
+            raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
+        if not states:
+            return table, np.empty((len(table), 0))
+        if start is None:
+            raise ValueError(f"the program carries the states {', '.join(states)}: give their start")
+        given = np.broadcast_to(np.asarray(start, dtype=np.float64), (len(table), len(states)))
+        return table, np.ascontiguousarray(given)
+
+    def _call(self, inputs: Inputs, table: Floats, starts: Floats, out: Floats, threads: int) -> None:
+        if inputs.length == 0 or len(table) == 0:
+            out[...] = self.accumulation.start(len(table)) if self.accumulation is not None else np.nan
+            return
+        for array in inputs.fields:
+            if array.shape[0] != len(table):
+                raise ValueError(f"fields must have one row per design, {len(table)}, but have {array.shape[0]}")
+
+        def work(first: int, after: int) -> None:
+            block = inputs.block(
+                address_of(table) + first * table.strides[0],
+                address_of(out) + first * out.strides[0],
+                first,
+                after - first,
+                address_of(starts) + first * starts.strides[0],
+            )
+            self._function(address_of(block))
+
+        size = max(self.width, _CHUNK_VALUES // inputs.length // self.width * self.width)
+        spread_over(len(table), size, threads, work)

@@ -1,0 +1,114 @@
+"""LLVM through llvmlite: from text to object code to a callable address. Imported on need."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import importlib.util
+import sys
+import threading
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+_LOCK = threading.RLock()
+_DESCRIPTION = "cpu {cpu} features {features} llvm {version} llvmlite {binding}"
+
+
+@cache
+def available() -> bool:
+    """Whether programs can be compiled on this machine."""
+    if importlib.util.find_spec("llvmlite") is None:
+        return False
+    try:
+        _binding()
+    except (ImportError, OSError, RuntimeError):
+        return False
+    return True
+
+
+@dataclass(frozen=True, slots=True)
+class Host:
+    """This machine's processor and compiler: code made for one is not valid for another."""
+
+    cpu: str
+    features: str
+    width: int
+    description: str
+
+    @property
+    def key(self) -> str:
+        """Short digest of the description."""
+        return hashlib.blake2b(self.description.encode(), digest_size=8).hexdigest()
+
+
+@cache
+def host() -> Host:
+    """The processor of this machine; ``width``: numbers in one vector."""
+    import llvmlite
+
+    binding = _binding()
+    cpu, flags = binding.get_host_cpu_name(), binding.get_host_cpu_features()
+    features = flags.flatten()
+    width = 8 if flags.get("avx512f") else 4 if flags.get("avx2") else 2
+    description = _DESCRIPTION.format(
+        cpu=cpu, features=features, version=binding.llvm_version_info, binding=llvmlite.__version__
+    )
+    return Host(cpu, features, width, description)
+
+
+@cache
+def _binding() -> Any:
+    import llvmlite.binding as binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    library = ctypes.CDLL("ucrtbase") if sys.platform == "win32" else ctypes.CDLL(None)
+    for name in ("sin", "cos"):
+        address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
+        binding.add_symbol(f"linkwright_{name}", address)
+    return binding
+
+
+def _target_machine() -> Any:
+    here = host()
+    target = _binding().Target.from_default_triple()
+    return target.create_target_machine(
+        cpu=here.cpu, features=here.features, opt=3, reloc="default", codemodel="jitdefault", jit=True
+    )
+
+
+def object_code(text: str) -> bytes:
+    """Object code of a module."""
+    with _LOCK:
+        machine = _target_machine()
+        module = _binding().parse_assembly(text)
+        module.triple = machine.triple
+        module.data_layout = str(machine.target_data)
+        return bytes(machine.emit_object(module))
+
+
+def assembly(text: str) -> str:
+    """Readable machine code of a module."""
+    with _LOCK:
+        machine = _target_machine()
+        module = _binding().parse_assembly(text)
+        module.triple = machine.triple
+        module.data_layout = str(machine.target_data)
+        return str(machine.emit_assembly(module))
+
+
+class Loaded:
+    """Object code in memory; stays while this object lives."""
+
+    def __init__(self, code: bytes, entry: str) -> None:
+        with _LOCK:
+            binding = _binding()
+            self._engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target_machine())
+            self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
+            self._engine.finalize_object()
+            address = self._engine.get_function_address(entry)
+        if not address:
+            raise RuntimeError(f"the object code has no function {entry}")
+        #: Function of one address, which gives the lock of the interpreter back while it runs.
+        self.function = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)

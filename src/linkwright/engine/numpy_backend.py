@@ -1,0 +1,244 @@
+"""Evaluation by NumPy: the reference, always there."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.bound import BoundPlan
+from linkwright.engine.lines import Lines
+from linkwright.engine.program import Program
+from linkwright.engine.registers import Registers
+from linkwright.engine.scalar_backend import LineRunner, ScalarProgram
+
+Floats = NDArray[np.float64]
+Arrays = Mapping[str, ArrayLike]
+Source = tuple[str, tuple[str, ...], Any]
+
+#: Numbers in one buffer of a block; all buffers of a block together stay in a core's cache.
+_CACHE_NUMBERS = 120_000
+_KEPT_PLANS = 6
+
+
+class NumpyProgram:
+    """A program evaluated over arrays of positions, for one or many designs.
+
+    What depends on the design only is evaluated once per design. Division by zero and roots of
+    negative numbers give infinities and NaN without warnings. Truth values among the outputs
+    are 1.0 or 0.0. May be used from several threads.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.lines = Lines.of(program)
+        self.registers = Registers.of(self.lines)
+        self._start = [line.constant for line in self.lines.lines]
+        self._parameter_lines = [i for i, line in enumerate(self.lines.lines) if line.op == "parameter"]
+        self._design = LineRunner(self.lines.lines, self.lines.design_lines())
+        self._own = threading.local()
+
+    def run(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        start: ArrayLike | None = None,
+        length: int | None = None,
+    ) -> Floats:
+        """Outputs of one design, shape (outputs, n).
+
+        ``parameters``: (parameters,) in the order of ``program.parameters``. ``positions``,
+        ``fields``: one (n,) array per name; names that the program does not need are ignored.
+        A program with states takes either ``states``, an (n,) array per name, or ``start``, the
+        (states,) values before the first position, carried on from there. ``length``: n, where
+        no input is an array. Raises ValueError for missing inputs and unequal lengths.
+        """
+        fields, states = fields or {}, states or {}
+        given = {name: fields[name] for name in self.program.fields if name in fields}
+        if self.program.states and not states:
+            return self._continued(parameters, positions, given, start, length)
+        n = self._length(positions, {**given, **states}, length)
+        plan = self._plan(None, n)
+        values = list(self._start)
+        for index, value in zip(self._parameter_lines, _numbers(parameters), strict=True):
+            values[index] = value
+        self._design.run(values)
+        plan.set_design(values)
+        for kind, names, arrays in self._sources(positions, given, states):
+            for buffer, name in zip(plan.inputs[kind], names, strict=True):
+                buffer[...] = arrays[name]
+        with np.errstate(all="ignore"):
+            plan.run()
+        return plan.outputs.copy()
+
+    def run_designs(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        start: ArrayLike | None = None,
+        length: int | None = None,
+    ) -> Floats:
+        """Outputs of many designs, shape (designs, outputs, n).
+
+        ``parameters``: (designs, parameters); ``fields`` and ``states``: (designs, n) per name;
+        ``start``: (designs, states); otherwise as :meth:`run`.
+        """
+        table = self._table(parameters)
+        n = self._length(positions, {**(fields or {}), **(states or {})}, length)
+        result = np.empty((len(table), len(self.program.outputs), n))
+        for designs, columns, outputs in self.blocks(table, positions, fields, states, start=start, length=n):
+            result[designs, :, columns] = outputs.transpose(1, 0, 2)
+        return result
+
+    def blocks(
+        self,
+        table: Floats,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        start: ArrayLike | None = None,
+        length: int | None = None,
+    ) -> Iterator[tuple[slice, slice, Floats]]:
+        """Outputs block by block: (designs, positions, outputs (outputs, designs, positions)).
+
+        Inputs as for :meth:`run_designs`. A block's outputs are overwritten by the next block.
+        """
+        fields, states = fields or {}, states or {}
+        n = self._length(positions, {**fields, **states}, length)
+        continued = bool(self.program.states) and not states
+        starts = self._starts(start, len(table)) if continued else None
+        size, width = self.block(n, continued)
+        for first in range(0, len(table), size):
+            part = slice(first, min(first + size, len(table)))
+            sources = self._sources(positions, _cut(fields, part), _cut(states, part))
+            own = None if starts is None else starts[part]
+            for columns, outputs in self._columns(table[part], sources, own, n, width):
+                yield part, columns, outputs
+
+    def _columns(
+        self, table: Floats, sources: list[Source], starts: Floats | None, n: int, width: int
+    ) -> Iterator[tuple[slice, Floats]]:
+        """Some designs, ``width`` positions at a time."""
+        plan: BoundPlan | None = None
+        for first in range(0, n, width):
+            columns = slice(first, min(first + width, n))
+            previous, plan = plan, self._plan(len(table), columns.stop - first)
+            with np.errstate(all="ignore"):
+                if plan is not previous:
+                    _start_designs(plan, table, starts)
+                for kind, names, arrays in sources:
+                    for buffer, name in zip(plan.inputs[kind], names, strict=True):
+                        buffer[...] = np.asarray(arrays[name])[..., columns]
+                plan.run()
+                if starts is not None:
+                    plan.carry()
+            yield columns, plan.outputs
+
+    def block(self, n: int, continued: bool = False) -> tuple[int, int]:
+        """Designs and positions of one block, so that its buffers stay in the cache."""
+        buffers = self.registers.numbers + len(self.program.outputs) + len(self.program.fields) + 2
+        room = max(256, 4 * _CACHE_NUMBERS // buffers)
+        if continued:
+            return room, 1
+        width = min(n, room) or 1
+        return max(1, room // width), width
+
+    def _continued(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays,
+        start: ArrayLike | None,
+        length: int | None,
+    ) -> Floats:
+        n = self._length(positions, fields, length)
+        scalar = ScalarProgram(self.program)
+        numbers, state = _numbers(parameters), self._starts(start, 1)[0].tolist()
+        along = _rows(positions, self.program.positions, n)
+        across = _rows(fields, self.program.fields, n)
+        result = np.empty((n, len(self.program.outputs)))
+        for i in range(n):
+            result[i], state = scalar.step(numbers, along[i], state, across[i])
+        return np.ascontiguousarray(result.T)
+
+    def _starts(self, start: ArrayLike | None, designs: int) -> Floats:
+        if start is None:
+            names = ", ".join(self.program.states)
+            raise ValueError(f"the program carries the states {names}: give their arrays, or their start")
+        given = np.asarray(start, dtype=np.float64)
+        return np.broadcast_to(given, (designs, len(self.program.states)))
+
+    def _sources(self, positions: Arrays, fields: Arrays, states: Arrays) -> list[Source]:
+        sources: list[Source] = [
+            ("position", self.program.positions, positions),
+            ("field", self.program.fields, fields),
+        ]
+        if states:
+            sources.append(("state", self.program.states, states))
+        for kind, names, arrays in sources:
+            missing = [name for name in names if name not in arrays]
+            if missing:
+                raise ValueError(f"the program needs the {kind} inputs {', '.join(missing)}: give them")
+        return sources
+
+    def _length(self, positions: Arrays, others: Arrays, length: int | None) -> int:
+        lengths = {np.shape(positions[name])[-1] for name in self.program.positions if name in positions}
+        wanted = (*self.program.fields, *self.program.states)
+        lengths |= {np.shape(others[name])[-1] for name in wanted if name in others}
+        if length is not None:
+            lengths.add(length)
+        if not lengths:
+            lengths = {np.shape(array)[-1] for array in positions.values()}
+        if len(lengths) != 1:
+            raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
+        return int(lengths.pop())
+
+    def _table(self, parameters: ArrayLike) -> Floats:
+        table = np.asarray(parameters, dtype=np.float64)
+        if table.ndim != 2 or table.shape[1] != len(self.program.parameters):
+            wanted = len(self.program.parameters)
+            raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
+        return table
+
+    def _plan(self, designs: int | None, n: int) -> BoundPlan:
+        plans: dict[tuple[int | None, int], BoundPlan] = self._own.__dict__.setdefault("plans", {})
+        key = (designs, n)
+        if key not in plans:
+            if len(plans) >= _KEPT_PLANS:
+                plans.pop(next(iter(plans)))
+            plans[key] = BoundPlan(self.lines, self.registers, designs, n)
+        return plans[key]
+
+
+def _start_designs(plan: BoundPlan, table: Floats, starts: Floats | None) -> None:
+    for place, buffer in enumerate(plan.inputs["parameter"]):
+        buffer[:, 0] = table[:, place]
+    plan.run_design()
+    if starts is not None:
+        for place, buffer in enumerate(plan.inputs["state"]):
+            buffer[:, 0] = starts[:, place]
+
+
+def _numbers(parameters: ArrayLike) -> list[float]:
+    return [float(p) for p in np.asarray(parameters, dtype=np.float64).ravel().tolist()]
+
+
+def _cut(arrays: Arrays, part: slice) -> dict[str, Floats]:
+    return {name: np.asarray(array, dtype=np.float64)[part] for name, array in arrays.items()}
+
+
+def _rows(arrays: Arrays, names: tuple[str, ...], n: int) -> list[list[float]]:
+    """One list of numbers per position."""
+    if not names:
+        return [[] for _ in range(n)]
+    return np.array([np.asarray(arrays[name], dtype=np.float64) for name in names]).T.tolist()  # type: ignore[no-any-return]

@@ -1,0 +1,131 @@
+"""A finished straight-line program: inputs, lines that matter, outputs; inspectable."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace
+
+SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "div": "/", "less": "<", "less_equal": "<=", "and": "&", "or": "|"}
+
+
+@dataclass(frozen=True)
+class Program:
+    """Lines in the order of evaluation; outputs and next states by line number.
+
+    ``parameters``: one number per design; ``positions``: one per position; ``fields``: one per
+    design and position; ``states``: carried from a position to the next.
+    """
+
+    nodes: tuple[Node, ...]
+    outputs: tuple[tuple[str, int], ...]
+    next_states: tuple[tuple[str, int], ...] = ()
+
+    @classmethod
+    def of(
+        cls, trace: Trace, outputs: Mapping[str, Scalar | bool], next_states: Mapping[str, Scalar] | None = None
+    ) -> Program:
+        """What of a trace the named outputs need, renumbered."""
+        wanted = {name: trace.lift(value) for name, value in outputs.items()}
+        carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
+        needed = _needed(trace.nodes, [*wanted.values(), *carried.values()])
+        number = {old: new for new, old in enumerate(needed)}
+        nodes = tuple(_renumbered(trace.nodes[old], number) for old in needed)
+        return cls(
+            nodes,
+            tuple((name, number[old]) for name, old in wanted.items()),
+            tuple((name, number[old]) for name, old in carried.items()),
+        )
+
+    def only(self, names: list[str]) -> Program:
+        """The same program for some of its outputs."""
+        trace = Trace(nodes=list(self.nodes))
+        needed = _needed(
+            trace.nodes, [i for name, i in self.outputs if name in names] + [i for _, i in self.next_states]
+        )
+        number = {old: new for new, old in enumerate(needed)}
+        by_name = dict(self.outputs)
+        return Program(
+            tuple(_renumbered(self.nodes[old], number) for old in needed),
+            tuple((name, number[by_name[name]]) for name in names),
+            tuple((name, number[i]) for name, i in self.next_states),
+        )
+
+    @cached_property
+    def output_names(self) -> tuple[str, ...]:
+        return tuple(name for name, _ in self.outputs)
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        return self._inputs("parameter")
+
+    @cached_property
+    def positions(self) -> tuple[str, ...]:
+        return self._inputs("position")
+
+    @cached_property
+    def fields(self) -> tuple[str, ...]:
+        return self._inputs("field")
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        return self._inputs("state")
+
+    def _inputs(self, op: str) -> tuple[str, ...]:
+        return tuple(node.name for node in self.nodes if node.op == op)
+
+    @cached_property
+    def key(self) -> str:
+        """A hash of everything that decides what the program computes."""
+        return hashlib.blake2b(self.text().encode(), digest_size=16).hexdigest()
+
+    def counts(self) -> dict[str, dict[str, int]]:
+        """Numbers of operations, done once per design and once per position."""
+        tally: dict[str, Counter[str]] = {"design": Counter(), "position": Counter()}
+        for node in self.nodes:
+            if node.args:
+                tally["position" if node.varies else "design"][node.op] += 1
+        return {level: dict(sorted(counter.items())) for level, counter in tally.items()}
+
+    def text(self) -> str:
+        """The program as lines ``v12 = v3 * v7``."""
+        lines = [f"v{i} = {_spelled(node)}" for i, node in enumerate(self.nodes)]
+        lines += [f"output {name} = v{i}" for name, i in self.outputs]
+        lines += [f"carry {name} = v{i}" for name, i in self.next_states]
+        return "\n".join(lines)
+
+    def yields_truth(self, index: int) -> bool:
+        """Whether a line holds a truth value instead of a number."""
+        return self.nodes[index].op in COMPARISONS
+
+
+def _spelled(node: Node) -> str:
+    if node.op == "constant":
+        return repr(node.constant)
+    if not node.args:
+        return f"{node.op} {node.name}"
+    names = [f"v{i}" for i in node.args]
+    if node.op in SYMBOLS:
+        return f"{names[0]} {SYMBOLS[node.op]} {names[1]}"
+    return f"{node.op}({', '.join(names)})"
+
+
+def _needed(nodes: list[Node], wanted: list[int]) -> list[int]:
+    seen: set[int] = set()
+    stack = list(wanted)
+    while stack:
+        index = stack.pop()
+        if index not in seen:
+            seen.add(index)
+            stack.extend(nodes[index].args)
+    return sorted(seen)
+
+
+def _renumbered(node: Node, number: Mapping[int, int]) -> Node:
+    if not node.args:
+        return node
+    return Node(node.op, tuple(number[i] for i in node.args), varies=node.varies)

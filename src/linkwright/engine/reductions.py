@@ -1,0 +1,168 @@
+"""Summaries of an output over the positions: what is accumulated, and what is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.program import Program
+
+Kind = Literal["min", "max", "mean", "sum", "rms", "argmin", "argmax", "count"]
+KINDS: tuple[str, ...] = get_args(Kind)
+Floats = NDArray[np.float64]
+
+#: The key of the number of valid positions among the results.
+VALID_COUNT = "valid.count"
+
+#: What a kind needs: accumulators of the same output.
+_NEEDS: dict[str, tuple[str, ...]] = {
+    "min": ("min",),
+    "max": ("max",),
+    "mean": ("sum",),
+    "sum": ("sum",),
+    "rms": ("square",),
+    "argmin": ("min", "argmin"),
+    "argmax": ("max", "argmax"),
+    "count": ("count",),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Reduction:
+    """One summary of one output over the valid positions.
+
+    ``kind``: ``min``, ``max``, ``mean``, ``sum``, ``rms`` (root of the mean square), ``argmin``
+    and ``argmax`` (number of the first position with the extreme), ``count`` (number of valid
+    positions where a truth output holds, or a number is not zero). Extremes skip NaN; the other
+    kinds pass it on.
+    """
+
+    output: str
+    kind: Kind
+
+    @property
+    def name(self) -> str:
+        """The key among the results."""
+        return f"{self.output}.{self.kind}"
+
+
+@dataclass(frozen=True)
+class Accumulation:
+    """The accumulators that a set of reductions of a program needs.
+
+    ``steps``: (accumulator, output), each once. ``valid``: the truth output that says which
+    positions enter, or None for all of them.
+    """
+
+    program: Program
+    reductions: tuple[Reduction, ...]
+    valid: str | None = None
+
+    def __post_init__(self) -> None:
+        names = set(self.program.output_names)
+        for reduction in self.reductions:
+            if reduction.kind not in KINDS:
+                raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
+            if reduction.output not in names:
+                raise ValueError(f"the program has no output '{reduction.output}' to reduce")
+        if self.valid is not None and self.valid not in names:
+            raise ValueError(f"the program has no output '{self.valid}' that says which positions are valid")
+
+    @cached_property
+    def steps(self) -> tuple[tuple[str, str], ...]:
+        wanted = [(step, r.output) for r in self.reductions for step in _NEEDS[r.kind]]
+        if self.valid is not None:
+            wanted.append(("count", self.valid))
+        return tuple(dict.fromkeys(wanted))
+
+    @cached_property
+    def needed(self) -> Program:
+        """The program without the outputs that nothing here uses."""
+        outputs = dict.fromkeys(output for _, output in self.steps)
+        if set(outputs) == set(self.program.output_names):
+            return self.program
+        return self.program.only(list(outputs))
+
+    @property
+    def key(self) -> str:
+        """What decides the code, apart from the program."""
+        return f"{self.steps} {self.valid}"
+
+    def start(self, designs: int) -> Floats:
+        """Accumulators before the first position, shape (designs, steps)."""
+        table = np.zeros((designs, len(self.steps)))
+        for column, (step, _) in enumerate(self.steps):
+            table[:, column] = _START.get(step, 0.0)
+        return table
+
+    def finish(self, table: Floats, n: int) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:
+        """Results of every design from its accumulators (designs, steps) over ``n`` positions.
+
+        Where no position is valid: NaN, position number -1, count 0 and sum 0.
+        """
+        at = {step: table[:, column] for column, step in enumerate(self.steps)}
+        valid = at["count", self.valid] if self.valid is not None else np.full(len(table), float(n))
+        results: dict[str, NDArray[np.float64] | NDArray[np.int64]] = {}
+        for reduction in self.reductions:
+            results[reduction.name] = _result(reduction, at, valid)
+        results[VALID_COUNT] = valid.astype(np.int64)
+        return results
+
+
+_START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0}
+
+
+def _result(
+    reduction: Reduction, at: dict[tuple[str, str], Floats], valid: Floats
+) -> NDArray[np.float64] | NDArray[np.int64]:
+    output, kind = reduction.output, reduction.kind
+    if kind in ("argmin", "argmax", "count"):
+        return at[kind, output].astype(np.int64)
+    if kind == "sum":
+        return at["sum", output].copy()
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if kind == "mean":
+            return np.asarray(at["sum", output] / valid)
+        if kind == "rms":
+            return np.sqrt(at["square", output] / valid)
+    return np.where(valid > 0.0, at[kind, output], np.nan)
+
+
+def accumulate(
+    accumulation: Accumulation, table: Floats, outputs: Floats, names: Sequence[str], first: int
+) -> None:
+    """Let positions ``first``… of (outputs, designs, positions) enter the accumulators (in place)."""
+    rows = dict(zip(names, outputs, strict=True))
+    mask = None if accumulation.valid is None else rows[accumulation.valid] != 0.0
+    column = {step: place for place, step in enumerate(accumulation.steps)}
+    for step, output in accumulation.steps:
+        values, into = rows[output], table[:, column[step, output]]
+        if step in ("min", "max"):
+            side = "arg" + step
+            arg = table[:, column[side, output]] if (side, output) in column else None
+            _extreme(step, values, mask, into, arg, first)
+        elif step == "count":
+            held = (values != 0.0) if mask is None else (values != 0.0) & mask
+            into += held.sum(axis=1)
+        elif step in ("sum", "square"):
+            entering = values if mask is None else np.where(mask, values, 0.0)
+            into += (entering if step == "sum" else entering * entering).sum(axis=1)
+
+
+def _extreme(
+    step: str, values: Floats, mask: NDArray[np.bool_] | None, into: Floats, arg: Floats | None, first: int
+) -> None:
+    sign = 1.0 if step == "min" else -1.0
+    entering = np.where(np.isnan(values), np.inf, sign * values)
+    if mask is not None:
+        entering = np.where(mask, entering, np.inf)
+    best = entering.min(axis=1)
+    better = best < sign * into
+    into[better] = sign * best[better]
+    if arg is not None:
+        arg[better] = first + entering.argmin(axis=1)[better]

@@ -1,0 +1,76 @@
+"""A program written again into a trace, line by line, to be continued there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+
+from linkwright.engine.program import Program
+from linkwright.engine.trace import Node, Scalar, Trace, Value
+
+_BINARY = {"add", "sub", "mul", "div"}
+_UNARY = {"sqrt", "abs", "sin", "cos", "stop"}
+
+
+class Replay:
+    """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written."""
+
+    def __init__(self, program: Program, chosen: Iterable[int] | None = None) -> None:
+        self.trace = Trace()
+        self.program = program
+        self.values: dict[int, Scalar] = {}
+        for index in range(len(program.nodes)) if chosen is None else chosen:
+            self.values[index] = self._write(program.nodes[index])
+
+    def _write(self, node: Node) -> Scalar:
+        t = self.trace
+        args = [self.values[a] for a in node.args]
+        if node.op == "constant":
+            return node.constant
+        if node.op in _BINARY:
+            return _arithmetic(t, node.op, args[0], args[1])
+        if node.op in _UNARY:
+            return t.unary(node.op, args[0])
+        if node.op == "neg":
+            return t.neg(args[0])
+        if node.op in ("less", "less_equal"):
+            return t.compare(node.op, args[0], args[1])
+        if node.op in ("and", "or"):
+            return t.logic(node.op, _truth(args[0]), _truth(args[1]))
+        if node.op == "not":
+            return t.negate(_truth(args[0]))
+        if node.op == "select":
+            return t.select(_truth(args[0]), args[1], args[2])
+        return self._input(node)
+
+    def _input(self, node: Node) -> Value:
+        t = self.trace
+        make = {"parameter": t.parameter, "position": t.position, "field": t.field_input, "state": t.state}
+        return make[node.op](node.name)
+
+
+def _arithmetic(t: Trace, op: str, a: Scalar, b: Scalar) -> Scalar:
+    with suppress(ZeroDivisionError):
+        return {"add": t.add, "sub": t.sub, "mul": t.mul, "div": t.div}[op](a, b)
+    return float("nan")
+
+
+def _truth(value: Scalar) -> Value | bool:
+    return value if isinstance(value, Value) else bool(value)
+
+
+def depending(program: Program, names: Iterable[str]) -> set[int]:
+    """The lines with numbers that change, smoothly, with the named inputs."""
+    wanted, found = set(names), set()
+    for index, node in enumerate(program.nodes):
+        if node.op in ("stop", "less", "less_equal", "and", "or", "not"):
+            continue
+        args = node.args[1:] if node.op == "select" else node.args
+        if node.name in wanted or any(a in found for a in args):
+            found.add(index)
+    return found
+
+
+def operations(program: Program, chosen: set[int]) -> Iterator[int]:
+    """The chosen lines that are operations, last first."""
+    return (i for i in range(len(program.nodes) - 1, -1, -1) if i in chosen and program.nodes[i].args)

@@ -1,0 +1,147 @@
+"""Summaries of many designs of one structure, in fixed memory, on all cores."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import VALID_COUNT, Accumulation, Kind, Reduction, accumulate
+from linkwright.engine.threads import chunks, cores, spread_over
+
+Backend = Literal["auto", "numpy", "llvm"]
+Floats = NDArray[np.float64]
+Arrays = Mapping[str, ArrayLike]
+Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
+Progress = Callable[[int, int], None]
+
+__all__ = ["VALID_COUNT", "Reduction", "sweep", "sweep_numpy"]
+
+#: Below this number of configurations NumPy has answered before a program is compiled.
+_WORTH_COMPILING = 20_000
+#: Configurations between two reports of progress.
+_REPORT = 1 << 23
+_NUMPY_CHUNK = 1 << 18
+
+
+def sweep(
+    program: Program,
+    parameters: ArrayLike,
+    positions: Arrays,
+    reductions: Sequence[Reduction | tuple[str, Kind]],
+    *,
+    fields: Arrays | None = None,
+    start: ArrayLike | None = None,
+    valid: str | None = "valid",
+    threads: int | None = None,
+    backend: Backend = "auto",
+    progress: Progress | None = None,
+) -> Results:
+    """Reductions of a program's outputs over the positions, for every design.
+
+    ``parameters``: (designs, parameters) in the order of ``program.parameters``. ``positions``:
+    (n,) per name; ``fields``: (designs, n) per name; ``start``: (designs, states), where the
+    program carries states. ``valid``: the truth output that says which positions enter; without
+    an output of this name all do. ``threads``: None for all cores; results do not depend on it.
+    ``progress(done, designs)`` is called now and then; what it raises stops the sweep, as the
+    keyboard's interrupt does. ``backend`` ``auto`` compiles where that pays and llvmlite is there.
+
+    Returns ``output.kind`` to an array (designs,), and the number of valid positions as
+    ``valid.count``; for a design without a valid position NaN, position number -1, sum and
+    count 0. Raises ValueError for unknown outputs, kinds or back ends and missing inputs.
+    """
+    table = np.ascontiguousarray(parameters, dtype=np.float64)
+    wanted = tuple(r if isinstance(r, Reduction) else Reduction(*r) for r in reductions)
+    accumulation = Accumulation(program, wanted, valid if valid in program.output_names else None)
+    given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
+    n = _length(positions, given)
+    run = _runner(accumulation, backend, len(table) * n)
+    count = cores() if threads is None else threads
+    parts: list[Results] = []
+    for first, after in chunks(len(table), max(1, _REPORT // max(n, 1))):
+        rows = {name: array[first:after] for name, array in given.items()}
+        begin = None if start is None else _rows(start, len(table))[first:after]
+        parts.append(run(_for_needed(accumulation, table[first:after]), positions, rows, begin, count))
+        if progress is not None:
+            progress(after, len(table))
+    if not parts:
+        return accumulation.finish(accumulation.start(0), n)
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def sweep_numpy(
+    accumulation: Accumulation,
+    table: Floats,
+    positions: Arrays,
+    fields: Arrays,
+    start: ArrayLike | None = None,
+    threads: int = 1,
+) -> Results:
+    """The same as a compiled program's ``sweep``, by NumPy in blocks that fit the cache.
+
+    ``table``: (designs, parameters) in the order of ``accumulation.needed.parameters``.
+    """
+    evaluator = NumpyProgram(accumulation.needed)
+    names = accumulation.needed.output_names
+    sums = accumulation.start(len(table))
+    n = _length(positions, fields)
+    begin = None if start is None else _rows(start, len(table))
+
+    def work(first: int, after: int) -> None:
+        rows = {name: np.asarray(array)[first:after] for name, array in fields.items()}
+        own = None if begin is None else begin[first:after]
+        part = sums[first:after]
+        for designs, columns, outputs in evaluator.blocks(
+            table[first:after], positions, rows, start=own, length=n
+        ):
+            with np.errstate(all="ignore"):
+                accumulate(accumulation, part[designs], outputs, names, columns.start)
+
+    spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), threads, work)
+    return accumulation.finish(sums, n)
+
+
+_Run = Callable[[Floats, Arrays, Arrays, ArrayLike | None, int], Results]
+
+
+def _runner(accumulation: Accumulation, backend: Backend, configurations: int) -> _Run:
+    if backend not in ("auto", "numpy", "llvm"):
+        raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
+    if backend == "llvm" or (backend == "auto" and configurations >= _WORTH_COMPILING):
+        from linkwright.engine.llvm_backend import compile_program
+
+        compiled = compile_program(accumulation.program, accumulation.reductions, accumulation.valid)
+        if compiled is not None:
+            return lambda table, positions, fields, start, threads: compiled.sweep(
+                table, positions, fields, start=start, threads=threads, length=_length(positions, fields)
+            )
+        if backend == "llvm":
+            raise ValueError("llvmlite cannot be loaded: install it, or use the numpy back end")
+    return lambda *inputs: sweep_numpy(accumulation, *inputs)
+
+
+def _for_needed(accumulation: Accumulation, table: Floats) -> Floats:
+    """The columns of the parameters that the reduced outputs depend on."""
+    program, needed = accumulation.program, accumulation.needed
+    if table.ndim != 2 or table.shape[1] != len(program.parameters):
+        wanted = len(program.parameters)
+        raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
+    if needed.parameters == program.parameters:
+        return table
+    return np.ascontiguousarray(table[:, [program.parameters.index(name) for name in needed.parameters]])
+
+
+def _length(positions: Arrays, fields: Arrays) -> int:
+    lengths = {int(np.shape(array)[-1]) for array in (*positions.values(), *fields.values())}
+    if len(lengths) != 1:
+        raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
+    return lengths.pop()
+
+
+def _rows(start: ArrayLike, designs: int) -> Floats:
+    given = np.asarray(start, dtype=np.float64)
+    return np.broadcast_to(given, (designs, given.shape[-1]))

@@ -1,0 +1,76 @@
+"""What every Assur group with a closed form supplies.
+
+A group is cut at one pin; chain ``a`` and chain ``b`` run from links solved before to that pin. A chain
+that begins with a pin has an ``anchor`` (the pin) and an ``arm`` (from the pin to the cut, in the axes of
+its first link, slides at zero); a chain of slides has the cut's place at zero slide as ``anchor``.
+``directions`` are unit vectors along which the cut moves with each slide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
+from linkwright.registry import Registry
+from linkwright.units import format
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One open chain of a group, as seen by the closed form."""
+
+    anchor: Vec
+    arm: Vec | None = None
+    directions: tuple[Vec, ...] = ()
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """The direction of a link: the world vector ``now`` of what is ``local`` in the link's axes."""
+
+    now: Vec
+    local: Vec
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Chain coordinates (rotors and slides, chain a first) and what the rates and forces share.
+
+    ``inverse_determinant``: of the Jacobian of the closure (cut of chain a minus cut of chain b);
+    ``square``: what stands under the root, negative out of reach, zero at a singular position;
+    ``scale``: the size of ``square`` in a position of best condition;
+    ``facts``: numbers that explain a failure.
+    """
+
+    coordinates: tuple[Rotor | Scalar, ...]
+    inverse_determinant: Scalar
+    square: Scalar
+    scale: Scalar
+    facts: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+class Dyad(Protocol):
+    """A group with a closed form: its specification and its position formula."""
+
+    signature: str
+    pattern: tuple[str, str]
+    words: tuple[str, str]
+
+    def solve(self, a: Chain, b: Chain, mode: Scalar) -> Solved:
+        """Positions; ``mode`` is +1 for the first of ``words`` and -1 for the second."""
+        ...
+
+    def explain(self, facts: Mapping[str, float]) -> str:
+        """Why the group cannot be assembled, from the facts at that position."""
+        ...
+
+
+DYADS: Registry[type[Dyad]] = Registry("Assur group", "linkwright.groups")
+
+
+def shown_length(value: float) -> str:
+    """A length as sentences print it."""
+    return format(value, "length")

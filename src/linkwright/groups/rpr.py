@@ -1,0 +1,51 @@
+"""RPR: two known pins, and a guide between the two links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import sqrt as root_of
+
+from linkwright.engine.trace import Scalar, sqrt
+from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
+
+
+@DYADS.register("RPR")
+class RPR:
+    """Outer pins P and Q; the links slide on each other along the direction m of the first link.
+
+    With d = Q - P and e the distance across the guide between the pins (sum of both offsets):
+    length along the guide ρ = mode √(d·d - e²), and the guide's direction is d (ρ - i e) / d·d as complex
+    numbers. Modes: the block ahead of or behind the foot of the perpendicular, seen along the guide. Out of
+    reach if |d| < |e| (rprk of the teaching texts).
+    """
+
+    signature = "RPR"
+    pattern = ("RP", "")
+    words = ("forward", "backward")
+
+    def solve(self, a: Chain, b: Chain, mode: Scalar) -> Solved:
+        assert a.arm is not None
+        m = a.directions[0]
+        d = b.anchor - a.anchor
+        dd = d.square
+        e = m.cross(a.arm)
+        square = dd - e * e
+        root = sqrt(square)
+        inverse = 1.0 / (dd * root)
+        along = mode * root
+        scaled = inverse * root
+        n = d * (along * scaled) - d.perp * (e * scaled)
+        return Solved(
+            coordinates=(Rotor(n, m), along - m.dot(a.arm)),
+            inverse_determinant=(-mode) * (inverse * dd),
+            square=square,
+            scale=dd,
+            facts={"distance²": dd, "offset": e},
+        )
+
+    def explain(self, facts: Mapping[str, float]) -> str:
+        distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
+        return (
+            f"the outer pins are {shown_length(distance)} apart, the guide holds them {shown_length(offset)} "
+            f"apart across its direction: {shown_length(offset - distance)} too close"
+        )

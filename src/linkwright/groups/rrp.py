@@ -1,0 +1,47 @@
+"""RRP: a link on a known pin, and a slider on a known guide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import sqrt as root_of
+
+from linkwright.engine.trace import Scalar, sqrt
+from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
+
+
+@DYADS.register("RRP")
+class RRP:
+    """Outer pin P, link of length r to the inner pin B, which the slider carries along the direction n.
+
+    With f = P - B(0), h = n × f (distance of P from the pin's path): s = f·n + mode √(r² - h²).
+    Modes: B ahead of or behind the foot of the perpendicular from P, seen along n. Out of reach if
+    |h| > r (rrpk of the teaching texts).
+    """
+
+    signature = "RRP"
+    pattern = ("R", "P")
+    words = ("forward", "backward")
+
+    def solve(self, a: Chain, b: Chain, mode: Scalar) -> Solved:
+        assert a.arm is not None
+        n = b.directions[0]
+        f = a.anchor - b.anchor
+        h = n.cross(f)
+        rr = a.arm.square
+        square = rr - h * h
+        root = mode * sqrt(square)
+        u = n * root - n.perp * h
+        return Solved(
+            coordinates=(Rotor(u, a.arm), f.dot(n) + root),
+            inverse_determinant=1.0 / root,
+            square=square,
+            scale=rr,
+            facts={"height": h, "length²": rr},
+        )
+
+    def explain(self, facts: Mapping[str, float]) -> str:
+        height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
+        return (
+            f"the outer pin is {shown_length(height)} from the path of the slider's pin, the link reaches "
+            f"{shown_length(length)}: {shown_length(height - length)} missing"
+        )

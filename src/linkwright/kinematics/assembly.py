@@ -1,0 +1,175 @@
+"""Assembly modes from words or from a drawing, and starting values of groups without closed form."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from linkwright.engine.program import Program
+from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.drawing import Drawing
+from linkwright.kinematics.groups import dyad_shape, state_name
+from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+from linkwright.structure.group import Group, Structure
+
+
+class AssemblyError(LinkwrightError):
+    """An assembly mode that does not exist, or a group whose starting values are not given."""
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Signs of the assembly modes by group, chain coordinates of the other groups, the drawing's inputs."""
+
+    modes: dict[str, float]
+    states: dict[str, float]
+    inputs: dict[str, float]
+
+
+def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
+    """How every group is put together in the drawing, or by the words of the file.
+
+    Raises:
+        AssemblyError: a word that the group does not know, a name that is no inner joint, or a group without
+            closed form whose points are not drawn.
+    """
+    modes = _from_words(mechanism, structure)
+    drawing = Drawing(mechanism)
+    states = _drawn_states(mechanism, structure, drawing)
+    inputs = {}
+    for name, driver in mechanism.drivers.items():
+        drawn = drawing.driver(name) if drawing else None
+        start = driver.law.coordinate(_zero())[0][0]
+        inputs[name] = float(start) if drawn is None else drawn
+    _from_drawing(mechanism, structure, drawing, modes, states, inputs)
+    return Assembly(modes, states, inputs)
+
+
+def _zero():  # type: ignore[no-untyped-def]
+    import numpy as np
+
+    return np.zeros(1)
+
+
+def modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str]]]:
+    """Groups that have two assembly modes, with the words for them."""
+    found = {}
+    for group in structure.groups:
+        shape = dyad_shape(group)
+        if shape is not None and shape[0].words[0]:
+            found[group.name] = (group, shape[0].words)
+    return found
+
+
+def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
+    groups = modal_groups(structure)
+    modes: dict[str, float] = {}
+    problems: list[str] = []
+    for joint, word in mechanism.assembly.items():
+        named = [entry for entry in groups.values() if joint in (c.joint for c in entry[0].inner_joints)]
+        if not named:
+            problems.append(_no_such_joint(joint, groups))
+            continue
+        group, words = named[0]
+        if word not in words:
+            offer = nearest(word, list(words))
+            hint = f"did you mean {offer!r}?" if offer else f"write {words[0]} or {words[1]}"
+            problems.append(
+                f"assembly.{joint}: {word!r} is no assembly mode of the {group.signature} group "
+                f"({', '.join(group.links)}); {hint}"
+            )
+            continue
+        modes[group.name] = 1.0 if word == words[0] else -1.0
+    if problems:
+        raise AssemblyError("\n".join(problems))
+    return modes
+
+
+def _no_such_joint(joint: str, groups: dict[str, tuple[Group, tuple[str, str]]]) -> str:
+    inner = [c.joint for group, _ in groups.values() for c in group.inner_joints]
+    offer = nearest(joint, inner)
+    hint = f"did you mean {offer!r}?" if offer else f"inner joints are: {', '.join(inner) or 'none'}"
+    return f"assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}"
+
+
+def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) -> dict[str, float]:
+    """Chain coordinates of the groups without closed form."""
+    states: dict[str, float] = {}
+    for group in structure.groups:
+        if not group.unknowns or dyad_shape(group) is not None:
+            continue
+        if not drawing:
+            raise AssemblyError(
+                f"the group ({', '.join(group.links)}) of class {group.assur_class} has no closed form; give the "
+                "coordinates of its points in a drawing of the assembled mechanism: "
+                f"drawing: {{{', '.join(dict.fromkeys(c.joint for c in group.inner_joints))}: [x, y]}}"
+            )
+        for step in group.unknowns:
+            name = state_name(group, step)
+            joint = mechanism.joints[step.joint]
+            if step.kind == "prismatic":
+                states[f"{name}.s"] = drawing.slide(joint) or 0.0  # type: ignore[arg-type]
+            else:
+                angle = drawing.angle(step.child) or 0.0
+                states[f"{name}.x"], states[f"{name}.y"] = math.cos(angle), math.sin(angle)
+    return states
+
+
+def _from_drawing(
+    mechanism: Mechanism,
+    structure: Structure,
+    drawing: Drawing,
+    modes: dict[str, float],
+    states: dict[str, float],
+    inputs: dict[str, float],
+) -> None:
+    """Of both modes of a group, the one that comes closer to the drawing; without a drawing the first."""
+    open_groups = [group for name, (group, _) in modal_groups(structure).items() if name not in modes]
+    modes |= {group.name: 1.0 for group in open_groups}
+    if not drawing or not open_groups:
+        return
+    motion = trace_motion(mechanism, structure, rates=False, iterations=8)
+    for group in open_groups:
+        probe = _Probe(motion, group, drawing)
+        if probe.names:
+            distances = {sign: probe.distance({**modes, group.name: sign}, states, inputs) for sign in (1.0, -1.0)}
+            modes[group.name] = min(distances, key=distances.__getitem__)
+
+
+class _Probe:
+    """Distance between the drawn points of one group and where a choice of modes puts them."""
+
+    def __init__(self, motion: MotionTrace, group: Group, drawing: Drawing) -> None:
+        self.motion = motion
+        self.goal: list[float] = []
+        self.names: list[str] = []
+        outputs = {}
+        for link in group.links:
+            for point, local in motion.mechanism.links[link].points.items():
+                drawn = drawing.points.get(f"{link}.{point}", drawing.points.get(point))
+                if drawn is not None and local is not None:
+                    place = motion.poses[link].point(motion.dimensions.point(link, point))
+                    outputs |= {f"{link}.{point}.x": place.x, f"{link}.{point}.y": place.y}
+                    self.names.append(f"{link}.{point}")
+                    self.goal += drawn
+        self.program = Program.of(motion.trace, outputs)
+
+    def distance(self, modes: dict[str, float], states: dict[str, float], inputs: dict[str, float]) -> float:
+        values = self._values(modes, inputs)
+        outputs, _ = ScalarProgram(self.program).step(
+            [values[name] for name in self.program.parameters],
+            [values[name] for name in self.program.positions],
+            [states[name] for name in self.program.states],
+        )
+        gap = sum((float(o) - g) ** 2 for o, g in zip(outputs, self.goal, strict=True))
+        return gap if gap == gap else math.inf
+
+    def _values(self, modes: dict[str, float], inputs: dict[str, float]) -> dict[str, float]:
+        values = dict(self.motion.mechanism.dimensions())
+        values |= {f"mode:{name}": sign for name, sign in modes.items()}
+        for name, q in inputs.items():
+            values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"slide:{name}": q}
+        return values

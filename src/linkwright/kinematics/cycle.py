@@ -1,0 +1,182 @@
+"""The positions at which a mechanism is solved: times, and every driver's coordinate with its rates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drivers.base import Driver
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+
+Floats = NDArray[np.float64]
+
+
+class CycleError(LinkwrightError):
+    """A cycle that cannot be laid out."""
+
+
+@dataclass(frozen=True)
+class Positions:
+    """n positions of the input: ``time`` (n,) s; per driver coordinate, rate, second derivative, (n,) each.
+
+    ``closed``: the cycle returns to its first position after the last one; ``period`` in s, if it has one.
+    """
+
+    time: Floats
+    coordinates: Mapping[str, tuple[Floats, Floats, Floats]]
+    rotary: Mapping[str, bool]
+    closed: bool
+    period: float | None
+
+    @property
+    def count(self) -> int:
+        """Number of positions."""
+        return len(self.time)
+
+    @cached_property
+    def arrays(self) -> dict[str, Floats]:
+        """The program's inputs per position, by name."""
+        found: dict[str, Floats] = {}
+        for name, (q, rate, second) in self.coordinates.items():
+            if self.rotary[name]:
+                found[f"cos:{name}"], found[f"sin:{name}"] = np.cos(q), np.sin(q)
+            else:
+                found[f"slide:{name}"] = q
+            found[f"rate:{name}"], found[f"second:{name}"] = rate, second
+        return found
+
+    def between(self, a: int, b: int, share: float) -> Positions:
+        """One position on the straight way from position a to position b (for continuation)."""
+        mixed = {
+            name: tuple(row[a : a + 1] + share * (row[b : b + 1] - row[a : a + 1]) for row in rows)
+            for name, rows in self.coordinates.items()
+        }
+        time = self.time[a : a + 1] + share * (self.time[b : b + 1] - self.time[a : a + 1])
+        return Positions(time, mixed, self.rotary, False, None)  # type: ignore[arg-type]
+
+
+def at_times(mechanism: Mechanism, time: ArrayLike, closed: bool = False, period: float | None = None) -> Positions:
+    """The positions at given times, s."""
+    t = np.atleast_1d(np.asarray(time, dtype=float))
+    if not np.isfinite(t).all():
+        raise CycleError("a time is not a finite number; give times in seconds")
+    coordinates = {name: driver.law.coordinate(t) for name, driver in mechanism.drivers.items()}
+    return Positions(t, coordinates, _rotary(mechanism), closed, period)
+
+
+def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> Positions:
+    """The positions at given coordinates of the first driver, or of several drivers by name (rad or m).
+
+    Rates are those of the drivers' constant speeds. Raises CycleError for a driver with another law whose
+    coordinate is given, since then the time would not be known.
+    """
+    if not mechanism.drivers:
+        raise CycleError(f"{mechanism.name!r} has no driver, so there is no input to set; leave the input out")
+    given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
+    rows = {}
+    for name, values in given.items():
+        driver = _driver(mechanism, name)
+        if not isinstance(driver.law, ConstantSpeed):
+            raise CycleError(
+                f"driver {name!r} follows its own law in time; ask for positions by times instead of inputs"
+            )
+        q = np.atleast_1d(np.asarray(values, dtype=float))
+        if not np.isfinite(q).all():
+            raise CycleError(f"an input of driver {name!r} is not a finite number")
+        rows[name] = q
+    count = max(len(q) for q in rows.values())
+    first, q = next(iter(rows.items()))
+    law = mechanism.drivers[first].law
+    assert isinstance(law, ConstantSpeed)
+    time = np.broadcast_to((q - law.start) / law.speed if law.speed else 0.0 * q, (count,))
+    coordinates = {name: driver.law.coordinate(time) for name, driver in mechanism.drivers.items()}
+    for name, q in rows.items():
+        coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
+    return Positions(np.array(time), coordinates, _rotary(mechanism), False, None)
+
+
+def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Positions:
+    """``steps`` equal steps over the cycle of the mechanism.
+
+    A closed cycle (whole turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
+    ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
+    """
+    if steps < 1:
+        raise CycleError(f"steps is {steps}; give one step or more")
+    if not mechanism.drivers:
+        return at_times(mechanism, [0.0])
+    start, duration, closed = time_span(mechanism)
+    count = steps if closed and not endpoint else steps + 1
+    time = start + duration * np.arange(count) / steps
+    return at_times(mechanism, time, closed, abs(duration) if closed else None)
+
+
+def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
+    """Start and duration (s) of the cycle, and whether it closes."""
+    cycle = mechanism.cycle
+    first = next(iter(mechanism.drivers.values()))
+    natural = [driver.law.natural_duration() for driver in mechanism.drivers.values()]
+    known = [duration for duration in natural if duration is not None]
+    repeats = _repeats(mechanism.drivers.values(), known)
+    if cycle is None:
+        if not known:
+            raise CycleError(
+                f"the cycle of {mechanism.name!r} has no natural end, as driver {first.name!r} does not turn; "
+                "write cycle: {from: …, to: …} (the driver's coordinate) or cycle: {duration: 2 s}"
+            )
+        return 0.0, max(known), repeats
+    if cycle.duration is not None:
+        return 0.0, cycle.duration, repeats and _multiple(cycle.duration, max(known))
+    if not isinstance(first.law, ConstantSpeed) or not first.law.speed:
+        raise CycleError(
+            f"the cycle is given by the coordinate of driver {first.name!r}, which has no constant speed; "
+            "write cycle: {duration: …} instead"
+        )
+    if cycle.turns is not None:
+        return 0.0, cycle.turns * 2 * np.pi / abs(first.law.speed), repeats and float(cycle.turns).is_integer()
+    begin, end = cycle.start if cycle.start is not None else first.law.start, cycle.end
+    assert end is not None
+    return (begin - first.law.start) / first.law.speed, (end - begin) / first.law.speed, False
+
+
+def _repeats(drivers: Sequence[Driver] | object, known: Sequence[float]) -> bool:
+    """Whether all drivers are back after the longest natural duration."""
+    laws = [driver.law for driver in drivers]  # type: ignore[attr-defined]
+    if len(known) < len(laws):
+        return False
+    longest = max(known)
+    for law, duration in zip(laws, known, strict=True):
+        ends = law.coordinate(np.array([0.0, longest]))
+        wrap = 2 * np.pi if isinstance(law, ConstantSpeed) else np.inf
+        gap = abs(ends[0][1] - ends[0][0])
+        gap = min(gap % wrap, wrap - gap % wrap) if np.isfinite(wrap) else gap
+        if gap > 1e-9 * (1 + abs(ends[0][0])) or not _multiple(longest, duration):
+            return False
+    return True
+
+
+def _multiple(whole: float, part: float) -> bool:
+    return abs(whole / part - round(whole / part)) < 1e-9
+
+
+def _rotary(mechanism: Mechanism) -> dict[str, bool]:
+    return {
+        name: isinstance(mechanism.joints[driver.joint], RevoluteJoint)
+        for name, driver in mechanism.drivers.items()
+    }
+
+
+def _driver(mechanism: Mechanism, name: str) -> Driver:
+    if name not in mechanism.drivers:
+        offer = nearest(name, list(mechanism.drivers))
+        hint = f"; did you mean {offer!r}?" if offer else f"; there is {', '.join(map(repr, mechanism.drivers))}"
+        raise CycleError(f"there is no driver {name!r}{hint}")
+    return mechanism.drivers[name]

@@ -1,0 +1,107 @@
+"""What an assembled drawing tells: driver coordinates, directions of links, slides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.model.mechanism import Mechanism
+
+Vec = tuple[float, float]
+
+
+class Drawing:
+    """Coordinates of points in frame axes, some of them perhaps missing."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.points: dict[str, Vec] = {**dict(mechanism.drawing), **dict(mechanism.frame.points)}
+        self._angles: dict[str, float | None] = {"frame": 0.0}
+        for name in mechanism.links:
+            self._angles[name] = self._from_points(name)
+        self._spread_along_guides()
+
+    def __bool__(self) -> bool:
+        return bool(self.mechanism.drawing)
+
+    def angle(self, link: str) -> float | None:
+        """Direction of a link's x axis, rad; None where the drawing does not tell."""
+        return self._angles[link]
+
+    def driver(self, name: str) -> float | None:
+        """A driver's coordinate in the drawing."""
+        driver = self.mechanism.drivers[name]
+        joint = self.mechanism.joints[driver.joint]
+        if isinstance(joint, PrismaticJoint):
+            return self.slide(joint)
+        turned, base = self.angle(driver.link), self.angle(driver.relative_to)
+        return None if turned is None or base is None else turned - base
+
+    def slide(self, joint: PrismaticJoint) -> float | None:
+        """Displacement of a guide's block in the drawing."""
+        through, at = self._place(joint.guide, joint.through), self._place(joint.block, joint.at)
+        angle = self.angle(joint.guide)
+        if through is None or at is None or angle is None:
+            return None
+        direction = angle + guide_angle(self.mechanism, joint)
+        return (at[0] - through[0]) * math.cos(direction) + (at[1] - through[1]) * math.sin(direction)
+
+    def _from_points(self, link: str) -> float | None:
+        local = self.mechanism.links[link].points
+        drawn = [name for name in local if self._drawn(link, name) is not None]
+        best: tuple[float, float] | None = None
+        for i, first in enumerate(drawn):
+            for second in drawn[i + 1 :]:
+                a, b = local[first], local[second]
+                p, q = self._drawn(link, first), self._drawn(link, second)
+                assert p is not None and q is not None
+                length = math.hypot(b[0] - a[0], b[1] - a[1])
+                if length > 0 and (best is None or length > best[0]):
+                    world = math.atan2(q[1] - p[1], q[0] - p[0])
+                    best = (length, world - math.atan2(b[1] - a[1], b[0] - a[0]))
+        return None if best is None else best[1]
+
+    def _drawn(self, link: str, point: str) -> Vec | None:
+        return self.points.get(f"{link}.{point}", self.points.get(point))
+
+    def _place(self, link: str, point: str) -> Vec | None:
+        drawn = self._drawn(link, point)
+        if drawn is not None:
+            return drawn
+        angle = self.angle(link)
+        local = self.mechanism.link(link).points
+        for name, (x, y) in local.items():
+            base = self._drawn(link, name)
+            if base is not None and angle is not None:
+                dx, dy = local[point][0] - x, local[point][1] - y
+                c, s = math.cos(angle), math.sin(angle)
+                return base[0] + c * dx - s * dy, base[1] + s * dx + c * dy
+        return None
+
+    def _spread_along_guides(self) -> None:
+        """A link without two drawn points takes its direction from a guide."""
+        guides = [j for j in self.mechanism.joints.values() if isinstance(j, PrismaticJoint)]
+        for _ in guides:
+            for joint in guides:
+                turn = guide_angle(self.mechanism, joint) - joint.block_angle
+                guide, block = self._angles[joint.guide], self._angles[joint.block]
+                if block is None and guide is not None:
+                    self._angles[joint.block] = guide + turn
+                elif guide is None and block is not None:
+                    self._angles[joint.guide] = block - turn
+
+
+def guide_angle(mechanism: Mechanism, joint: PrismaticJoint) -> float:
+    """Direction of a guide in the axes of its link, rad."""
+    if joint.direction_points is None:
+        return joint.direction
+    points: Mapping[str, Vec] = mechanism.link(joint.guide).points
+    (x0, y0), (x1, y1) = (points[name] for name in joint.direction_points)
+    return math.atan2(y1 - y0, x1 - x0)
+
+
+def is_pin(mechanism: Mechanism, name: str) -> bool:
+    """Whether a joint of that name is a pin."""
+    return isinstance(mechanism.joints.get(name), RevoluteJoint)

@@ -1,0 +1,228 @@
+"""The result of a motion analysis: arrays by the names of points, links and joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.names import canonical, find_point, vector_names
+from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+from linkwright.structure import Structure
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """Motion of a point in frame axes, arrays (n, 2): ``position`` m, ``velocity`` m/s, ``acceleration`` m/s²."""
+
+    name: str
+    position: Floats
+    velocity: Floats
+    acceleration: Floats
+
+
+@dataclass(frozen=True)
+class JointMotion:
+    """Coordinate of a joint with its rates, arrays (n,): m for a guide, rad for a pin."""
+
+    name: str
+    displacement: Floats
+    velocity: Floats
+    acceleration: Floats
+
+
+class LinkMotion:
+    """Motion of a link: angle of its x axis (rad, continuous over the positions), its rates, its direction."""
+
+    def __init__(self, motion: Motion, name: str) -> None:
+        self._motion = motion
+        self.name = name
+
+    @cached_property
+    def direction(self) -> Floats:
+        """Unit vector of the link's x axis, (n, 2)."""
+        if self.name == "frame":
+            return np.tile([1.0, 0.0], (self._motion.steps, 1))
+        return self._motion.vector("e", self.name)
+
+    @cached_property
+    def angle(self) -> Floats:
+        """Angle of the link's x axis against the frame's, (n,) rad, counter-clockwise positive.
+
+        Continuous over positions that can be reached; the first lies in (-π, π].
+        """
+        raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
+        good = np.isfinite(raw)
+        raw[good] = np.unwrap(raw[good])
+        return raw
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """(n,) rad/s."""
+        return self._motion.row("w", self.name)
+
+    @property
+    def angular_acceleration(self) -> Floats:
+        """(n,) rad/s²."""
+        return self._motion.row("g", self.name)
+
+    @cached_property
+    def centre(self) -> PointMotion:
+        """Motion of the mass centre."""
+        return self._motion.point_of(f"{self.name}.@centre")
+
+
+@dataclass(eq=False)
+class Motion:
+    """Positions, velocities and accelerations of a mechanism at n positions.
+
+    ``point("C")``, ``link("jaw")``, ``joint("guide")`` give the arrays; ``outcomes`` one sentence per position.
+    Where a position cannot be reached the arrays hold NaN (only if marked outcomes were asked for).
+    """
+
+    solver: MotionSolver
+    positions: Positions
+    states: Mapping[str, Floats]
+    modes: Mapping[str, Floats]
+    outcome_codes: Floats
+    _rows: dict[str, Floats] = field(repr=False)
+    notes: tuple[str, ...] = ()
+    barred: Floats | None = None
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """What was solved."""
+        return self.solver.mechanism
+
+    @property
+    def structure(self) -> Structure:
+        """Its Assur groups."""
+        return self.solver.structure
+
+    @property
+    def steps(self) -> int:
+        """Number of positions n."""
+        return self.positions.count
+
+    @property
+    def time(self) -> Floats:
+        """Times of the positions, (n,) s."""
+        return self.positions.time
+
+    @cached_property
+    def inputs(self) -> dict[str, Floats]:
+        """Coordinates of the drivers by name, (n,) rad or m."""
+        return {name: rows[0] for name, rows in self.positions.coordinates.items()}
+
+    @property
+    def input(self) -> Floats:
+        """Coordinate of the first driver, (n,) rad or m."""
+        if not self.inputs:
+            raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input")
+        return next(iter(self.inputs.values()))
+
+    @cached_property
+    def ok(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Which positions are solved, (n,)."""
+        good = self.outcome_codes == 0
+        return good if self.barred is None else good & (self.barred == 0)
+
+    @cached_property
+    def outcomes(self) -> list[Outcome]:
+        """What became of every position."""
+        from linkwright.kinematics.explain import explain
+
+        return explain(self)
+
+    def point(self, name: str) -> PointMotion:
+        """Motion of a point: ``C`` for a pin or a name used once, ``jaw.D`` for a point of one link."""
+        return self.point_of(self._point_key(name))
+
+    def link(self, name: str) -> LinkMotion:
+        """Motion of a link."""
+        if name != "frame" and name not in self.mechanism.links:
+            self.mechanism.link(name)
+        return LinkMotion(self, name)
+
+    def joint(self, name: str) -> JointMotion:
+        """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
+        joint = self.mechanism.joints.get(name)
+        if isinstance(joint, PrismaticJoint):
+            return JointMotion(name, *(self.row(kind, name) for kind in ("s", "sv", "sa")))
+        if isinstance(joint, RevoluteJoint):
+            a, b = (self.link(link) for link in joint.links[:2])
+            return JointMotion(
+                name,
+                b.angle - a.angle,
+                b.angular_velocity - a.angular_velocity,
+                b.angular_acceleration - a.angular_acceleration,
+            )
+        offer = nearest(name, list(self.mechanism.joints))
+        hint = f"; did you mean {offer!r}?" if offer else ""
+        raise LinkwrightError(f"there is no joint {name!r} with a coordinate{hint}")
+
+    def point_of(self, key: str) -> PointMotion:
+        """Motion of a point by its canonical key."""
+        return PointMotion(key, *(self.vector(prefix, key) for prefix in ("p", "v", "a")))
+
+    def vector(self, prefix: str, key: str) -> Floats:
+        """A vector output, (n, 2)."""
+        rows = self._fetch(vector_names(prefix, key))
+        return np.stack(rows, axis=1)
+
+    def row(self, prefix: str, key: str) -> Floats:
+        """A scalar output, (n,)."""
+        if key == "frame":
+            return np.zeros(self.steps)
+        return self._fetch((f"{prefix}:{key}",))[0]
+
+    def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
+        missing = tuple(name for name in names if name not in self._rows)
+        if missing:
+            values = self.solver.evaluate(missing, self.positions, self.states, self.modes)
+            values[:, ~self.ok] = np.nan
+            self._rows.update(zip(missing, values, strict=True))
+        return [self._rows[name] for name in names]
+
+    def _point_key(self, name: str) -> str:
+        if name.endswith(".centre") and name.removesuffix(".centre") in self.mechanism.links:
+            if "centre" not in self.mechanism.links[name.removesuffix(".centre")].points:
+                return name.removesuffix("centre") + "@centre"
+        return canonical(self.mechanism, *find_point(self.mechanism, name))
+
+    def point_names(self) -> Iterable[str]:
+        """Names of all points that move."""
+        return self.solver.outputs.point_keys()
+
+    def columns(self) -> dict[str, Floats]:
+        """All results as named columns (n,), names with units."""
+        from linkwright.kinematics.table import columns
+
+        return columns(self)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """All results as a tidy table; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        return dataframe(self.columns())
+
+    def __repr__(self) -> str:
+        failed = self.steps - int(self.ok.sum())
+        state = "all assembled" if not failed else f"{failed} not reached"
+        return (
+            f"Motion({self.mechanism.name!r}: {self.steps} positions, {state}; "
+            f"points {', '.join(self.point_names())}; links {', '.join(self.mechanism.links)})"
+        )

@@ -1,0 +1,60 @@
+"""Names of the program's outputs, and which link a point is computed on."""
+
+from __future__ import annotations
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+
+RATES = ("position", "velocity", "acceleration")
+PREFIX = {"position": "p", "velocity": "v", "acceleration": "a"}
+
+
+def vector_names(prefix: str, key: str) -> tuple[str, str]:
+    """Names of the two components of a vector output."""
+    return f"{prefix}:{key}.x", f"{prefix}:{key}.y"
+
+
+def owners(mechanism: Mechanism, point: str) -> list[str]:
+    """Links that carry a point of this name, the frame included."""
+    links = {"frame": mechanism.frame, **mechanism.links}
+    return [name for name, link in links.items() if point in link.points]
+
+
+def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
+    """Link and point for ``C`` or ``jaw.C``.
+
+    Raises LinkwrightError for an unknown name (nearest names offered), and for a name that several links use
+    for different points.
+    """
+    if "." in name:
+        link, point = name.split(".", 1)
+        if link != "frame" and link not in mechanism.links:
+            raise _unknown("link", link, ["frame", *mechanism.links])
+        points = mechanism.link(link).points
+        if point not in points:
+            raise _unknown(f"point of link {link!r}:", point, list(points))
+        return link, point
+    found = owners(mechanism, name)
+    if not found:
+        everything = [p for link in [mechanism.frame, *mechanism.links.values()] for p in link.points]
+        raise _unknown("point", name, everything)
+    if len(found) > 1 and not isinstance(mechanism.joints.get(name), RevoluteJoint):
+        choices = ", ".join(f"{link}.{name}" for link in found)
+        raise LinkwrightError(f"several links have a point {name!r} of their own; say which: {choices}")
+    return found[0], name
+
+
+def canonical(mechanism: Mechanism, link: str, point: str) -> str:
+    """The one key of a point: the pin's name for a pin, else ``link.point``."""
+    joint = mechanism.joints.get(point)
+    if isinstance(joint, RevoluteJoint) and link in joint.links:
+        return point
+    return f"{link}.{point}"
+
+
+def _unknown(noun: str, name: str, known: list[str]) -> LinkwrightError:
+    offer = nearest(name, known)
+    hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(map(repr, dict.fromkeys(known)))}"
+    return LinkwrightError(f"there is no {noun} {name!r}; {hint}")

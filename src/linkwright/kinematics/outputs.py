@@ -1,0 +1,109 @@
+"""All outputs of a traced motion, by name, traced only when somebody asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import ZERO, Vec
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.names import canonical, find_point, vector_names
+from linkwright.kinematics.trace import MotionTrace
+
+#: ``p:C.x`` position, ``v:`` velocity, ``a:`` acceleration of points; ``e:jaw.x`` direction, ``w:jaw`` angular
+#: velocity, ``g:jaw`` angular acceleration of links; ``s:guide``, ``sv:``, ``sa:`` displacements of guides.
+
+
+class MotionOutputs:
+    """Looks outputs up by name in a :class:`MotionTrace`."""
+
+    def __init__(self, motion: MotionTrace) -> None:
+        self.motion = motion
+        self.mechanism = motion.mechanism
+
+    def value(self, name: str) -> Scalar:
+        """The traced value of an output."""
+        if name == "outcome":
+            return self.motion.outcome
+        if name == "valid":
+            from linkwright.engine.trace import select
+
+            return select(self.motion.valid, 1.0, 0.0)
+        kind, key = name.split(":", 1)
+        if kind in ("p", "v", "a"):
+            base, axis = key.rsplit(".", 1)
+            vector = self.point(base)["pva".index(kind)]
+            return vector.x if axis == "x" else vector.y
+        if kind == "e":
+            base, axis = key.rsplit(".", 1)
+            direction = self.motion.poses[base].direction
+            return direction.x if axis == "x" else direction.y
+        if kind in ("w", "g"):
+            state = self.motion.states[key]
+            return state.omega if kind == "w" else state.alpha
+        if kind in ("s", "sv", "sa"):
+            return self.slide(key)[("s", "sv", "sa").index(kind)]
+        if kind == "quality":
+            return self.motion.placed[key].quality
+        if kind == "fact":
+            group, fact = key.rsplit("|", 1)
+            return self.motion.placed[group].facts[fact]
+        raise KeyError(name)
+
+    def point(self, key: str) -> tuple[Vec, Vec, Vec]:
+        """Position, velocity, acceleration of ``C``, ``jaw.D`` or ``jaw.centre`` (the mass centre)."""
+        if key.endswith(".@centre"):
+            link = key.removesuffix(".@centre")
+            return self.motion.point(link, self.motion.dimensions.centre(link))
+        link, point = find_point(self.mechanism, key)
+        link = self._cheapest(link, point)
+        return self.motion.point(link, self.motion.dimensions.point(link, point))
+
+    def _cheapest(self, link: str, point: str) -> str:
+        """For a pin, the link that turns about a point at rest, if there is one."""
+        joint = self.mechanism.joints.get(point)
+        if not isinstance(joint, RevoluteJoint) or link not in joint.links:
+            return link
+        if "frame" in joint.links:
+            return "frame"
+        for name in joint.links:
+            if self.motion.states and self.motion.states.get(name) and self.motion.states[name].velocity == ZERO:
+                return name
+        order = list(self.motion.states)
+        return min(joint.links, key=order.index) if set(joint.links) <= set(order) else link
+
+    def slide(self, joint_name: str) -> tuple[Scalar, Scalar, Scalar]:
+        """Displacement of a guide's block with its rates."""
+        joint = self.mechanism.joints[joint_name]
+        assert isinstance(joint, PrismaticJoint)
+        dimensions, states = self.motion.dimensions, self.motion.states
+        guide, block = states[joint.guide], states[joint.block]
+        n = guide.pose.spin(dimensions.guide_direction(joint))
+        start = guide.arm(dimensions.point(joint.guide, joint.through))
+        arm = block.arm(dimensions.point(joint.block, joint.at))
+        gap = block.pose.place + arm - guide.pose.place
+        rate = n.dot(block.velocity_at(arm) - guide.velocity_at(gap))
+        second = n.dot(block.acceleration_at(arm) - guide.acceleration_at(gap))
+        return n.dot(gap - start), rate, second
+
+    def standard(self) -> list[str]:
+        """What every motion result stores: pins and points with rates, rotation rates, the outcome."""
+        names: list[str] = []
+        for key in self.point_keys():
+            for prefix in ("p", "v", "a"):
+                names += vector_names(prefix, key)
+        for link in self.mechanism.links:
+            names += [f"w:{link}", f"g:{link}"]
+        return [*names, "outcome"]
+
+    def point_keys(self) -> Iterable[str]:
+        """Canonical names of all points of the moving links that the frame does not carry."""
+        keys = {}
+        for name, link in self.mechanism.links.items():
+            for point in link.points:
+                key = canonical(self.mechanism, name, point)
+                joint = self.mechanism.joints.get(key)
+                if not (isinstance(joint, RevoluteJoint) and "frame" in joint.links):
+                    keys[key] = None
+        return keys

@@ -1,0 +1,120 @@
+"""Solving the motion: one call from a mechanism to its positions, velocities and accelerations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.kinematics.change_points import Passage, passages, signs
+from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
+from linkwright.kinematics.explain import refusal
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.model.mechanism import Mechanism
+
+
+def solve_motion(
+    mechanism: Mechanism,
+    *,
+    steps: int = 360,
+    at: ArrayLike | Mapping[str, ArrayLike] | None = None,
+    times: ArrayLike | None = None,
+    endpoint: bool = False,
+    failures: Literal["raise", "mark"] = "raise",
+) -> Motion:
+    """Positions, velocities and accelerations of all links and points.
+
+    Args:
+        mechanism: what to solve.
+        steps: equal steps over the cycle (see ``over_cycle``); used if neither ``at`` nor ``times`` is given.
+        at: coordinates of the first driver (rad or m), or of drivers by name.
+        times: times in s.
+        endpoint: repeat the first position of a closed cycle at its end.
+        failures: ``raise`` refuses if any position cannot be reached; ``mark`` gives NaN there and says why in
+            ``Motion.outcomes``.
+
+    Returns:
+        The motion; arrays have the position first.
+
+    Raises:
+        PositionError: a position is out of reach or singular, and ``failures`` is ``raise``.
+        StructureError, AssemblyError, CycleError: the model is not determined, cannot be put together, or has no
+            cycle.
+    """
+    return MotionRun(MotionSolver(mechanism), _positions(mechanism, steps, at, times, endpoint)).solve(failures)
+
+
+def _positions(
+    mechanism: Mechanism,
+    steps: int,
+    at: ArrayLike | Mapping[str, ArrayLike] | None,
+    times: ArrayLike | None,
+    endpoint: bool,
+) -> Positions:
+    if at is not None:
+        return at_inputs(mechanism, at)
+    if times is not None:
+        return at_times(mechanism, times)
+    return over_cycle(mechanism, steps, endpoint)
+
+
+class MotionRun:
+    """One evaluation of a solver over given positions."""
+
+    def __init__(self, solver: MotionSolver, positions: Positions) -> None:
+        self.solver = solver
+        self.positions = positions
+
+    def solve(self, failures: str = "raise") -> Motion:
+        """The motion, with change points passed smoothly."""
+        states = self.solver.states(self.positions)
+        found = passages(self.solver, self.positions, states)
+        modes: dict[str, Floats] = {}
+        if any(p.touches for p in found):
+            modes = signs(found, self.solver.assembly.modes, self.positions.count)
+            self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
+        motion = self._evaluate(states, modes, _notes(found, self.positions))
+        if failures == "raise" and not motion.ok.all():
+            raise refusal(motion)
+        return motion
+
+    def _evaluate(self, states: Mapping[str, Floats], modes: Mapping[str, Floats], notes: tuple[str, ...]) -> Motion:
+        names = tuple(self.solver.outputs.standard())
+        values = self.solver.evaluate(names, self.positions, states, modes)
+        codes = values[-1].copy()
+        barred = np.zeros(self.positions.count)
+        for row in states.values():
+            barred = np.where(np.isfinite(row), barred, 1.0)
+        values[:, (codes != 0) | (barred != 0)] = np.nan
+        rows = dict(zip(names[:-1], values[:-1], strict=True))
+        return Motion(
+            solver=self.solver,
+            positions=self.positions,
+            states=states,
+            modes=modes,
+            outcome_codes=codes,
+            _rows=rows,
+            notes=notes,
+            barred=barred,
+        )
+
+
+def _notes(found: list[Passage], positions: Positions) -> tuple[str, ...]:
+    """What the user should know about change points and gaps between positions."""
+    notes = []
+    for p in found:
+        name = next(iter(positions.coordinates))
+        q = positions.coordinates[name][0]
+        place = q[p.before] + p.share * (q[p.after] - q[p.before]) if p.after > p.before else q[p.before]
+        where = f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m"
+        if p.touches:
+            notes.append(f"change point of group ({p.group}) at {name} = {where}: the motion goes on smoothly")
+        else:
+            notes.append(
+                f"group ({p.group}) cannot be assembled in a short stretch at {name} = {where}, between two "
+                "solved positions: the mechanism cannot pass there"
+            )
+    return tuple(dict.fromkeys(notes))

@@ -1,0 +1,83 @@
+"""A mechanism made ready to be solved many times: structure, assembly, traced programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.kinematics.assembly import Assembly, assemble
+from linkwright.kinematics.continuation import Follower
+from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure import Structure, structure
+
+
+class MotionSolver:
+    """Programs of one mechanism, traced when first needed."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+        self.flipping: frozenset[str] = frozenset()
+
+    @cached_property
+    def structure(self) -> Structure:
+        return structure(self.mechanism)
+
+    @cached_property
+    def assembly(self) -> Assembly:
+        return assemble(self.mechanism, self.structure)
+
+    @cached_property
+    def motion(self) -> MotionTrace:
+        return trace_motion(self.mechanism, self.structure, modes_vary=self.flipping)
+
+    @cached_property
+    def outputs(self) -> MotionOutputs:
+        return MotionOutputs(self.motion)
+
+    @cached_property
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters: dimensions and signs of the assembly modes."""
+        modes = {f"mode:{name}": sign for name, sign in self.assembly.modes.items()}
+        return {**self.mechanism.dimensions(), **modes}
+
+    def with_flips(self, groups: Iterable[str]) -> MotionSolver:
+        """The same mechanism, with assembly modes of some groups given per position."""
+        other = MotionSolver(self.mechanism)
+        other.flipping = frozenset(groups)
+        other.__dict__["structure"] = self.structure
+        other.__dict__["assembly"] = self.assembly
+        return other
+
+    def program(self, names: tuple[str, ...]) -> NumpyProgram:
+        """The program for some outputs."""
+        if names not in self._programs:
+            values = {name: self.outputs.value(name) for name in names}
+            self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
+        return self._programs[names]
+
+    def states(self, positions: Positions) -> dict[str, Floats]:
+        """Chain coordinates of groups without closed form at every position."""
+        if not self.motion.next_states:
+            return {}
+        return Follower(self.mechanism, self.structure, self.assembly, self.parameters).follow(positions)
+
+    def evaluate(
+        self,
+        names: tuple[str, ...],
+        positions: Positions,
+        states: Mapping[str, Floats],
+        modes: Mapping[str, Floats],
+    ) -> Floats:
+        """Outputs by name, shape (names, n)."""
+        program = self.program(names)
+        values = [self.parameters[name] for name in program.program.parameters]
+        arrays = {**positions.arrays, **modes}
+        return np.asarray(program.run(values, arrays, None, states or None, length=positions.count))

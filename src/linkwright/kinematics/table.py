@@ -1,0 +1,56 @@
+"""Results as named columns with units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.cycle import Floats
+
+if TYPE_CHECKING:
+    import pandas
+
+    from linkwright.kinematics.motion import Motion
+
+
+def columns(motion: Motion) -> dict[str, Floats]:
+    """Time, inputs, links, guides and points of a motion, by column names such as ``jaw.angle [rad]``."""
+    found: dict[str, Floats] = {"time [s]": motion.time}
+    for name, q in motion.inputs.items():
+        found[f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"] = q
+    for name in motion.mechanism.links:
+        link = motion.link(name)
+        found[f"{name}.angle [rad]"] = link.angle
+        found[f"{name}.angular_velocity [rad/s]"] = link.angular_velocity
+        found[f"{name}.angular_acceleration [rad/s²]"] = link.angular_acceleration
+    for name, joint in motion.mechanism.joints.items():
+        if isinstance(joint, PrismaticJoint):
+            slide = motion.joint(name)
+            found[f"{name}.displacement [m]"] = slide.displacement
+            found[f"{name}.velocity [m/s]"] = slide.velocity
+            found[f"{name}.acceleration [m/s²]"] = slide.acceleration
+    for name in motion.point_names():
+        point = motion.point_of(name)
+        for kind, unit, values in (
+            ("position", "m", point.position),
+            ("velocity", "m/s", point.velocity),
+            ("acceleration", "m/s²", point.acceleration),
+        ):
+            found[f"{name}.{kind}.x [{unit}]"] = values[:, 0]
+            found[f"{name}.{kind}.y [{unit}]"] = values[:, 1]
+    return found
+
+
+def dataframe(named: Mapping[str, Floats]) -> pandas.DataFrame:
+    """A pandas table of named columns.
+
+    Raises:
+        LinkwrightError: pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError as error:
+        raise LinkwrightError("pandas is not installed; install it with: pip install pandas") from error
+    return pandas.DataFrame(dict(named))

@@ -1,0 +1,105 @@
+"""The motion of a whole mechanism, traced along its solving order into one program."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+from dataclasses import dataclass, field
+
+from linkwright.engine.trace import Mask, Scalar, Trace, select
+from linkwright.engine.vector import Vec
+from linkwright.kinematics.dimensions import Dimensions
+from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
+from linkwright.kinematics.inputs import DriverInput, driver_input
+from linkwright.kinematics.pose import FRAME_POSE, FRAME_STATE, Pose, State
+from linkwright.kinematics.rates import RateTracer
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure.group import Group, Structure, TreeJoint
+
+
+@dataclass
+class MotionTrace:
+    """Every link's state as traced values, and what the groups know about themselves.
+
+    ``outcome``: 0 where the whole mechanism is in position, else the number (from 1) of the first group that
+    is not, negative if it is in reach but singular.
+    """
+
+    mechanism: Mechanism
+    structure: Structure
+    trace: Trace
+    dimensions: Dimensions
+    drivers: dict[str, DriverInput]
+    poses: dict[str, Pose] = field(default_factory=lambda: {"frame": FRAME_POSE})
+    states: dict[str, State] = field(default_factory=lambda: {"frame": FRAME_STATE})
+    placed: dict[str, Placed] = field(default_factory=dict)
+    rates: dict[TreeJoint, Scalar] = field(default_factory=dict)
+    seconds: dict[TreeJoint, Scalar] = field(default_factory=dict)
+    valid: Mask = True
+    outcome: Scalar = 0.0
+
+    @property
+    def next_states(self) -> dict[str, Scalar]:
+        """Chain coordinates of the groups without closed form, carried to the next position."""
+        return {name: value for p in self.placed.values() for name, value in p.next_states.items()}
+
+    def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
+        """Position, velocity and acceleration of a point given in a link's axes."""
+        state = self.states[link]
+        arm = state.arm(local)
+        return state.pose.place + arm, state.velocity_at(arm), state.acceleration_at(arm)
+
+
+def trace_motion(
+    mechanism: Mechanism,
+    structure: Structure,
+    *,
+    free: Set[str] = frozenset(),
+    iterations: int = 1,
+    modes_vary: Set[str] = frozenset(),
+    rates: bool = True,
+) -> MotionTrace:
+    """Traces positions and, with ``rates``, velocities and accelerations of all links.
+
+    ``free``: dimensions that will vary (others are known zeros where they are zero); ``iterations``:
+    Newton steps of groups without closed form; ``modes_vary``: groups (by name) whose assembly mode is
+    given per position, for motion through change points.
+    """
+    trace = Trace()
+    dimensions = Dimensions(mechanism, trace, free)
+    drivers = {name: driver_input(driver, dimensions) for name, driver in mechanism.drivers.items()}
+    motion = MotionTrace(mechanism, structure, trace, dimensions, drivers)
+
+    def mode(group: Group) -> Scalar:
+        shape = dyad_shape(group)
+        if shape is None or not shape[0].words[0]:
+            return 1.0
+        name = f"mode:{group.name}"
+        return trace.position(name) if group.name in modes_vary else trace.parameter(name)
+
+    placer = GroupTracer(dimensions, drivers, motion.poses, iterations=iterations, mode=mode)
+    for group in structure.groups:
+        motion.placed[group.name] = placer.place(group)
+    if rates:
+        _add_rates(motion)
+    _judge(motion)
+    return motion
+
+
+def _add_rates(motion: MotionTrace) -> None:
+    mover = RateTracer(motion.dimensions, motion.drivers, motion.poses, motion.states)
+    for placed in motion.placed.values():
+        mover.move(placed)
+    motion.rates, motion.seconds = mover.found, mover.seconds
+
+
+def _judge(motion: MotionTrace) -> None:
+    """Outcome of the position: the first group that is out of reach or singular."""
+    outcome: Scalar = 0.0
+    valid: Mask = True
+    for number, placed in reversed(list(enumerate(motion.placed.values(), 1))):
+        if placed.valid is True:
+            continue
+        failed = select(placed.reached, -float(number), float(number))
+        outcome = select(placed.valid, outcome, failed)
+        valid = placed.valid & valid
+    motion.valid, motion.outcome = valid, outcome

@@ -1,0 +1,238 @@
+"""The result of a force analysis, and the one call that makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.balance import balance_residual
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class LoadForce:
+    """What a load did: resultant ``force`` (n, 2) N on moving links, ``moment`` (n,) N·m about the frame's origin,
+    ``place`` (n, 2) m where its first force acts, ``magnitude`` (n,) N of the resultant."""
+
+    name: str
+    force: Floats
+    moment: Floats
+    place: Floats
+
+    @property
+    def magnitude(self) -> Floats:
+        """Size of the resultant, (n,) N."""
+        return np.hypot(self.force[:, 0], self.force[:, 1])
+
+
+@dataclass(eq=False)
+class Forces:
+    """Joint reactions and driver efforts at every position of a motion.
+
+    Arrays have the position first; NaN where the motion was not solved. The driver effort is found from the
+    joint forces and, independently, from the powers of all forces; ``power_residual`` is the difference.
+    """
+
+    motion: Motion
+    solver: ForceSolver
+    fields: Mapping[str, Floats]
+    static: bool
+    _rows: dict[str, Floats] = field(repr=False)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """What was solved."""
+        return self.motion.mechanism
+
+    @property
+    def steps(self) -> int:
+        """Number of positions n."""
+        return self.motion.steps
+
+    def reaction(self, joint: str, *, on: str | None = None, axes: str = "frame") -> Floats:
+        """Force (n, 2), N, that a joint exerts on link ``on``, in frame axes or in the axes of a link.
+
+        For a pin of several links it is the link's own share. ``on`` may be left out where the joint joins the
+        frame with one other link. Raises LinkwrightError for unknown names.
+        """
+        link = self._link_at(joint, on)
+        force = self._reaction(joint, link)
+        if axes == "frame":
+            return force
+        e = self.motion.link(axes if axes in self.mechanism.links else self._unknown_link(axes)).direction
+        return np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1)
+
+    def couple(self, joint: str, *, on: str | None = None) -> Floats:
+        """Couple (n,), N·m, that a guide (about the block's point) or a weld exerts on a link; zero for a pin."""
+        link = self._link_at(joint, on)
+        first = self.mechanism.joints[joint].joined[0]
+        if isinstance(self.mechanism.joints[joint], RevoluteJoint):
+            return np.zeros(self.steps)
+        other = self.mechanism.joints[joint].joined[1]
+        row = self._fetch((f"c:{joint}|{other}",))[0]
+        return -row if link == first else row
+
+    def resultant_offset(self, joint: str) -> Floats:
+        """Where along the guide the resultant acts, (n,) m from the block's point, positive along the guide."""
+        joined = self.mechanism.joints[joint].joined
+        n = self._guide_direction(joint)
+        force = self._reaction(joint, joined[1])
+        normal = n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0]
+        with np.errstate(all="ignore"):
+            return self.couple(joint, on=joined[1]) / normal
+
+    def driver_effort(self, name: str) -> Floats:
+        """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
+        if name not in self.mechanism.drivers:
+            offer = nearest(name, list(self.mechanism.drivers))
+            raise LinkwrightError(f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+        return self._fetch((f"effort:{name}",))[0]
+
+    @property
+    def input_torque(self) -> Floats:
+        """Effort of the first driver, (n,): N·m for a turning driver, N for a sliding one."""
+        return self.driver_effort(self._first_driver())
+
+    @cached_property
+    def input_torque_from_power(self) -> Floats:
+        """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
+        if len(self.mechanism.drivers) != 1:
+            raise LinkwrightError("with several drivers the powers give one sum, not the effort of one driver")
+        rate = self.motion.positions.coordinates[self._first_driver()][1]
+        with np.errstate(all="ignore"):
+            return np.where(rate == 0.0, np.nan, self.power / rate)
+
+    @cached_property
+    def power(self) -> Floats:
+        """Power that the drivers must supply, from the powers of all forces, (n,) W."""
+        return self._fetch(("power",))[0]
+
+    @cached_property
+    def power_residual(self) -> Floats:
+        """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""
+        if not self.mechanism.drivers:
+            return np.zeros(self.steps)
+        return self._fetch(("driver_power",))[0] - self.power
+
+    @cached_property
+    def balance_residual(self) -> Floats:
+        """Largest imbalance of forces on any link, (n,) N, from the printed forces and exact accelerations."""
+        return balance_residual(self)
+
+    @cached_property
+    def shaking_force(self) -> Floats:
+        """Resultant of the inertia forces on the frame, (n, 2) N."""
+        return np.stack(self._fetch(("shake.x", "shake.y")), axis=1)
+
+    @cached_property
+    def shaking_moment(self) -> Floats:
+        """Its moment about the frame's origin, (n,) N·m."""
+        return self._fetch(("shake_moment",))[0]
+
+    def load(self, name: str) -> LoadForce:
+        """What one of the file's loads did."""
+        if name not in self.mechanism.loads:
+            offer = nearest(name, list(self.mechanism.loads))
+            raise LinkwrightError(f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+        names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
+        fx, fy, moment, px, py = self._fetch(names)
+        return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
+
+    def columns(self) -> dict[str, Floats]:
+        """All results as named columns (n,), names with units."""
+        from linkwright.kinetostatics.table import columns
+
+        return columns(self)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """All results as a tidy table; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        return dataframe(self.columns())
+
+    def _reaction(self, joint: str, link: str) -> Floats:
+        links = self.mechanism.joints[joint].joined
+        if link != links[0]:
+            return np.stack(self._fetch((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y")), axis=1)
+        return -np.sum([self._reaction(joint, other) for other in links[1:]], axis=0)
+
+    def _link_at(self, joint: str, on: str | None) -> str:
+        joints = self.mechanism.joints
+        if joint not in joints:
+            offer = nearest(joint, list(joints))
+            raise LinkwrightError(f"there is no joint {joint!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+        links = joints[joint].joined
+        if on is None:
+            others = [link for link in links if link != "frame"]
+            if len(others) != 1:
+                raise LinkwrightError(f"joint {joint!r} joins {', '.join(links)}; say on which link: on={others[0]!r}")
+            return others[0]
+        if on not in links:
+            raise LinkwrightError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")
+        return on
+
+    def _guide_direction(self, joint: str) -> Floats:
+        from linkwright.kinematics.drawing import guide_angle
+
+        prismatic = self.mechanism.joints[joint]
+        angle = guide_angle(self.mechanism, prismatic)  # type: ignore[arg-type]
+        e = self.motion.link(prismatic.joined[0]).direction
+        c, s = np.cos(angle), np.sin(angle)
+        return np.stack([c * e[:, 0] - s * e[:, 1], s * e[:, 0] + c * e[:, 1]], axis=1)
+
+    def _unknown_link(self, name: str) -> str:
+        self.mechanism.link(name)
+        return name
+
+    def _first_driver(self) -> str:
+        if not self.mechanism.drivers:
+            raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
+        return next(iter(self.mechanism.drivers))
+
+    def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
+        missing = tuple(name for name in names if name not in self._rows)
+        if missing:
+            m = self.motion
+            values = self.solver.evaluate(missing, m.positions, m.states, m.modes, self.fields)
+            values[:, ~m.ok] = np.nan
+            self._rows.update(zip(missing, values, strict=True))
+        return [self._rows[name] for name in names]
+
+    def __repr__(self) -> str:
+        joints = ", ".join(self.mechanism.joints)
+        kind = "static" if self.static else "kinetostatic"
+        return f"Forces({self.mechanism.name!r}: {kind}, {self.steps} positions; joints {joints})"
+
+
+def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int = 360) -> Forces:
+    """Reactions of all joints and the effort of every driver, by Assur group in reverse solving order.
+
+    Args:
+        source: a motion, or a mechanism whose cycle is solved first over ``steps``.
+        static: leave the inertia forces out.
+
+    Returns:
+        The forces; with power and balance residuals.
+
+    Raises:
+        LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
+    """
+    motion = source if isinstance(source, Motion) else solve_motion(source, steps=steps)
+    from linkwright.kinetostatics.run import run_forces
+
+    return run_forces(motion, static)

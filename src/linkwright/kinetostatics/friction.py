@@ -1,0 +1,89 @@
+"""Coulomb friction in joints: couples in pins, forces along guides, as inputs that an iteration sets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
+from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinetostatics.site import TracedSite
+from linkwright.loads.site import Wrench
+
+
+@dataclass(frozen=True)
+class FrictionTerm:
+    """Friction between link ``a`` and link ``b`` at a joint.
+
+    Pin: couple on b of magnitude ``coefficient`` · pin radius · reaction, against the relative rotation. Guide:
+    force on the block of magnitude ``coefficient`` · normal force, against the sliding.
+    """
+
+    joint: str
+    a: str
+    b: str
+    arm: float
+    slides: bool
+
+    @property
+    def field(self) -> str:
+        """Name of the program's input that holds it."""
+        return f"friction:{self.joint}|{self.b}"
+
+
+class FrictionTerms:
+    """All friction of a mechanism's joints."""
+
+    def __init__(self, motion: MotionTrace, terms: tuple[FrictionTerm, ...]) -> None:
+        self.motion = motion
+        self.terms = terms
+
+    @classmethod
+    def of(cls, motion: MotionTrace) -> FrictionTerms:
+        """The friction terms of the joints that have a coefficient.
+
+        Raises:
+            LinkwrightError: a pin with friction but without a radius.
+        """
+        terms = []
+        for name, joint in motion.mechanism.joints.items():
+            coefficient = getattr(joint, "friction", 0.0)
+            if not coefficient:
+                continue
+            if isinstance(joint, RevoluteJoint):
+                if joint.pin_radius is None:
+                    raise LinkwrightError(
+                        f"joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: 20 mm"
+                    )
+                pairs = [(c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name]
+                terms += [FrictionTerm(name, a, b, coefficient * joint.pin_radius, False) for a, b in pairs]
+            elif isinstance(joint, PrismaticJoint):
+                terms.append(FrictionTerm(name, joint.guide, joint.block, coefficient, True))
+        return cls(motion, tuple(terms))
+
+    def wrenches(self) -> dict[str, list[Wrench]]:
+        """The friction as loads on both links, with magnitudes from the program's inputs."""
+        return {term.field: self._wrenches(term) for term in self.terms}
+
+    def _wrenches(self, term: FrictionTerm) -> list[Wrench]:
+        size: Scalar = self.motion.trace.field_input(term.field)
+        if not term.slides:
+            return [Wrench(term.b, torque=size), Wrench(term.a, torque=-size)]
+        site = TracedSite(self.motion, None)  # type: ignore[arg-type]
+        direction, place, _ = site.guide(term.joint)
+        force = Vec(direction.x * size, direction.y * size)
+        return [Wrench(term.b, force, place), Wrench(term.a, -force, place)]
+
+
+def friction_sizes(
+    terms: tuple[FrictionTerm, ...], reactions: Mapping[str, Floats], rates: Mapping[str, Floats]
+) -> dict[str, Floats]:
+    """Friction from the size of each reaction and the sign of each joint's rate."""
+    return {term.field: -np.sign(rates[term.field]) * term.arm * reactions[term.field] for term in terms}

@@ -1,0 +1,110 @@
+"""One force analysis: magnitudes of the loads, friction by iteration, then all reactions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
+from linkwright.kinetostatics.solver import ForceSolver
+
+#: Iterations of the friction, and the relative change at which it has converged.
+FRICTION_STEPS = 400
+FRICTION_CHANGE = 1e-12
+
+
+class FrictionError(LinkwrightError):
+    """Friction for which no finite driver effort is found."""
+
+
+def run_forces(motion: Motion, static: bool) -> Forces:
+    """Solves the forces of a motion."""
+    solver = ForceSolver(motion.solver, inertia=not static)
+    fields = _load_fields(motion, solver)
+    if solver.friction.terms:
+        fields = _with_friction(motion, solver, fields)
+    return _evaluated(motion, solver, fields, static)
+
+
+def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
+    names = tuple(solver.outputs.standard())
+    values = solver.evaluate(names, motion.positions, motion.states, motion.modes, fields)
+    if not motion.ok.all():
+        values[:, ~motion.ok] = np.nan
+    return Forces(motion, solver, fields, static, dict(zip(names, values, strict=True)))
+
+
+def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
+    """Load magnitudes and angles that depend on the position."""
+    fields: dict[str, Floats] = {}
+    for name in solver.fields_needed():
+        kind, _, key = name.partition(":")
+        if kind == "load":
+            from linkwright.kinetostatics.signals import MotionSignals
+            from linkwright.loads.magnitude import evaluate
+
+            fields[name] = evaluate(motion.mechanism.loads[key], MotionSignals(motion))
+        elif kind == "angle":
+            a, b = key.split("|")
+            fields[name] = motion.link(b).angle - motion.link(a).angle
+        elif kind == "friction":
+            fields[name] = np.zeros(motion.steps)
+    return fields
+
+
+def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
+    """Friction that agrees with the reactions it causes, by fixed-point iteration."""
+    terms = solver.friction.terms
+    rates = {term.field: _rate(motion, term) for term in terms}
+    previous = np.inf
+    growing = 0
+    for _ in range(FRICTION_STEPS):
+        forces = _evaluated(motion, solver, fields, False)
+        sizes = friction_sizes(terms, {t.field: _pressing(forces, t) for t in terms}, rates)
+        change, size = _change(fields, sizes, motion)
+        fields = {**fields, **sizes}
+        if change <= FRICTION_CHANGE * size or size == 0.0:
+            return fields
+        growing = growing + 1 if change > previous else 0
+        if growing > 25 or not np.isfinite(change):
+            break
+        previous = change
+    raise FrictionError(_locked(motion, terms, fields))
+
+
+def _rate(motion: Motion, term: FrictionTerm) -> Floats:
+    if term.slides:
+        rate = motion.joint(term.joint).velocity
+    else:
+        rate = motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity
+    scale = np.nanmax(np.abs(rate), initial=0.0)
+    return np.where(np.abs(rate) < 1e-12 * scale, 0.0, rate)
+
+
+def _pressing(forces: Forces, term: FrictionTerm) -> Floats:
+    """Size of the force that presses the two parts together."""
+    force = forces.reaction(term.joint, on=term.b)
+    if not term.slides:
+        return np.hypot(force[:, 0], force[:, 1])
+    n = forces._guide_direction(term.joint)
+    return np.abs(n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0])
+
+
+def _change(old: dict[str, Floats], new: dict[str, Floats], motion: Motion) -> tuple[float, float]:
+    good = motion.ok
+    change = max(float(np.max(np.abs(new[k] - old[k])[good], initial=0.0)) for k in new)
+    return change, max(float(np.max(np.abs(new[k])[good], initial=0.0)) for k in new)
+
+
+def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, Floats]) -> str:
+    worst = max(terms, key=lambda t: float(np.nanmax(np.abs(fields[t.field]), initial=0.0)))
+    place = int(np.nanargmax(np.abs(fields[worst.field])))
+    where = ", ".join(f"{name} = {q[place]:.6g}" for name, q in motion.inputs.items())
+    return (
+        f"{motion.mechanism.name!r} is self-locking by friction near {where} (rad or m): the friction in joint "
+        f"{worst.joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
+        "coefficient or the pin radius, or improve the transmission angle there"
+    )

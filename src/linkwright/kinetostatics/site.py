@@ -1,0 +1,58 @@
+"""The mechanism as a load sees it, over a traced motion."""
+
+from __future__ import annotations
+
+from linkwright.engine.trace import Scalar, cos, sin
+from linkwright.engine.vector import Vec
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.loads.base import Load
+
+
+class TracedSite:
+    """One load's view; see :class:`linkwright.loads.site.Site`."""
+
+    def __init__(self, motion: MotionTrace, load: Load) -> None:
+        self.motion = motion
+        self.load = load
+        self.asked: set[str] = set()
+
+    def place(self, link: str, point: str) -> Vec:
+        state = self.motion.states[link]
+        return state.pose.place + state.arm(self.motion.dimensions.point(link, point))
+
+    def velocity(self, link: str, point: str) -> Vec:
+        state = self.motion.states[link]
+        return state.velocity_at(state.arm(self.motion.dimensions.point(link, point)))
+
+    def axis(self, link: str) -> Vec:
+        return self.motion.states[link].pose.direction
+
+    def omega(self, link: str) -> Scalar:
+        return self.motion.states[link].omega
+
+    def angle_between(self, a: str, b: str) -> Scalar:
+        return self.motion.trace.field_input(f"angle:{a}|{b}")
+
+    def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
+        prismatic = self.motion.mechanism.joints[joint]
+        assert isinstance(prismatic, PrismaticJoint)
+        guide, block = self.motion.states[prismatic.guide], self.motion.states[prismatic.block]
+        direction = guide.pose.spin(self.motion.dimensions.guide_direction(prismatic))
+        arm = block.arm(self.motion.dimensions.point(prismatic.block, prismatic.at))
+        place = block.pose.place + arm
+        relative = block.velocity_at(arm) - guide.velocity_at(place - guide.pose.place)
+        return direction, place, direction.dot(relative)
+
+    def dimension(self, field: str) -> Scalar:
+        return self.motion.dimensions(f"loads.{self.load.name}.{field}")
+
+    def magnitude(self) -> Scalar:
+        from linkwright.loads.magnitude import is_constant
+
+        if is_constant(self.load):
+            return self.dimension("magnitude")
+        return self.motion.trace.field_input(f"load:{self.load.name}")
+
+    def direction(self, angle: Scalar) -> Vec:
+        return Vec(cos(angle), sin(angle))

@@ -1,0 +1,229 @@
+"""Joint forces and driver efforts of a whole mechanism, traced group by group in reverse solving order.
+
+For every link the demand is what joints must supply: m (a - g) minus the applied loads, and the moment of
+that about the link's anchor. In a group Jᵀ λ = Q gives the forces λ at the cuts from the demands Q on the
+chain coordinates; then every link's balance, from the ends of the chains inwards, gives the force at the
+joint that carries it (d'Alembert; Artobolevsky, Theory of Mechanisms and Machines, kinetostatics of groups).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from linkwright.engine.linear import product, transposed
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import ZERO, Vec
+from linkwright.kinematics.closure import Cut
+from linkwright.kinematics.groups import Placed
+from linkwright.kinematics.pairs import Guide, pair_of
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinetostatics.site import TracedSite
+from linkwright.loads.site import Wrench
+from linkwright.structure.group import Connection, TreeJoint
+
+
+@dataclass(frozen=True)
+class Demand:
+    """Force (N) and moment (N·m, about the link's anchor) that joints must supply to a link."""
+
+    force: Vec = ZERO
+    moment: Scalar = 0.0
+
+    def __add__(self, other: Demand) -> Demand:
+        return Demand(self.force + other.force, self.moment + other.moment)
+
+
+@dataclass(frozen=True)
+class JointForce:
+    """What one pair of links exchanges: ``force`` on link ``on`` at the joint's place, and a couple."""
+
+    connection: Connection
+    on: str
+    force: Vec
+    couple: Scalar
+    place: Vec
+
+
+@dataclass
+class ForceTrace:
+    """Reactions and efforts as traced values."""
+
+    motion: MotionTrace
+    joints: list[JointForce] = field(default_factory=list)
+    efforts: dict[str, Scalar] = field(default_factory=dict)
+    own: dict[str, Demand] = field(default_factory=dict)
+    wrenches: dict[str, list[Wrench]] = field(default_factory=dict)
+
+    def reaction(self, joint: str, on: str) -> Vec:
+        """Force that a joint exerts on a link."""
+        total = ZERO
+        for each in self.joints:
+            if each.connection.joint == joint and on in (each.connection.a, each.connection.b):
+                total = total + each.force if each.on == on else total - each.force
+        return total
+
+    def couple(self, joint: str, on: str) -> Scalar:
+        """Couple that a guide or a weld exerts on a link, about the block's point or the weld."""
+        total: Scalar = 0.0
+        for each in self.joints:
+            if each.connection.joint == joint and on in (each.connection.a, each.connection.b):
+                total = total + each.couple if each.on == on else total - each.couple
+        return total
+
+    @property
+    def power(self) -> Scalar:
+        """Power that the drivers must supply, from the powers of all inertia forces, weights and loads."""
+        total: Scalar = 0.0
+        for link, demand in self.own.items():
+            state = self.motion.states[link]
+            total = total + demand.force.dot(state.velocity) + demand.moment * state.omega
+        return total
+
+    @property
+    def driver_power(self) -> Scalar:
+        """Power of the efforts found from the joint forces."""
+        total: Scalar = 0.0
+        for name, effort in self.efforts.items():
+            total = total + effort * self.motion.drivers[name].rate
+        return total
+
+
+def trace_forces(motion: MotionTrace, *, inertia: bool = True, extra: Mapping[str, list[Wrench]] | None = None) -> ForceTrace:
+    """Traces all joint forces of a traced motion.
+
+    ``inertia`` False leaves the inertia forces out (static analysis); ``extra``: further wrenches by name, such
+    as the friction of joints.
+    """
+    forces = ForceTrace(motion)
+    for name, load in motion.mechanism.loads.items():
+        forces.wrenches[name] = list(load.wrenches(TracedSite(motion, load)))
+    forces.wrenches |= extra or {}
+    demands = {name: Demand() for name in ("frame", *motion.mechanism.links)}
+    for name in motion.mechanism.links:
+        demands[name] = forces.own[name] = _own_demand(motion, name, forces, inertia)
+    solver = _Reverse(forces, demands)
+    for placed in reversed(list(motion.placed.values())):
+        solver.solve(placed)
+    return forces
+
+
+def _own_demand(motion: MotionTrace, link: str, forces: ForceTrace, inertia: bool) -> Demand:
+    state, dimensions = motion.states[link], motion.dimensions
+    mass = dimensions(f"{link}.mass")
+    gravity = Vec(dimensions("gravity.x"), dimensions("gravity.y"))
+    arm = state.arm(dimensions.centre(link))
+    acceleration = state.acceleration_at(arm) if inertia else ZERO
+    force = (acceleration - gravity) * mass
+    moment: Scalar = arm.cross(force)
+    if inertia:
+        moment = moment + dimensions(f"{link}.inertia") * state.alpha
+    for wrench in (w for group in forces.wrenches.values() for w in group if w.link == link):
+        force = force - wrench.force
+        moment = moment - (wrench.place - state.pose.place).cross(wrench.force) - wrench.torque
+    return Demand(force, moment)
+
+
+class _Reverse:
+    """Goes through the groups from the last to the first."""
+
+    def __init__(self, forces: ForceTrace, demands: dict[str, Demand]) -> None:
+        self.forces = forces
+        self.motion = forces.motion
+        self.demands = demands
+
+    def solve(self, placed: Placed) -> None:
+        """Forces of one group; what its links need of links solved before is added to their demand."""
+        multipliers = product(transposed(placed.inverse), self._wanted(placed)) if placed.cuts else []
+        row = 0
+        for cut in placed.cuts:
+            self._apply(cut, multipliers[row : row + cut.rows])
+            row += cut.rows
+        for step in reversed(placed.group.tree):
+            self._carry(step)
+
+    def _wanted(self, placed: Placed) -> list[Scalar]:
+        """Demand on every unknown chain coordinate, with the chains open."""
+        open_chains = {link: self.demands[link] for link in placed.group.links}
+        wanted: dict[TreeJoint, Scalar] = {}
+        for step in reversed(placed.group.tree):
+            demand = open_chains[step.child]
+            pair = pair_of(step, self.motion.dimensions)
+            if step.free:
+                along = pair.normal(self.motion.poses[step.parent]) if isinstance(pair, Guide) else None
+                wanted[step] = demand.moment if along is None else along.dot(demand.force)
+            if step.parent in open_chains:
+                passed = self._moved(demand, step, free_pin=False)
+                open_chains[step.parent] = open_chains[step.parent] + passed
+        return [wanted[step] for step in placed.group.unknowns]
+
+    def _moved(self, demand: Demand, step: TreeJoint, *, free_pin: bool) -> Demand:
+        """A child's demand as its parent feels it; through a free pin goes no moment."""
+        poses = self.motion.poses
+        arm = self._arm_on_parent(step)
+        moment = arm.cross(demand.force)
+        if not free_pin:
+            moment = moment + demand.moment
+        return Demand(demand.force, moment) if poses else demand
+
+    def _arm_on_parent(self, step: TreeJoint) -> Vec:
+        parent, child = self.motion.poses[step.parent], self.motion.poses[step.child]
+        if step.kind == "revolute":
+            point = self.motion.dimensions.point(step.parent, step.joint)
+            return parent.spin(point - parent.anchor)
+        return child.place - parent.place
+
+    def _apply(self, cut: Cut, multipliers: list[Scalar]) -> None:
+        """The force at a cut supplies part of both links' demand."""
+        poses = self.motion.poses
+        for link in (cut.connection.a, cut.connection.b):
+            force = cut.force_on(link, multipliers, poses)
+            pose = poses[link]
+            if cut.connection.kind == "revolute":
+                arm = pose.spin(cut.point(link) - pose.anchor)
+            else:
+                arm = cut.place(link, poses) - pose.place
+            self.demands[link] = self.demands[link] + Demand(-force, -arm.cross(force))
+        on = cut.connection.b if cut.connection.kind == "prismatic" else cut.connection.a
+        self.forces.joints.append(
+            JointForce(cut.connection, on, cut.force_on(on, multipliers, poses), 0.0, cut.place(on, poses))
+        )
+
+    def _carry(self, step: TreeJoint) -> None:
+        """The joint that hangs a child on its parent supplies the child's whole demand."""
+        demand = self.demands[step.child]
+        pin = step.kind == "revolute"
+        passed = self._moved(demand, step, free_pin=pin and step.free)
+        self.demands[step.parent] = self.demands[step.parent] + passed
+        force, couple = demand.force, 0.0 if pin else self._couple(step, demand)
+        if step.driver is not None:
+            force = force - self._drive(step, demand)
+        place = self.motion.poses[step.child].place
+        self.forces.joints.append(JointForce(step.connection, step.child, force, couple, place))
+
+    def _couple(self, step: TreeJoint, demand: Demand) -> Scalar:
+        """Couple on the child about the block's point (guide) or the weld."""
+        pose = self.motion.poses[step.child]
+        if step.kind == "prismatic" and step.child == step.connection.a:
+            block = self.motion.poses[step.parent].place + self._block_arm(step)
+            return demand.moment + (pose.place - block).cross(demand.force)
+        return demand.moment
+
+    def _block_arm(self, step: TreeJoint) -> Vec:
+        parent = self.motion.poses[step.parent]
+        joint = self.motion.mechanism.joints[step.joint]
+        return parent.spin(self.motion.dimensions.point(step.parent, joint.at) - parent.anchor)  # type: ignore[attr-defined]
+
+    def _drive(self, step: TreeJoint, demand: Demand) -> Vec:
+        """Notes the driver's effort; the force it exerts on the child along a guide."""
+        assert step.driver is not None
+        if step.kind == "revolute":
+            own = step.child == self.motion.mechanism.drivers[step.driver].link
+            self.forces.efforts[step.driver] = demand.moment if own else -demand.moment
+            return ZERO
+        pair = pair_of(step, self.motion.dimensions)
+        assert isinstance(pair, Guide)
+        along = pair.normal(self.motion.poses[step.parent])
+        effort = along.dot(demand.force)
+        self.forces.efforts[step.driver] = effort
+        return along * effort

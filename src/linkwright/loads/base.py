@@ -1,0 +1,227 @@
+"""What all loads have in common: the declaration of their keys, and their registry.
+
+A kind of load is one file with one frozen dataclass, registered under the word of its key ``kind``::
+
+    @LOADS.register("spring")
+    @dataclass(frozen=True, kw_only=True)
+    class Spring(Load):
+        between: tuple[LinkPoint, LinkPoint] = points(doc="its two ends")
+        stiffness: float = quantity("stiffness", minimum=0, doc="force per elongation")
+        free_length: float = quantity("length", minimum=0, default=0.0)
+
+From the declared fields follow the reading of files with all findings, the JSON Schema, the addresses of the
+load's dimensions (``loads.NAME.FIELD``) and the writing of files.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.model.fields import Field, Quantities, Quantity, Schema, Text, Word, table_schema
+from linkwright.model.reference_fields import (
+    JointName,
+    LinkName,
+    LinkPoint,
+    PointName,
+    PointPair,
+    PointReference,
+    PointReferences,
+)
+from linkwright.model.signal_fields import Magnitude, Output, OutputName, Phase, PhaseField, Table, TableField
+from linkwright.registry import Registry
+
+if TYPE_CHECKING:
+    from linkwright.model.nodes import Node
+    from linkwright.model.reader import Place, Reader
+
+__all__ = ["LOADS", "LinkPoint", "Load", "Output", "Phase", "Table", "joint", "link", "magnitude", "output", "phase",
+           "point", "point_of", "points", "quantity", "ray", "table", "values", "word"]  # fmt: skip
+
+_REQUIRED: Any = object()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Load:
+    """A load on the mechanism; ``name`` is its name in the model.
+
+    ``exactly_one`` lists groups of fields of which exactly one must be given, ``at_most_one`` of which one may be.
+    """
+
+    kind: ClassVar[str]
+    exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    at_most_one: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    name: str
+
+    @classmethod
+    def fields(cls) -> dict[str, Field]:
+        """The declared fields by their attribute names."""
+        return {each.name: each.metadata["field"] for each in dataclasses.fields(cls) if "field" in each.metadata}
+
+    @classmethod
+    def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
+        """Checks across fields; ``report(key, message, remedy)`` adds a finding. A kind may replace this."""
+
+    @classmethod
+    def schema(cls) -> Schema:
+        """JSON Schema of the load in a file."""
+        found = table_schema({"kind": Word((cls.kind,), required=True), **cls.fields()})
+        doc = (cls.__doc__ or "").strip().splitlines()
+        return {"title": cls.kind, "description": doc[0] if doc else "", **found}
+
+    def dimensions(self) -> dict[str, float]:
+        """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""
+        return {
+            f"loads.{self.name}.{each.key or name}{suffix}": value
+            for name, each in self.fields().items()
+            for suffix, value in each.flatten(getattr(self, name)).items()
+        }
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Load:
+        """The same load with the values that ``value`` gives for the addresses of ``dimensions``."""
+
+        def rebuilt(name: str, each: Field) -> Any:
+            address = f"loads.{self.name}.{each.key or name}"
+            return each.rebuild(getattr(self, name), lambda suffix: value(address + suffix))
+
+        return dataclasses.replace(self, **{name: rebuilt(name, each) for name, each in self.fields().items()})
+
+    def written(self) -> dict[str, Any]:
+        """The load as plain data for a file."""
+        found: dict[str, Any] = {"kind": self.kind}
+        for each in dataclasses.fields(self):
+            value = getattr(self, each.name)
+            if "field" in each.metadata and value is not None and value != each.default:
+                declared = each.metadata["field"]
+                found[declared.key or each.name] = declared.written(value)
+        return found
+
+
+LOADS: Registry[type[Load]] = Registry("load kind", "linkwright.loads")
+
+
+def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
+    """The load at a node of a file, or None after findings."""
+    mapping = reader.mapping(node, place)
+    if mapping is None:
+        return None
+    kind_node = mapping.get("kind")
+    if kind_node is None:
+        reader.error(node, place, "the load has no kind", f"write kind: one of {', '.join(LOADS)}", "missing-key")
+        return None
+    kind = reader.word(kind_node, place.child("kind"), tuple(LOADS))
+    if kind is None:
+        return None
+    cls = LOADS[kind]
+    before = reader.error_count
+    found = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
+    if found is None:
+        return None
+    given = {attribute for attribute, each in cls.fields().items() if mapping.get(each.key or attribute) is not None}
+    _check_choices(reader, node, place, cls, given)
+    if reader.error_count == before:
+        cls.check(found, lambda key, message, remedy: reader.error(
+            mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load"))
+    if reader.error_count > before:
+        return None
+    present = {key: value for key, value in found.items() if key != "kind" and value is not None}
+    return cls(name=name, **present)
+
+
+def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: Iterable[str]) -> None:
+    have = set(given)
+    for least, groups in ((1, cls.exactly_one), (0, cls.at_most_one)):
+        for group in groups:
+            chosen = [name for name in group if name in have]
+            if least <= len(chosen) <= 1:
+                continue
+            words = ", ".join(group)
+            if chosen:
+                reader.error(node, place, f"{' and '.join(chosen)} are both given", f"keep one of {words}", "choice")
+            else:
+                reader.error(node, place, f"none of {words} is given", "give exactly one of them", "choice")
+
+
+def _declare(kind: Field, default: Any) -> Any:
+    if default is _REQUIRED:
+        return dataclasses.field(metadata={"field": dataclasses.replace(kind, required=True)})
+    return dataclasses.field(default=default, metadata={"field": kind})
+
+
+def quantity(
+    dimension: str,
+    *,
+    default: Any = _REQUIRED,
+    minimum: float | None = None,
+    above: float | None = None,
+    nonzero: bool = False,
+    doc: str = "",
+    key: str = "",
+) -> Any:
+    """A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI. Without ``default`` it is required."""
+    return _declare(Quantity(dimension, minimum=minimum, above=above, nonzero=nonzero, doc=doc, key=key), default)
+
+
+def values(
+    dimension: str, *, names: tuple[str, ...] = (), count: int | None = None, default: Any = _REQUIRED, doc: str = "",
+    key: str = "",
+) -> Any:
+    """A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``."""
+    return _declare(Quantities(dimension, names, count, doc=doc, key=key), default)
+
+
+def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """The name of a link; ``moving`` excludes the frame."""
+    return _declare(LinkName(moving=moving, doc=doc, key=key), default)
+
+
+def point_of(of: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """The name of a point of the link that the earlier field ``of`` names."""
+    return _declare(PointName(of, doc=doc, key=key), default)
+
+
+def ray(of: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """Two points ``[P, Q]`` of the link that the earlier field ``of`` names."""
+    return _declare(PointPair(of, doc=doc, key=key), default)
+
+
+def point(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """A point of the mechanism, a LinkPoint."""
+    return _declare(PointReference(doc=doc, key=key), default)
+
+
+def points(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """Two points of the mechanism, a pair of LinkPoints."""
+    return _declare(PointReferences(doc=doc, key=key), default)
+
+
+def joint(*kinds: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """The name of a joint of one of the kinds (default: revolute or prismatic)."""
+    return _declare(JointName(kinds or ("revolute", "prismatic"), doc=doc, key=key), default)
+
+
+def word(*choices: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """One of a few words."""
+    return _declare(Word(choices, doc=doc, key=key), default)
+
+
+def magnitude(dimension: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """A quantity (float) or an Expression of parameters, ``t``, ``input`` and outputs."""
+    return _declare(Magnitude(dimension, doc=doc, key=key), default)
+
+
+def output(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """An Output of the mechanism."""
+    return _declare(OutputName(doc=doc, key=key), default)
+
+
+def table(dimension: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """A Table of values of a dimension over the input, the time or an output."""
+    return _declare(TableField(dimension, doc=doc, key=key), default)
+
+
+def phase(*, default: Any = None, doc: str = "when the load acts (default: always)", key: str = "") -> Any:
+    """A Phase of the cycle: InputPhase, MovingPhase or SwingPhase; None for the whole cycle."""
+    return _declare(PhaseField(doc=doc, key=key), default)

@@ -1,0 +1,59 @@
+"""What a load sees of the mechanism while it is traced, and what it answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import ZERO, Vec
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """A force (N, frame axes) on a link at a place (m, frame axes), and a torque (N·m)."""
+
+    link: str
+    force: Vec = ZERO
+    place: Vec = ZERO
+    torque: Scalar = 0.0
+
+
+class Site(Protocol):
+    """The mechanism at one position, as traced values. The frame is at rest."""
+
+    def place(self, link: str, point: str) -> Vec:
+        """A point of a link in frame axes, m."""
+        ...
+
+    def velocity(self, link: str, point: str) -> Vec:
+        """Its velocity, m/s."""
+        ...
+
+    def axis(self, link: str) -> Vec:
+        """Unit vector of the link's x axis."""
+        ...
+
+    def omega(self, link: str) -> Scalar:
+        """Angular velocity of a link, rad/s."""
+        ...
+
+    def angle_between(self, a: str, b: str) -> Scalar:
+        """Angle of link b's x axis against link a's, rad, continuous over the cycle."""
+        ...
+
+    def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
+        """Of a prismatic joint: the guide's unit vector, the block's point, the sliding velocity."""
+        ...
+
+    def dimension(self, field: str) -> Scalar:
+        """A quantity of this load by the name of its field (``stiffness``)."""
+        ...
+
+    def magnitude(self) -> Scalar:
+        """The load's magnitude at this position: number, expression, ramp or table, zero outside its phase."""
+        ...
+
+    def direction(self, angle: Scalar) -> Vec:
+        """Unit vector at an angle given as a dimension."""
+        ...

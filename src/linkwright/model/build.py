@@ -1,0 +1,146 @@
+"""Building a mechanism in code: the sections of a model file as short calls, with the same checks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from linkwright.errors import ModelError
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.nodes import Entry, Node, Scalar, Sequence
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.read_model import read_model
+from linkwright.units import number
+
+Value = float | str
+Pair = tuple[Value, Value] | list[Value]
+
+
+class Model:
+    """A model under construction; numbers are SI values, texts are as in a file (``"60 mm"``).
+
+    >>> model = Model("four-bar")
+    >>> model.frame(O1=(0, 0), O2=(4, 0))
+    >>> model.link("crank", ["O1", "A"], length=1)
+    >>> model.link("coupler", ["A", "B"], length=3.5, also={"P": (1.5, 1)})
+    >>> model.link("rocker", ["O2", "B"], length=3)
+    >>> model.drive("crank", about="O1", speed=10)
+    >>> mechanism = model.build()
+    """
+
+    def __init__(self, name: str, *, purpose: str = "", source: str = "") -> None:
+        self._data: dict[str, Any] = {"format": 1, "name": name}
+        self._data |= {key: text for key, text in (("purpose", purpose), ("source", source)) if text}
+
+    def _section(self, section: str, name: str, value: Any) -> None:
+        entries = self._data.setdefault(section, {})
+        if name in entries:
+            raise ValueError(f'{section}: "{name}" is there already; choose another name')
+        entries[name] = value
+
+    def parameters(self, **values: Value) -> None:
+        """Named quantities that texts may use; a number is dimensionless."""
+        for name, value in values.items():
+            self._section("parameters", name, value)
+
+    def frame(self, **points: Pair) -> None:
+        """Points of the frame, (x, y) in m."""
+        self._data.setdefault("frame", {"points": {}})["points"].update(points)
+
+    def link(
+        self, name: str, points: Iterable[str] | Mapping[str, Pair], *, length: Value | None = None,
+        lengths: Pair | None = None, angle: Value | None = None, also: Mapping[str, Pair] | None = None,
+        mass: Value | None = None, inertia: Value | None = None, mass_centre: Pair | None = None,
+    ) -> None:
+        """A moving link; the keys are those of a file: m, rad, kg, kg·m²."""
+        given = {"length": length, "lengths": lengths, "angle": angle, "also": also, "mass": mass, "inertia": inertia,
+                 "mass_centre": mass_centre}
+        listed = points if isinstance(points, Mapping) else list(points)
+        self._section("links", name, {"points": listed, **_present(given)})
+
+    def pin(self, name: str, *, radius: Value | None = None, friction: Value | None = None) -> None:
+        """Attributes of the implied pin at the shared point ``name``."""
+        self._section("joints", name, {"kind": "revolute", **_present({"pin_radius": radius, "friction": friction})})
+
+    def prismatic(
+        self, name: str, *, guide: str, through: str, direction: Value | tuple[str, str], block: str, at: str,
+        offset: Value | None = None, block_angle: Value | None = None, friction: Value | None = None,
+    ) -> None:
+        """A guide on one link and a block on it; ``direction`` in rad in the guide's axes, or two of its points."""
+        along = list(direction) if isinstance(direction, tuple) else direction
+        given = {"offset": offset, "block_angle": block_angle, "friction": friction}
+        self._section("joints", name, {"kind": "prismatic", "guide": guide, "through": through, "direction": along,
+                                       "block": block, "at": at, **_present(given)})
+
+    def weld(self, name: str, a: str, b: str, *, at: str, angle: Value | None = None) -> None:
+        """Link b fixed to link a at their common point, its x axis at ``angle`` (rad) to a's."""
+        self._section("joints", name, {"kind": "weld", "links": [a, b], "at": at, **_present({"angle": angle})})
+
+    def drive(
+        self, link: str, *, about: str, relative_to: str | None = None, name: str = "driver", speed: Value | None = None,
+        start: Value | None = None, position: str | None = None, table: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Turn a link about a pin: by constant ``speed`` (rad/s), an expression ``position``, or a ``table``."""
+        law = {"relative_to": relative_to, "speed": speed, "start": start, "position": position, "table": table}
+        self._section("drivers", name, {"turn": link, "about": about, **_present(law)})
+
+    def slide(
+        self, joint: str, *, name: str = "driver", speed: Value | None = None, start: Value | None = None,
+        position: str | None = None, table: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Drive a prismatic joint: by constant ``speed`` (m/s), an expression ``position``, or a ``table``."""
+        law = {"speed": speed, "start": start, "position": position, "table": table}
+        self._section("drivers", name, {"slide": joint, **_present(law)})
+
+    def assemble(self, **modes: str) -> None:
+        """Assembly modes: joint name = left, right, forward or backward."""
+        for joint, mode in modes.items():
+            self._section("assembly", joint, mode)
+
+    def drawing(self, **points: Pair) -> None:
+        """Coordinates (m) of the assembled drawing in frame axes."""
+        for point, place in points.items():
+            self._section("drawing", point, place)
+
+    def gravity(self, x: Value, y: Value) -> None:
+        """Gravity in m/s², in frame axes."""
+        self._data["gravity"] = [x, y]
+
+    def cycle(self, **values: Value) -> None:
+        """One of ``duration`` (s), ``turns``, or ``start`` and ``end`` of the first driver's coordinate."""
+        keys = {"start": "from", "end": "to"}
+        self._data["cycle"] = {keys.get(key, key): value for key, value in values.items()}
+
+    def load(self, name: str, kind: str, **fields: Any) -> None:
+        """A load of a registered kind, by the keys of a file (``from_`` stands for ``from``)."""
+        self._section("loads", name, {"kind": kind, **{key.rstrip("_"): value for key, value in fields.items()}})
+
+    def build(self) -> Mechanism:
+        """The checked mechanism. Raises ModelError with all findings."""
+        mechanism, findings = read_model(_node(self._data), "", si=True)
+        if mechanism is None:
+            raise ModelError(findings)
+        return mechanism
+
+
+def _present(values: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def _node(value: Any) -> Node:
+    if isinstance(value, Mapping):
+        return MappingNode(0, 0, 0, 0, [Entry(Scalar(0, 0, 0, 0, str(key)), _node(each)) for key, each in value.items()])
+    if isinstance(value, str):
+        return Scalar(0, 0, 0, 0, value, plain=False)
+    if isinstance(value, bool):
+        return Scalar(0, 0, 0, 0, "true" if value else "false")
+    if value is None:
+        return Scalar(0, 0, 0, 0, "null")
+    if isinstance(value, int):
+        return Scalar(0, 0, 0, 0, str(value))
+    if isinstance(value, Iterable):
+        return Sequence(0, 0, 0, 0, [_node(each) for each in value])
+    try:
+        return Scalar(0, 0, 0, 0, number(float(value)))
+    except (TypeError, ValueError):
+        return Scalar(0, 0, 0, 0, str(value), plain=False)

@@ -1,0 +1,288 @@
+"""The tree of an expression: its value, its dimension and its exact derivative."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from linkwright import units
+from linkwright.errors import QuantityError
+
+ARITY: Mapping[str, int] = {
+    "sin": 1, "cos": 1, "tan": 1, "asin": 1, "acos": 1, "atan": 1, "atan2": 2, "sqrt": 1, "abs": 1,
+    "exp": 1, "log": 1, "min": 2, "max": 2, "sign": 1, "step": 1,
+}  # fmt: skip
+_FROM_ANGLE, _TO_ANGLE, _PURE = ("sin", "cos", "tan"), ("asin", "acos", "atan"), ("exp", "log")
+_ANGLE = units.DIMENSIONS["angle"]
+
+
+@dataclass(frozen=True)
+class Number:
+    """A constant in SI with its dimension."""
+
+    value: float
+    dimension: units.Dimension = units.NONE
+    column: int = 0
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A free name."""
+
+    name: str
+    column: int = 0
+
+
+@dataclass(frozen=True)
+class Negative:
+    """Minus an operand."""
+
+    operand: Node
+    column: int = 0
+
+
+@dataclass(frozen=True)
+class Binary:
+    """Two operands joined by ``+ - * / ^``."""
+
+    sign: str
+    left: Node
+    right: Node
+    column: int = 0
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function of ARITY applied to arguments."""
+
+    function: str
+    arguments: tuple[Node, ...]
+    column: int = 0
+
+
+Node = Number | Variable | Negative | Binary | Call
+
+
+@cache
+def scalar_functions() -> Mapping[str, Callable[..., Any]]:
+    """The functions of the language on floats; ``step(x)`` is 1 from x = 0 on."""
+    return {
+        "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
+        "atan2": math.atan2, "sqrt": math.sqrt, "abs": abs, "exp": math.exp, "log": math.log, "min": min, "max": max,
+        "sign": lambda x: (x > 0) - (x < 0), "step": lambda x: 1.0 if x >= 0 else 0.0, "pow": pow,
+    }  # fmt: skip
+
+
+def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
+    """Value of a tree on any kind of values; powers with whole exponents are products."""
+    match node:
+        case Number(value):
+            return value
+        case Variable(name):
+            return values[name]
+        case Negative(operand):
+            return -evaluate(operand, values, functions)
+        case Call(function, arguments):
+            return functions[function](*(evaluate(argument, values, functions) for argument in arguments))
+        case Binary("^", base, Number(exponent)) if exponent == int(exponent) and abs(exponent) <= 12:
+            return _whole_power(evaluate(base, values, functions), int(exponent))
+        case Binary("^", base, Number(0.5)):
+            return functions["sqrt"](evaluate(base, values, functions))
+    left, right = evaluate(node.left, values, functions), evaluate(node.right, values, functions)
+    match node.sign:
+        case "+":
+            return left + right
+        case "-":
+            return left - right
+        case "*":
+            return left * right
+        case "/":
+            return left / right
+    return functions["pow"](left, right)
+
+
+def _whole_power(base: Any, exponent: int) -> Any:
+    if exponent == 0:
+        return 1.0
+    product = base
+    for _ in range(abs(exponent) - 1):
+        product = product * base
+    return product if exponent > 0 else 1.0 / product
+
+
+def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
+    """Dimension of a tree; raises QuantityError with the column where dimensions do not fit."""
+    match node:
+        case Number(_, dimension):
+            return dimension
+        case Variable(name):
+            return kinds[name]
+        case Negative(operand):
+            return dimension_of(operand, kinds)
+        case Call(function, arguments, column):
+            return _call_dimension(function, arguments, kinds, column)
+        case Binary("^", base, exponent, column):
+            return _power_dimension(base, exponent, kinds, column)
+        case Binary("*" | "/" as sign, left, right):
+            return units.times(dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1)
+    word = "added to" if node.sign == "+" else "subtracted from"
+    return _common_dimension((node.left, node.right), kinds, node.column, word)
+
+
+def _common_dimension(
+    nodes: tuple[Node, ...], kinds: Mapping[str, units.Dimension], column: int, word: str
+) -> units.Dimension:
+    left, right = (dimension_of(node, kinds) for node in nodes)
+    for node, other in zip(nodes, (right, left), strict=True):
+        if isinstance(node, Number) and node.value == 0 and node.dimension == units.NONE:
+            return other
+    if left == right or left[:3] == right[:3] != (0, 0, 0):
+        return left
+    bare = any(isinstance(node, Number) and node.dimension == units.NONE for node in nodes)
+    if {left, right} == {units.NONE, _ANGLE} and not bare:
+        return _ANGLE
+    raise QuantityError(f"{units.name_of(right)} cannot be {word} {units.name_of(left)}",
+                        "give both the same dimension", column=column, code="wrong-dimension")
+
+
+def _power_dimension(
+    base: Node, exponent: Node, kinds: Mapping[str, units.Dimension], column: int
+) -> units.Dimension:
+    if dimension_of(exponent, kinds) != units.NONE:
+        raise QuantityError("an exponent has a unit", "use a plain number", column=column, code="wrong-dimension")
+    kind = dimension_of(base, kinds)
+    if kind == units.NONE:
+        return units.NONE
+    power = exponent.operand if isinstance(exponent, Negative) else exponent
+    if not isinstance(power, Number):
+        raise QuantityError("a quantity with a unit has an exponent that is not a number", "write the number",
+                            column=column, code="wrong-dimension")
+    return units.times(units.NONE, kind, power.value if power is exponent else -power.value)
+
+
+def _call_dimension(
+    function: str, arguments: tuple[Node, ...], kinds: Mapping[str, units.Dimension], column: int
+) -> units.Dimension:
+    if function in ("min", "max", "atan2"):
+        word = "compared with" if function != "atan2" else "set against"
+        kind = _common_dimension(arguments, kinds, column, word)
+        return _ANGLE if function == "atan2" else kind
+    kind = dimension_of(arguments[0], kinds)
+    if function == "abs":
+        return kind
+    if function == "sqrt":
+        return units.times(units.NONE, kind, 0.5)
+    if function in ("sign", "step"):
+        return units.NONE
+    allowed = (units.NONE, _ANGLE) if function in _FROM_ANGLE else (units.NONE,)
+    if kind not in allowed:
+        needed = "an angle" if function in _FROM_ANGLE else "a dimensionless number"
+        raise QuantityError(f"{function} is taken of {units.name_of(kind)}, where {needed} is needed",
+                            "divide by a quantity of the same dimension", column=column, code="wrong-dimension")
+    return _ANGLE if function in _TO_ANGLE else units.NONE
+
+
+_ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
+
+
+def _is(node: Node, value: float) -> bool:
+    return isinstance(node, Number) and node.value == value
+
+
+def _sum(left: Node, right: Node) -> Node:
+    if _is(left, 0):
+        return right
+    return left if _is(right, 0) else Binary("+", left, right)
+
+
+def _difference(left: Node, right: Node) -> Node:
+    if _is(right, 0):
+        return left
+    return Negative(right) if _is(left, 0) else Binary("-", left, right)
+
+
+def _product(left: Node, right: Node) -> Node:
+    if _is(left, 0) or _is(right, 0):
+        return _ZERO
+    if _is(left, 1):
+        return right
+    return left if _is(right, 1) else Binary("*", left, right)
+
+
+def _quotient(left: Node, right: Node) -> Node:
+    return _ZERO if _is(left, 0) else Binary("/", left, right)
+
+
+def derivative(node: Node, name: str) -> Node:
+    """Exact derivative of a tree with respect to a name; 0 at the kinks of sign and step."""
+    match node:
+        case Number():
+            return _ZERO
+        case Variable(other):
+            return _ONE if other == name else _ZERO
+        case Negative(operand):
+            inner = derivative(operand, name)
+            return _ZERO if _is(inner, 0) else Negative(inner)
+        case Call(function, arguments):
+            return _call_derivative(function, arguments, tuple(derivative(each, name) for each in arguments))
+    left, right = derivative(node.left, name), derivative(node.right, name)
+    match node.sign:
+        case "+":
+            return _sum(left, right)
+        case "-":
+            return _difference(left, right)
+        case "*":
+            return _sum(_product(left, node.right), _product(node.left, right))
+        case "/":
+            slope = _difference(left, _product(node, right))
+            return _quotient(slope, node.right)
+    return _power_derivative(node, left, right)
+
+
+def _power_derivative(node: Binary, base: Node, exponent: Node) -> Node:
+    if _is(exponent, 0):
+        reduced = _reduced_power(node.left, node.right)
+        return _product(_product(node.right, reduced), base)
+    growth = _product(exponent, Call("log", (node.left,)))
+    return _product(node, _sum(growth, _quotient(_product(node.right, base), node.left)))
+
+
+def _reduced_power(base: Node, exponent: Node) -> Node:
+    if not isinstance(exponent, Number):
+        return Binary("^", base, Binary("-", exponent, _ONE))
+    if exponent.value == 1:
+        return _ONE
+    return base if exponent.value == 2 else Binary("^", base, Number(exponent.value - 1))
+
+
+def _call_derivative(function: str, arguments: tuple[Node, ...], slopes: tuple[Node, ...]) -> Node:
+    if all(_is(slope, 0) for slope in slopes) or function in ("sign", "step"):
+        return _ZERO
+    u, du = arguments[0], slopes[0]
+    if len(arguments) == 2:
+        return _two_argument_derivative(function, u, arguments[1], du, slopes[1])
+    square = Binary("*", u, u)
+    outer: Mapping[str, Callable[[], Node]] = {
+        "sin": lambda: Call("cos", (u,)),
+        "cos": lambda: Negative(Call("sin", (u,))),
+        "tan": lambda: Binary("/", _ONE, Binary("^", Call("cos", (u,)), _TWO)),
+        "asin": lambda: Binary("/", _ONE, Call("sqrt", (Binary("-", _ONE, square),))),
+        "acos": lambda: Negative(Binary("/", _ONE, Call("sqrt", (Binary("-", _ONE, square),)))),
+        "atan": lambda: Binary("/", _ONE, Binary("+", _ONE, square)),
+        "sqrt": lambda: Binary("/", Number(0.5), Call("sqrt", (u,))),
+        "abs": lambda: Call("sign", (u,)),
+        "exp": lambda: Call("exp", (u,)),
+        "log": lambda: Binary("/", _ONE, u),
+    }
+    return _product(outer[function](), du)
+
+
+def _two_argument_derivative(function: str, u: Node, v: Node, du: Node, dv: Node) -> Node:
+    if function == "atan2":
+        top = _difference(_product(v, du), _product(u, dv))
+        return _quotient(top, Binary("+", Binary("*", u, u), Binary("*", v, v)))
+    first = Call("step", (Binary("-", u, v) if function == "max" else Binary("-", v, u),))
+    return _sum(_product(first, du), _product(Binary("-", _ONE, first), dv))

@@ -1,0 +1,357 @@
+"""Expressions in model files: ``l2/2 + 3 mm``, ``30 deg*sin(2*pi*t/(2 s))``.
+
+A small language of its own, read by a tokenizer and a precedence (Pratt) parser: numbers with adjacent
+units, names, ``+ - * / ^``, parentheses and the functions of FUNCTIONS. Nothing is ever executed as Python.
+Dimensions are checked; values may be floats, NumPy arrays, or anything else that knows arithmetic.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from linkwright import units
+from linkwright.errors import QuantityError
+from linkwright.model.expression_tree import (
+    ARITY,
+    Binary,
+    Call,
+    Negative,
+    Node,
+    Number,
+    Variable,
+    derivative,
+    dimension_of,
+    evaluate,
+    scalar_functions,
+)
+from linkwright.registry import nearest
+
+MAX_LENGTH, MAX_DEPTH = 1000, 40
+CONSTANTS: Mapping[str, float] = {"pi": math.pi}
+FUNCTIONS = tuple(ARITY)
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<power>⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
+    r"|(?P<name>(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d]|°)(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])\w|\.(?=[^\W\d]))*)"
+    r"|(?P<sign>\*\*|[-+*/^(),·⋅]))"
+)
+NUMBER_AND_UNIT = re.compile(r"^([+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)$")
+_BINDING = {"+": 10, "-": 10, "*": 20, "/": 20, "^": 40}
+_NEGATIVE_BINDING = 30
+_SAME = {"**": "^", "·": "*", "⋅": "*"}
+
+
+class ExpressionError(QuantityError):
+    """A text that is no expression; its string shows the text with a caret under the place."""
+
+    def __init__(self, message: str, remedy: str, text: str, column: int, code: str = "expression") -> None:
+        self.text = text
+        super().__init__(message, remedy, column=column, code=code)
+
+    def __str__(self) -> str:
+        return f"{super().__str__()}\n  {self.text}\n  {' ' * self.column}^"
+
+
+@dataclass(frozen=True)
+class Expression:
+    """An expression that was read; two are equal when their texts are.
+
+    ``names`` are the free names (parameters and variables) that it uses.
+    """
+
+    text: str
+    tree: Node = field(compare=False, repr=False)
+    names: frozenset[str] = field(compare=False, repr=False)
+
+    def evaluate(self, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+        """Value in SI for the given values of the free names.
+
+        Without ``functions`` the values are floats; with the functions of another kind of value
+        (``array_functions()`` for NumPy) the same expression runs on that kind.
+        Raises QuantityError where a float result does not exist (a division by zero, the root of a negative number).
+        """
+        if functions is not None:
+            return evaluate(self.tree, values, functions)
+        try:
+            value = float(evaluate(self.tree, values, scalar_functions()))
+        except ZeroDivisionError:
+            raise QuantityError(f'"{self.text}" divides by zero', "change the values", code="not-finite") from None
+        except (ValueError, OverflowError, TypeError):
+            value = math.nan
+        if not math.isfinite(value):
+            raise QuantityError(f'"{self.text}" has no finite real value', "change the values", code="not-finite")
+        return value
+
+    def diff(self, name: str) -> Expression:
+        """Exact derivative with respect to a free name."""
+        tree = derivative(self.tree, name)
+        return Expression(f"d({self.text})/d{name}", tree, self.names)
+
+    def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
+        """Dimension of the result, given those of the free names; raises QuantityError where they do not fit."""
+        return dimension_of(self.tree, kinds)
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def array_functions() -> Mapping[str, Callable[..., Any]]:
+    """The functions of the language on NumPy arrays."""
+    import numpy as np
+
+    return {
+        "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
+        "atan2": np.arctan2, "sqrt": np.sqrt, "abs": np.abs, "exp": np.exp, "log": np.log, "min": np.minimum,
+        "max": np.maximum, "sign": np.sign, "step": lambda x: np.heaviside(x, 1.0), "pow": np.power,
+    }  # fmt: skip
+
+
+def parse(text: str, variables: Collection[str] = ()) -> Expression:
+    """Read an expression in which the names ``variables`` may occur.
+
+    Raises ExpressionError with the column for anything that is not an expression or an unknown name.
+    """
+    plain = text.replace("−", "-").strip()
+    if len(plain) > MAX_LENGTH:
+        raise ExpressionError(f"the expression has {len(plain)} characters", f"at most {MAX_LENGTH}; split it with "
+                              "named parameters", plain[:60] + "…", 0)
+    parser = _Parser(plain, variables)
+    tree = parser.whole()
+    return Expression(plain, tree, frozenset(parser.used))
+
+
+def parse_quantity(text: str, dimension: str, kinds: Mapping[str, units.Dimension] | None = None) -> float | Expression:
+    """A quantity as a file gives it: a number with its unit (SI float), or an expression of the names in ``kinds``.
+
+    An expression without names is evaluated at once. Raises QuantityError.
+    """
+    kinds = kinds or {}
+    plain = units.tidy(text)
+    if is_literal(plain, kinds):
+        return units.parse(plain, dimension)
+    if re.search(r"\d,\d", plain) and "(" not in plain:
+        raise units.decimal_comma(plain)
+    if not plain or (plain in units.UNITS and plain not in kinds) or re.match(r"^[+-]?\.?(inf|infinity|nan)\b", plain, re.IGNORECASE):
+        raise units.not_a_number(plain, dimension)
+    expression = parse(plain, kinds)
+    require(expression, dimension, kinds)
+    return expression if expression.names else expression.evaluate({})
+
+
+def parse_any(text: str, kinds: Mapping[str, units.Dimension]) -> Expression:
+    """A quantity of any dimension, or a bare number, as an expression of the names in ``kinds``."""
+    plain = units.tidy(text)
+    if is_literal(plain, kinds):
+        found = re.match(NUMBER_AND_UNIT, plain)
+        unit = found.group(2).strip() if found else ""
+        dimension = units.unit(unit)[1] if unit and not re.match(r"[\d,.]", unit) else units.NONE
+        names = [name for name, kind in units.DIMENSIONS.items() if kind == dimension]
+        if names:
+            value = units.parse(plain, names[0])
+            return Expression(plain, Number(value, dimension), frozenset())
+    elif not plain or (plain in units.UNITS and plain not in kinds):
+        raise units.not_a_number(plain, "length")
+    return parse(plain, kinds)
+
+
+def require(expression: Expression, dimension: str, kinds: Mapping[str, units.Dimension]) -> None:
+    """Raise QuantityError unless the expression has the dimension.
+
+    With names in it, an angle may stand for its arc (``r*phi`` is a length); a pure angle stays an angle.
+    """
+    kind, needed = expression.dimension(kinds), units.DIMENSIONS[dimension]
+    if kind == needed or (expression.names and kind[:3] == needed[:3] != (0, 0, 0)):
+        return
+    if kind == units.NONE and isinstance(expression.tree, Number) and expression.tree.value == 0:
+        return
+    if kind == units.NONE and dimension == "angle":
+        raise QuantityError(f'"{expression.text}" has no unit', f'an angle is needed: "({expression.text})*rad"',
+                            code="missing-unit")
+    units.require(kind, dimension, expression.text)
+
+
+def is_literal(text: str, names: Collection[str] = ()) -> bool:
+    """Whether the text is meant as a number with a unit, not as an expression of ``names``."""
+    found = re.match(r"^[+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![.\w]*\()", text)
+    if found is None:
+        return False
+    rest = text[found.end():].strip()
+    if not rest or re.match(r"[\d,.]", rest):
+        return "(" not in rest
+    return re.fullmatch(r"[^\W\d_]?[^()+,]*", rest) is not None and _only_units(rest, names)
+
+
+def _only_units(rest: str, known: Collection[str]) -> bool:
+    if re.search(r"[\s]-|-[\s]|[*/]\s*[\d(]", rest) or re.match(r"[-+*/^]", rest):
+        return False
+    names = re.findall(r"[^\W\d_]\w*", rest)
+    if any(name in known for name in names):
+        return re.fullmatch(r"[^\s*()]+", rest) is not None and all(name in units.UNITS for name in names)
+    return len(names) < 2 or all(name in units.UNITS or units.suggestion(name) is not None for name in names)
+
+
+class _Parser:
+    """Precedence parser over the tokens of one text."""
+
+    def __init__(self, text: str, variables: Collection[str]) -> None:
+        self.text, self.variables = text, variables
+        self.used: set[str] = set()
+        self.depth = 0
+        self.tokens = self._tokens()
+        self.at = 0
+
+    def _tokens(self) -> list[tuple[str, str, int]]:
+        tokens, position = [], 0
+        while position < len(self.text):
+            found = _TOKEN.match(self.text, position)
+            if found is None or found.lastgroup is None:
+                column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
+                raise self._error(f'"{self.text[column]}" is not part of an expression',
+                                  "use numbers with units, names, + - * / ^ and parentheses", column)
+            token = found.group(found.lastgroup)
+            tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
+            position = found.end()
+        return [*tokens, ("end", "", len(self.text))]
+
+    def _error(self, message: str, remedy: str, column: int, code: str = "expression") -> ExpressionError:
+        return ExpressionError(message, remedy, self.text, column, code)
+
+    def whole(self) -> Node:
+        tree = self._binary(0)
+        kind, token, column = self.tokens[self.at]
+        if kind != "end":
+            remedy = "write * between factors" if kind in ("name", "number") or token == "(" else "remove it"
+            raise self._error(f'"{token}" is not expected here', remedy, column)
+        return tree
+
+    def _binary(self, binding: int) -> Node:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise self._error("the expression is nested too deep", "split it with named parameters", 0)
+        left = self._powers(self._prefix())
+        while True:
+            kind, token, column = self.tokens[self.at]
+            strength = _BINDING.get(token, 0) if kind == "sign" else 0
+            if strength <= binding:
+                self.depth -= 1
+                return left
+            self.at += 1
+            right = self._binary(strength - 1 if token == "^" else strength)
+            left = Binary(token, left, right, column)
+
+    def _powers(self, base: Node) -> Node:
+        kind, token, column = self.tokens[self.at]
+        if kind != "power":
+            return base
+        self.at += 1
+        return Binary("^", base, Number(float(units.exponent(token)), units.NONE, column), column)
+
+    def _prefix(self) -> Node:
+        kind, token, column = self.tokens[self.at]
+        self.at += 1
+        if kind == "number":
+            return self._number(token, column)
+        if kind == "name":
+            return self._name(token, column)
+        if token in ("-", "+"):
+            inner = self._binary(_NEGATIVE_BINDING)
+            return Negative(inner, column) if token == "-" else inner
+        if token == "(":
+            inner = self._binary(0)
+            self._close(column)
+            return inner
+        what = "the expression ends too early" if kind == "end" else f'"{token}" is not expected here'
+        raise self._error(what, "a number, a name or a parenthesis is needed", column)
+
+    def _close(self, opened: int) -> None:
+        if self.tokens[self.at][1] != ")":
+            raise self._error("a parenthesis is not closed", 'add ")"', opened)
+        self.at += 1
+
+    def _number(self, token: str, column: int) -> Node:
+        value = float(token)
+        kind, name, place = self.tokens[self.at]
+        if kind != "name" or self.tokens[self.at + 1][1] == "(":
+            return Number(value, units.NONE, column)
+        turning = [entry[1] for entry in self.tokens[self.at:self.at + 3]] in (["r", "/", "min"], ["r", "/", "s"])
+        if name not in units.UNITS and not turning:
+            if name in self.variables:
+                raise self._error(f'a factor "{token} {name}" without a sign', f'write "{token}*{name}"', place)
+            error = units.unknown_unit(name)
+            raise self._error(error.message, error.remedy, place, "unknown-unit")
+        factor, dimension = self._unit("rev" if turning else name)
+        while self._joined_unit():
+            sign = -1 if self.tokens[self.at][1] == "/" else 1
+            self.at += 1
+            size, kind = self._unit(self.tokens[self.at][1])
+            factor, dimension = factor * size**sign, units.times(dimension, kind, sign)
+        return Number(value * factor, dimension, column)
+
+    def _unit(self, name: str) -> tuple[float, units.Dimension]:
+        """The unit at the present token with its power, both consumed."""
+        self.at += 1
+        factor, dimension = units.UNITS[name]
+        kind, power, _ = self.tokens[self.at]
+        exponent = 1
+        if kind == "power":
+            self.at += 1
+            exponent = units.exponent(power)
+        elif power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit():
+            exponent = units.exponent(self.tokens[self.at + 1][1])
+            self.at += 2
+        return factor**exponent, units.times(units.NONE, dimension, exponent)
+
+    def _joined_unit(self) -> bool:
+        """Whether a further unit follows, joined by ``/`` or ``·`` without spaces (``N/m``).
+
+        Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
+        """
+        _, sign, column = self.tokens[self.at]
+        if sign not in ("*", "/") or self.tokens[self.at + 1][0] != "name" or self.tokens[self.at + 2][1] == "(":
+            return False
+        _, name, place = self.tokens[self.at + 1]
+        if name not in units.UNITS:
+            return False
+        if self.text[column] == "*":
+            if name in self.variables and name != "t":
+                raise self._error(f'"{name}" is a unit and a parameter', f'write "·{name}" for the unit, or put the '
+                                  "parameter first", place, "ambiguous")
+            return False
+        tight = place == column + 1 and self.text[column - 1] != " "
+        return tight or name not in self.variables
+
+    def _name(self, name: str, column: int) -> Node:
+        if self.tokens[self.at][1] == "(" and name not in self.variables:
+            return self._call(name, column)
+        if name in self.variables:
+            self.used.add(name)
+            return Variable(name, column)
+        if name in CONSTANTS:
+            return Number(CONSTANTS[name], units.NONE, column)
+        if name in units.UNITS:
+            factor, dimension = units.UNITS[name]
+            return Number(factor, dimension, column)
+        offer = nearest(name, [*self.variables, *CONSTANTS])
+        known = ", ".join(sorted(self.variables)) or "none is defined"
+        raise self._error(f'unknown name "{name}"', f'did you mean "{offer}"?' if offer else
+                          f"define it under parameters (known: {known})", column, "unknown-name")
+
+    def _call(self, name: str, column: int) -> Node:
+        if name not in ARITY:
+            offer = nearest(name, list(ARITY))
+            raise self._error(f'unknown function "{name}"', f'did you mean "{offer}"?' if offer else
+                              f"one of: {', '.join(ARITY)}", column, "unknown-name")
+        self.at += 1
+        arguments = [self._binary(0)]
+        while self.tokens[self.at][1] == ",":
+            self.at += 1
+            arguments.append(self._binary(0))
+        self._close(column)
+        if len(arguments) != ARITY[name]:
+            raise self._error(f"{name} takes {ARITY[name]} argument(s), {len(arguments)} are given",
+                              "separate arguments by commas, decimals by points", column)
+        return Call(name, tuple(arguments), column)

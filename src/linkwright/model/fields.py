@@ -1,0 +1,286 @@
+"""What a key of a model file may hold: one class per kind of value, with its reading, its schema and its text.
+
+A table of the file (a link, a joint, a load) is declared as named fields; unit checks, findings with the
+nearest key, the JSON Schema and the writing of files all follow from that declaration.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from linkwright import units
+from linkwright.model.expressions import Expression
+from linkwright.model.nodes import Node, Scalar
+
+if TYPE_CHECKING:
+    from linkwright.model.reader import Place, Reader
+
+Schema = dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Field(ABC):
+    """One key of a table. ``key`` is its name in the file where it differs from the attribute's."""
+
+    required: bool = False
+    doc: str = ""
+    key: str = ""
+
+    @abstractmethod
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        """The value at the node, or None after a finding; ``given`` are the table's values read so far."""
+
+    @abstractmethod
+    def shape(self) -> Schema:
+        """JSON Schema of the value, without the description."""
+
+    def schema(self) -> Schema:
+        """JSON Schema of the value with its description."""
+        return {**self.shape(), "description": self.doc} if self.doc else self.shape()
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        """The value's dimensions: suffixes of the address (``""``, ``.x``) with SI values."""
+        return {}
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        """The value with its dimensions replaced by what ``lookup`` gives for the suffixes of ``flatten``."""
+        return value
+
+    def written(self, value: Any) -> Any:
+        """The value as plain data (texts, lists, mappings) for a file."""
+        return value
+
+
+def quantity_schema(dimension: str) -> Schema:
+    """JSON Schema of a quantity: a text with a unit, or a bare 0; a number where it is dimensionless."""
+    bare: Schema = {"type": "number"} if dimension == "dimensionless" else {"const": 0}
+    return {"anyOf": [{"type": "string"}, bare], "x-dimension": dimension, "examples": [units.example(dimension)]}
+
+
+def written_quantity(value: Any, dimension: str) -> Any:
+    """A quantity as it stands in a file: text with the SI unit, an expression's text, a bare number."""
+    if isinstance(value, Expression):
+        return value.text
+    if dimension == "dimensionless" or value == 0:
+        return float(value)
+    return units.format(value, dimension)
+
+
+@dataclass(frozen=True)
+class Quantity(Field):
+    """A number with a unit, in SI; limits are in SI as well."""
+
+    dimension: str
+    minimum: float | None = field(default=None, kw_only=True)
+    above: float | None = field(default=None, kw_only=True)
+    nonzero: bool = field(default=False, kw_only=True)
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
+        value = reader.quantity(node, place, self.dimension)
+        if value is None or self._admits(value):
+            return value
+        limit = self._limit()
+        shown = node.text if isinstance(node, Scalar) else f"{value:g}"
+        reader.error(node, place, f"{shown} is {self._fault(value)}", f"give {limit}", "range")
+        return None
+
+    def _admits(self, value: float) -> bool:
+        if self.minimum is not None and value < self.minimum:
+            return False
+        if self.above is not None and value <= self.above:
+            return False
+        return not (self.nonzero and value == 0)
+
+    def _fault(self, value: float) -> str:
+        if value == 0:
+            return "zero"
+        return "negative" if value < 0 and not (self.minimum or self.above) else "too small"
+
+    def _limit(self) -> str:
+        noun = units.article(self.dimension.replace("_", " "))
+        if self.above is not None:
+            return f"{noun} above {units.format(self.above, self.dimension) if self.above else 'zero'}"
+        if self.minimum is not None:
+            return f"{noun} of {units.format(self.minimum, self.dimension) if self.minimum else 'zero'} or more"
+        return f"{noun} other than zero"
+
+    def shape(self) -> Schema:
+        return quantity_schema(self.dimension)
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        return {} if value is None else {"": value}
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        return None if value is None else lookup("")
+
+    def written(self, value: Any) -> Any:
+        return written_quantity(value, self.dimension)
+
+
+@dataclass(frozen=True)
+class Quantities(Field):
+    """A list of quantities of one dimension; ``names`` names them (x, y), ``count`` limits their number."""
+
+    dimension: str
+    names: tuple[str, ...] = ()
+    count: int | None = None
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+        items = reader.items(node, place, len(self.names) or self.count, self._form())
+        if items is None:
+            return None
+        values = [
+            reader.quantity(item, place.child(self._suffix(index)), self.dimension) for index, item in enumerate(items)
+        ]
+        return None if any(value is None for value in values) else tuple(v for v in values if v is not None)
+
+    def _form(self) -> str:
+        one = units.example(self.dimension)
+        return f"[{', '.join([one] * (len(self.names) or self.count or 2))}]"
+
+    def _suffix(self, index: int) -> str:
+        return self.names[index] if self.names else str(index)
+
+    def shape(self) -> Schema:
+        size = len(self.names) or self.count
+        limits = {"minItems": size, "maxItems": size} if size else {}
+        return {"type": "array", "items": quantity_schema(self.dimension), **limits}
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        return {} if value is None else {f".{self._suffix(index)}": each for index, each in enumerate(value)}
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        return None if value is None else tuple(lookup(suffix) for suffix in self.flatten(value))
+
+    def written(self, value: Any) -> Any:
+        return [written_quantity(each, self.dimension) for each in value]
+
+
+@dataclass(frozen=True)
+class Text(Field):
+    """Any text."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        return reader.text(node, place)
+
+    def shape(self) -> Schema:
+        return {"type": "string"}
+
+
+@dataclass(frozen=True)
+class Word(Field):
+    """One of a few words."""
+
+    choices: tuple[str, ...]
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        return reader.word(node, place, self.choices)
+
+    def shape(self) -> Schema:
+        return {"enum": list(self.choices)}
+
+
+@dataclass(frozen=True)
+class Free(Field):
+    """A free mapping that is kept and not interpreted."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        return reader.free(node)
+
+    def shape(self) -> Schema:
+        return {"type": "object"}
+
+
+@dataclass(frozen=True)
+class Count(Field):
+    """A whole number that must be a given one, such as the version of the format."""
+
+    only: int
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
+        text = reader.text(node, place)
+        if text is None or text.strip() == str(self.only):
+            return self.only
+        reader.error(node, place, f'version "{text}" is not known', f"write {place.key}: {self.only}", "version")
+        return None
+
+    def shape(self) -> Schema:
+        return {"const": self.only}
+
+
+@dataclass(frozen=True)
+class Formula(Field):
+    """An expression of the time ``t`` and of named parameters."""
+
+    dimension: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Expression | None:
+        return reader.formula(node, place, self.dimension, {"t": units.DIMENSIONS["time"]})
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-dimension": self.dimension, "x-variables": ["t"]}
+
+    def written(self, value: Any) -> Any:
+        return value.text
+
+
+@dataclass(frozen=True)
+class TimeTableValues:
+    """Positions over time, with the way in which they are interpolated."""
+
+    times: tuple[float, ...]
+    positions: tuple[float, ...]
+    interpolation: str = "cubic"
+
+
+@dataclass(frozen=True)
+class TimeTable(Field):
+    """A mapping ``{time: […], position: […], interpolation: cubic}``."""
+
+    dimension: str
+
+    def _fields(self) -> dict[str, Field]:
+        return {
+            "time": Quantities("time", required=True, doc="increasing times"),
+            "position": Quantities(self.dimension, required=True, doc="coordinate at each time"),
+            "interpolation": Word(("cubic", "periodic", "linear"), doc="default cubic"),
+        }
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> TimeTableValues | None:
+        with reader.plain_numbers("a driver's table"):
+            values = reader.table(node, place, self._fields())
+        if values is None or values.get("time") is None or values.get("position") is None:
+            return None
+        times, positions = values["time"], values["position"]
+        way = values.get("interpolation") or "cubic"
+        if not reader.increasing(node, place, "time", times, positions, "position"):
+            return None
+        drift = positions[-1] - positions[0]
+        turns = drift / (2 * math.pi) if self.dimension == "angle" else drift / (abs(max(positions, key=abs)) or 1.0)
+        if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
+            reader.error(node, place, "a periodic table must end where it begins" +
+                         (" (or whole turns further)" if self.dimension == "angle" else ""),
+                         "make the last position equal to the first", "table")
+            return None
+        return TimeTableValues(times, positions, way)
+
+    def shape(self) -> Schema:
+        return table_schema(self._fields())
+
+    def written(self, value: Any) -> Any:
+        fields = self._fields()
+        return {"time": fields["time"].written(value.times), "position": fields["position"].written(value.positions),
+                "interpolation": value.interpolation}
+
+
+def table_schema(fields: Mapping[str, Field]) -> Schema:
+    """JSON Schema of a mapping with these fields and no others."""
+    keys = {each.key or name: each for name, each in fields.items()}
+    required = [key for key, each in keys.items() if each.required]
+    found: Schema = {"type": "object", "properties": {key: each.schema() for key, each in keys.items()},
+                     "additionalProperties": False}
+    return {**found, "required": required} if required else found

@@ -1,0 +1,138 @@
+"""Model files: reading, checking, changing and writing them."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+
+from linkwright.errors import Finding, ModelError
+from linkwright.model.compose import compose
+from linkwright.model.document import Document
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.read_model import read_model
+from linkwright.model.write import dump as dump
+from linkwright.registry import nearest
+
+MAX_BYTES = 5_000_000
+GALLERY = "gallery:"
+
+
+def load(source: str | Path) -> Mechanism:
+    """The mechanism in a model file: a path, or ``gallery:NAME``.
+
+    Raises ModelError with all findings where the file cannot be used.
+    """
+    text, name = _read(source)
+    return loads(text, name)
+
+
+def loads(text: str, name: str = "<text>") -> Mechanism:
+    """The mechanism in the text of a model file; ``name`` stands for the file in findings.
+
+    Raises ModelError with all findings where the text cannot be used.
+    """
+    mechanism, findings = read_text(text, name)
+    if mechanism is None:
+        raise ModelError(findings)
+    return mechanism
+
+
+def check(source: str | Path) -> list[Finding]:
+    """All findings about a model file, errors and warnings; never raises for bad content."""
+    try:
+        text, name = _read(source)
+    except ModelError as error:
+        return list(error.findings)
+    return read_text(text, name)[1]
+
+
+def read_document(source: str | Path) -> Document:
+    """A model file that can be changed and saved with its comments and order. Raises ModelError."""
+    text, name = _read(source)
+    return Document(text, name, read_text)
+
+
+def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
+    """The mechanism of a text, or None where there is an error, and all findings."""
+    root, remarks = compose(text.removeprefix("\ufeff"))
+    findings = [
+        Finding("error", f"{name}:{remark.line + 1}:{remark.column + 1}", "", remark.message, remark.remedy, remark.code)
+        for remark in remarks
+    ]
+    if root is None:
+        empty = Finding("error", f"{name}:1:1", "", "the file is empty", "begin with format: 1", "empty")
+        return None, findings or [empty]
+    mechanism, found = read_model(root, name)
+    return (None if findings else mechanism), findings + found
+
+
+def gallery_names() -> list[str]:
+    """Names of the models in the gallery."""
+    folder = resources.files("linkwright") / "gallery"
+    return sorted(entry.name.removesuffix(".yaml") for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+
+
+def _read(source: str | Path) -> tuple[str, str]:
+    """Text of a source, and the name of the file for findings."""
+    if isinstance(source, str) and source.startswith(GALLERY):
+        return _read_gallery(source.removeprefix(GALLERY))
+    path = Path(source)
+    try:
+        if path.is_dir():
+            raise _refuse(path, "this is a folder", "name a model file in it", "not-a-file")
+        if not path.exists():
+            raise _refuse(path, "there is no such file", _near_file(path), "no-file")
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise _refuse(path, f"the file has {size / 1e6:.1f} MB", f"a model has at most {MAX_BYTES / 1e6:.0f} MB",
+                          "size")
+        with path.open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _refuse(path, f"the file cannot be read ({reason})", "check its name and permissions", "no-file") from None
+    if len(content) > MAX_BYTES:
+        raise _refuse(path, "the source has no end", f"a model has at most {MAX_BYTES / 1e6:.0f} MB", "size")
+    return decode(content, path.name), path.name
+
+
+def _refuse(path: Path, message: str, remedy: str, code: str) -> ModelError:
+    return ModelError([Finding("error", str(path), "", message, remedy, code)])
+
+
+def _near_file(path: Path) -> str:
+    folder = path.parent
+    names = [entry.name for entry in list(folder.iterdir())[:1000]] if folder.is_dir() else []
+    if not folder.is_dir():
+        return f'there is no folder "{folder}" either'
+    near = nearest(path.name, names)
+    if near is None and path.name in gallery_names():
+        return f'for the model of the gallery write "{GALLERY}{path.name}"'
+    return f'did you mean "{near}"?' if near else "check the path"
+
+
+def _read_gallery(name: str) -> tuple[str, str]:
+    names = gallery_names()
+    if name not in names:
+        near = nearest(name, names)
+        remedy = f'did you mean "{GALLERY}{near}"?' if near else f"one of: {', '.join(names)}"
+        raise ModelError([Finding("error", GALLERY + name, "", f'the gallery has no model "{name}"', remedy, "no-file")])
+    content = (resources.files("linkwright") / "gallery" / f"{name}.yaml").read_bytes()
+    return decode(content, f"{name}.yaml"), f"{name}.yaml"
+
+
+def decode(content: bytes, name: str) -> str:
+    """Text of a file's bytes; raises ModelError with the place of the first byte that is not UTF-8."""
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise ModelError([Finding("error", name, "", "the file is UTF-16", "save it as UTF-8", "encoding")])
+    if b"\x00" in content:
+        raise ModelError([Finding("error", name, "", f"the file is not text (a zero byte at offset {content.index(0)})",
+                                  "name a model file, YAML or JSON in UTF-8", "encoding")])
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        before = content[: error.start]
+        line, column = before.count(b"\n") + 1, len(before) - before.rfind(b"\n")
+        byte = content[error.start]
+        raise ModelError([Finding("error", f"{name}:{line}:{column}", "", f"the file is not UTF-8: byte 0x{byte:02x} at "
+                                  f"offset {error.start}", "save it as UTF-8", "encoding")]) from None

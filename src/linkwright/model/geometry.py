@@ -1,0 +1,100 @@
+"""Where the points of a link are in its own axes: one function for floats and for traced values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Link
+
+T = TypeVar("T")
+Pair = tuple[Any, Any]
+
+
+def local_points(
+    link: Link, dimension: Callable[[str], T], cos: Callable[[T], T], sin: Callable[[T], T]
+) -> dict[str, tuple[T | float, T | float]]:
+    """Coordinates (m) of each point of a link in its axes, from the dimensions by their addresses.
+
+    length: first point (0, 0), second (length, 0).  bent: first (0, 0), second (l0, 0), third
+    l1·(cos angle, sin angle).  drawing: first (0, 0), second (x, 0).  point: the only listed point at (0, 0).
+    All further points, and all points of ``coordinates``, by their coordinates. Structural zeros are the float 0.0.
+    """
+    points: dict[str, tuple[T | float, T | float]] = {}
+    for index, point in enumerate(link.points):
+        addresses = point_addresses(link, index, point)
+        if addresses is not None:
+            points[point] = (dimension(addresses[0]), dimension(addresses[1]))
+        elif index == 0:
+            points[point] = (0.0, 0.0)
+        elif index == 1:
+            points[point] = (dimension(second_point_address(link, point)), 0.0)
+        else:
+            length, angle = dimension(f"{link.name}.lengths.1"), dimension(f"{link.name}.angle")
+            points[point] = (length * cos(angle), length * sin(angle))  # type: ignore[operator]
+    return points
+
+
+STRUCTURAL_POINTS: Mapping[str, int] = {"length": 2, "bent": 3, "drawing": 2, "point": 1, "coordinates": 0}
+
+
+def point_addresses(link: Link, index: int, point: str) -> tuple[str, str] | None:
+    """Addresses of the coordinates of the link's point number ``index``; None where the geometry places it."""
+    if index < STRUCTURAL_POINTS[link.geometry]:
+        return None
+    return f"{link.name}.{point}.x", f"{link.name}.{point}.y"
+
+
+def second_point_address(link: Link, point: str) -> str:
+    """Address of the distance from the first point to the second, where the geometry places the second."""
+    by_geometry = {"length": f"{link.name}.length", "bent": f"{link.name}.lengths.0"}
+    return by_geometry.get(link.geometry, f"{link.name}.{point}.x")
+
+
+def from_drawing(
+    points: Sequence[str], drawing: Mapping[str, tuple[float, float]]
+) -> dict[str, tuple[float, float]]:
+    """Coordinates in axes from the first point to the second, from those of an assembled drawing (m)."""
+    origin, second = drawing[points[0]], drawing[points[1]]
+    length = math.dist(origin, second)
+    ux, uy = (second[0] - origin[0]) / length, (second[1] - origin[1]) / length
+    local = {points[0]: (0.0, 0.0), points[1]: (length, 0.0)}
+    for point in points[2:]:
+        dx, dy = drawing[point][0] - origin[0], drawing[point][1] - origin[1]
+        local[point] = ux * dx + uy * dy, ux * dy - uy * dx
+    return local
+
+
+def centre(link: Link, points: Mapping[str, Pair], dimension: Callable[[str], Any]) -> Pair:
+    """Mass centre (m) in the link's axes: as given, else midway between the first two points (one point: at it)."""
+    if link.mass_centre is not None:
+        return dimension(f"{link.name}.mass_centre.x"), dimension(f"{link.name}.mass_centre.y")
+    first, *others = list(points.values())[:2] or [(0.0, 0.0)]
+    if not others:
+        return first
+    second = others[0]
+    return _middle(first[0], second[0]), _middle(first[1], second[1])
+
+
+def _middle(a: Any, b: Any) -> Any:
+    """Half of a + b, without adding a structural zero."""
+    if isinstance(a, float) and a == 0.0:
+        return 0.5 * b
+    if isinstance(b, float) and b == 0.0:
+        return 0.5 * a
+    return 0.5 * (a + b)
+
+
+def geometry_addresses(link: Link) -> list[str]:
+    """Addresses of every dimension that places the link's points, in order."""
+    found: list[str] = []
+
+    def note(address: str) -> float:
+        if address not in found:
+            found.append(address)
+        return 0.0
+
+    local_points(link, note, lambda angle: angle, lambda angle: angle)
+    return found

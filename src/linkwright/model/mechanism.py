@@ -1,0 +1,230 @@
+"""The one type for a mechanism: frozen, in SI units, checked, not solved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+from linkwright.drivers.base import Driver
+from linkwright.errors import LinkwrightError
+from linkwright.joints.base import Joint
+from linkwright.loads.base import Load
+from linkwright.model.geometry import centre, local_points, point_addresses, second_point_address
+from linkwright.registry import nearest
+from linkwright.units import Dimension
+
+if TYPE_CHECKING:
+    from linkwright.model.expressions import Expression
+
+Vec = tuple[float, float]
+Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid link with named points in its own axes (m), mass (kg) and moment of inertia about its centre (kg·m²).
+
+    ``geometry`` says how the user gave it: ``length`` (two points), ``bent`` (two lengths and an angle),
+    ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at the origin).
+    ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` None means the default:
+    midway between the first two points, or at the only one.
+    """
+
+    name: str
+    geometry: Geometry
+    points: Mapping[str, Vec]
+    lengths: tuple[float, ...] = ()
+    angle: float = 0.0
+    mass: float = 0.0
+    inertia: float = 0.0
+    mass_centre: Vec | None = None
+
+    @property
+    def centre(self) -> Vec:
+        """Mass centre in the link's axes, m."""
+        x, y = centre(self, self.points, self.dimensions().__getitem__)
+        return float(x), float(y)
+
+    def geometry_dimensions(self) -> dict[str, float]:
+        """Addresses of the dimensions that place the points, with their SI values."""
+        found: dict[str, float] = {}
+        for index, (point, (x, y)) in enumerate(self.points.items()):
+            addresses = point_addresses(self, index, point)
+            if addresses is not None:
+                found.update(zip(addresses, (x, y), strict=True))
+            elif index == 1:
+                found[second_point_address(self, point)] = self.lengths[0] if self.lengths else x
+            elif index == 2:
+                found[f"{self.name}.lengths.1"], found[f"{self.name}.angle"] = self.lengths[1], self.angle
+        return found
+
+    def dimensions(self) -> dict[str, float]:
+        """Addresses of all dimensions of the link with their SI values."""
+        found = self.geometry_dimensions()
+        if self.name == "frame":
+            return found
+        found[f"{self.name}.mass"], found[f"{self.name}.inertia"] = self.mass, self.inertia
+        if self.mass_centre is not None:
+            found[f"{self.name}.mass_centre.x"], found[f"{self.name}.mass_centre.y"] = self.mass_centre
+        return found
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Link:
+        """The same link with the values that ``value`` gives for the addresses of ``dimensions``."""
+        name = self.name
+        lengths = {
+            "length": lambda: (value(f"{name}.length"),),
+            "bent": lambda: (value(f"{name}.lengths.0"), value(f"{name}.lengths.1")),
+        }.get(self.geometry, tuple)()
+        moved = {point: (float(x), float(y)) for point, (x, y) in local_points(self, value, math.cos, math.sin).items()}
+        changed = replace(self, points=moved, lengths=lengths)
+        if self.geometry == "bent":
+            changed = replace(changed, angle=value(f"{name}.angle"))
+        if name == "frame":
+            return changed
+        if self.mass_centre is not None:
+            place = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
+            changed = replace(changed, mass_centre=place)
+        return replace(changed, mass=value(f"{name}.mass"), inertia=value(f"{name}.inertia"))
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """What one cycle is: a ``duration`` (s), a range of the first driver's coordinate (rad or m), or ``turns`` of it."""
+
+    duration: float | None = None
+    start: float | None = None
+    end: float | None = None
+    turns: float | None = None
+
+    def dimensions(self) -> dict[str, float]:
+        """Addresses (``cycle.duration``, ``cycle.from``, ``cycle.to``, ``cycle.turns``) with their SI values."""
+        values = {"duration": self.duration, "from": self.start, "to": self.end, "turns": self.turns}
+        return {f"cycle.{name}": value for name, value in values.items() if value is not None}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Cycle:
+        """The same cycle with the values that ``value`` gives for the addresses of ``dimensions``."""
+        new = {address: value(address) for address in self.dimensions()}
+        return Cycle(*(new.get(f"cycle.{name}") for name in ("duration", "from", "to", "turns")))
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A planar mechanism as the file or the code gave it: links, joints, drivers, loads; SI units, radians.
+
+    ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the implied
+    pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the ``parameters``. ``expressions`` maps the address of every
+    dimension that was given by an expression of ``parameters`` to that expression.
+    """
+
+    name: str
+    frame: Link
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
+    drivers: Mapping[str, Driver]
+    purpose: str = ""
+    source: str = ""
+    assembly: Mapping[str, str] = field(default_factory=dict)
+    drawing: Mapping[str, Vec] = field(default_factory=dict)
+    gravity: Vec = (0.0, 0.0)
+    loads: Mapping[str, Load] = field(default_factory=dict)
+    cycle: Cycle | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    kinds: Mapping[str, Dimension] = field(default_factory=dict)
+    expressions: Mapping[str, Expression] = field(default_factory=dict)
+    expected: Mapping[str, Any] = field(default_factory=dict)
+
+    def dimension(self, address: str) -> float:
+        """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""
+        if address not in self._dimensions:
+            raise self._unknown(address)
+        return self._dimensions[address]
+
+    def dimensions(self) -> dict[str, float]:
+        """All addresses with their SI values, named parameters under their own names."""
+        return dict(self._dimensions)
+
+    def with_dimensions(self, changes: Mapping[str, float]) -> Mechanism:
+        """A new mechanism with changed SI values.
+
+        Dimensions that are expressions of changed parameters follow; a changed dimension that was an expression
+        loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that is not
+        positive, a negative mass or inertia.
+        """
+        new = self._dimensions | {address: self._checked(address, value) for address, value in changes.items()}
+        kept = {address: each for address, each in self.expressions.items() if address not in changes}
+        for address, expression in kept.items():
+            new[address] = self._checked(address, expression.evaluate(new))
+        value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
+        frame = self.frame.with_dimensions(value)
+        links = {name: link.with_dimensions(value) for name, link in self.links.items()}
+        points = {"frame": frame.points, **{name: link.points for name, link in links.items()}}
+        return replace(
+            self,
+            frame=frame,
+            links=links,
+            joints={
+                name: joint.with_dimensions(value).aligned(points[joint.joined[0]]) for name, joint in self.joints.items()
+            },
+            drivers={name: driver.with_dimensions(value, parameters) for name, driver in self.drivers.items()},
+            loads={name: load.with_dimensions(value) for name, load in self.loads.items()},
+            gravity=(value("gravity.x"), value("gravity.y")),
+            cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
+            parameters=parameters,
+            expressions=kept,
+        )
+
+    def structure(self) -> Any:
+        """Mobility and Assur groups of the mechanism (see ``linkwright.structure``)."""
+        from linkwright.structure import structure
+
+        return structure(self)
+
+    def link(self, name: str) -> Link:
+        """The link of that name, the frame included; raises for an unknown name."""
+        if name == "frame":
+            return self.frame
+        if name not in self.links:
+            offer = nearest(name, ["frame", *self.links])
+            raise LinkwrightError(f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else ""))
+        return self.links[name]
+
+    @cached_property
+    def _dimensions(self) -> dict[str, float]:
+        found = dict(self.parameters)
+        for owner in (self.frame, *self.links.values(), *self.joints.values(), *self.drivers.values()):
+            found.update(owner.dimensions())
+        for load in self.loads.values():
+            found.update(load.dimensions())
+        found["gravity.x"], found["gravity.y"] = self.gravity
+        if self.cycle is not None:
+            found.update(self.cycle.dimensions())
+        return found
+
+    def _unknown(self, address: str) -> LinkwrightError:
+        offer = nearest(address, self._dimensions)
+        hint = f'did you mean "{offer}"?' if offer else "see the addresses in dimensions()"
+        return LinkwrightError(f'the mechanism has no dimension "{address}"; {hint}')
+
+    def _checked(self, address: str, value: float) -> float:
+        if address not in self._dimensions:
+            raise self._unknown(address)
+        value = float(value)
+        if not math.isfinite(value):
+            raise LinkwrightError(f"{address} is set to {value}; give a finite number")
+        last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
+        owner = address.split(".")[0]
+        if owner in self.links and last in ("length", "lengths") and value <= 0:
+            raise LinkwrightError(f"{address} is set to {value:g} m; a length must be positive")
+        if owner in self.links and last in ("mass", "inertia") and value < 0:
+            raise LinkwrightError(f"{address} is set to {value:g}; it must not be negative")
+        return value
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.links)
+        return f"Mechanism({self.name!r}: links {names}; {len(self.joints)} joints, {len(self.drivers)} driver(s))"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: value for key, value in self.__dict__.items() if key != "_dimensions"}

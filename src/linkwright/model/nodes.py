@@ -1,0 +1,91 @@
+"""The tree of a YAML or JSON text, every node with its place, read without ever making Python objects of tags.
+
+Problems (duplicate keys, tags, a second document, too deep nesting) become remarks, not exceptions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+MAX_DEPTH, MAX_NODES = 40, 200_000
+_NULLS = frozenset(("", "~", "null", "Null", "NULL"))
+
+
+@dataclass
+class Node:
+    """A value in the text: line and column count from 0, ``start`` and ``end`` are character offsets."""
+
+    line: int
+    column: int
+    start: int
+    end: int
+
+
+@dataclass
+class Scalar(Node):
+    """A word, number or text; ``plain`` where it was written without quotes."""
+
+    text: str
+    plain: bool = True
+
+    @property
+    def empty(self) -> bool:
+        """Whether no value is written."""
+        return self.plain and self.text in _NULLS
+
+
+@dataclass
+class Sequence(Node):
+    """A list."""
+
+    items: list[Node] = field(default_factory=list)
+    flow: bool = False
+
+
+@dataclass
+class Entry:
+    """A key and its value."""
+
+    key: Scalar
+    value: Node
+
+
+@dataclass
+class Mapping(Node):
+    """Keys and values in the order of the text; a key occurs once."""
+
+    entries: list[Entry] = field(default_factory=list)
+    flow: bool = False
+
+    def get(self, key: str) -> Node | None:
+        """The value of a key, or None."""
+        for entry in self.entries:
+            if entry.key.text == key:
+                return entry.value
+        return None
+
+    def __iter__(self) -> Iterator[tuple[str, Node]]:
+        return iter([(entry.key.text, entry.value) for entry in self.entries])
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A problem of the text itself at a place of it."""
+
+    line: int
+    column: int
+    message: str
+    remedy: str
+    code: str
+
+
+def noun(node: Node | None) -> str:
+    """What the node is, in words, for messages."""
+    if isinstance(node, Mapping):
+        return "a mapping (key: value)"
+    if isinstance(node, Sequence):
+        return "a list"
+    if node is None or (isinstance(node, Scalar) and node.empty):
+        return "nothing"
+    return "a single value"

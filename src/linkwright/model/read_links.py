@@ -1,0 +1,253 @@
+"""The sections ``frame``, ``links`` and ``drawing`` of a model file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from linkwright.model.fields import Field, Quantities, Quantity, Schema, quantity_schema
+from linkwright.model.geometry import from_drawing
+from linkwright.model.mechanism import Geometry, Link, Vec
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node, Scalar, Sequence
+from linkwright.model.reader import Place, Reader
+
+_PAIR = Quantities("length", ("x", "y"))
+
+
+@dataclass(frozen=True)
+class Coordinates(Field):
+    """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``; ``in_address`` False for a key like ``points``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> dict[str, Vec | None] | None:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        key = place.key
+        owner = Place(key, place.address.rpartition(".")[0])
+        found: dict[str, Vec | None] = {}
+        for entry in mapping.entries:
+            name = reader.name(entry.key, owner.child(entry.key.text), "point")
+            if name is not None:
+                found[name] = _PAIR.read(reader, entry.value, owner.child(name), {})  # type: ignore[assignment]
+        return found
+
+    def shape(self) -> Schema:
+        pair = {"type": "array", "items": quantity_schema("length"), "minItems": 2, "maxItems": 2}
+        return {"type": "object", "additionalProperties": pair}
+
+
+@dataclass(frozen=True)
+class LinkPoints(Field):
+    """The points of a link: a list of names, or a mapping of names to coordinates in the link's axes."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, MappingNode):
+            return Coordinates().read(reader, node, place, given)
+        if not isinstance(node, Sequence):
+            reader.items(node, place, None, "[A, B]")
+            return None
+        names: list[str] = []
+        for index, item in enumerate(node.items):
+            name = reader.name(item, place.child(str(index)), "point")
+            if name in names:
+                reader.error(item, place, f'the point "{name}" is listed twice', "remove one or rename it", "duplicate")
+            elif name is not None:
+                names.append(name)
+        return names
+
+    def shape(self) -> Schema:
+        names: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1}
+        return {"anyOf": [names, Coordinates().shape()]}
+
+
+LINK_FIELDS: Mapping[str, Field] = {
+    "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
+    "length": Quantity("length", above=0, doc="distance from the first point to the second"),
+    "lengths": Quantities("length", count=2, doc="bent link: first to second, first to third point"),
+    "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
+    "also": Coordinates(doc="further points, by coordinates in the link's axes"),
+    "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
+    "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
+    "mass_centre": Quantities("length", ("x", "y"), doc="mass centre in the link's axes (default: midway)"),
+}
+FRAME_FIELDS: Mapping[str, Field] = {
+    "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
+}
+
+
+def scan_points(node: Node | None) -> tuple[str, ...]:
+    """The points that a link's node names, whatever else is wrong with it."""
+    if not isinstance(node, MappingNode):
+        return ()
+    found: list[str] = []
+    for key in ("points", "also"):
+        part = node.get(key)
+        if isinstance(part, MappingNode):
+            found += [entry.key.text for entry in part.entries]
+        elif isinstance(part, Sequence) and key == "points":
+            found += [item.text for item in part.items if isinstance(item, Scalar)]
+    return tuple(dict.fromkeys(found))
+
+
+def read_frame(reader: Reader, node: Node | None) -> Link:
+    """The frame with its points."""
+    if node is None:
+        reader.error(None, "frame", "the model has no frame", "add frame: {points: {O1: [0 m, 0 m]}}", "missing-key")
+        return Link("frame", "coordinates", {})
+    points = node.get("points") if isinstance(node, MappingNode) else None
+    if isinstance(points, Sequence):
+        reader.error(points, "frame.points", "the frame's points have no coordinates",
+                     "write points: {O1: [0 m, 0 m], …}", "type")
+        return Link("frame", "coordinates", {})
+    found = reader.table(node, Place("frame", "frame"), FRAME_FIELDS) or {}
+    placed = {name: place for name, place in (found.get("points") or {}).items() if place is not None}
+    return Link("frame", "coordinates", placed)
+
+
+def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Vec]:
+    """Coordinates of the assembled drawing in frame axes."""
+    if node is None:
+        return {}
+    with reader.plain_numbers("a drawing"):
+        found = Coordinates().read(reader, node, Place("drawing", "drawing"), {}) or {}
+    everywhere = list(dict.fromkeys(point for points in reader.names.links.values() for point in points))
+    drawing: dict[str, Vec] = {}
+    for name, place in found.items():
+        value = node.get(name) if isinstance(node, MappingNode) else None
+        if not reader.known(value or node, f"drawing.{name}", "point", name, everywhere) or place is None:
+            continue
+        fixed = frame.points.get(name)
+        if fixed is not None and reader.names.owners(name) == ["frame"] and math.dist(fixed, place) > 1e-9:
+            reader.error(value, f"drawing.{name}", f'"{name}" is a point of the frame and stands elsewhere there',
+                         "leave it out of the drawing", "conflict")
+        drawing[name] = place
+    return drawing
+
+
+def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[str, Vec]) -> dict[str, Link]:
+    """All moving links, in the file's order."""
+    if node is None:
+        reader.error(None, "links", "the model has no links", "add links: {crank: {points: [O1, A], length: 0.1 m}}",
+                     "missing-key")
+        return {}
+    mapping = reader.mapping(node, "links")
+    if mapping is None:
+        return {}
+    if not mapping.entries:
+        reader.error(node, "links", "there is no link", "add one, such as crank: {points: [O1, A], length: 0.1 m}",
+                     "missing-key")
+    links: dict[str, Link] = {}
+    seen = {**frame.points, **drawing}
+    for entry in mapping.entries:
+        name = reader.name(entry.key, f"links.{entry.key.text}", "link")
+        if name in ("frame", "gravity", "loads", "parameters", "cycle"):
+            reader.error(entry.key, f"links.{name}", f'"{name}" cannot be the name of a link', "choose another name",
+                         "name")
+        elif name is not None:
+            link = _read_link(reader, entry.value, name, seen)
+            if link is not None:
+                links[name] = link
+    return links
+
+
+def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]) -> Link | None:
+    place = Place(f"links.{name}", name)
+    before = reader.error_count
+    given = reader.table(node, place, LINK_FIELDS)
+    if given is None or given.get("points") is None:
+        return None
+    points = given["points"]
+    if not points:
+        if reader.error_count == before:
+            reader.error(node, place.child("points"), "the link has no points", "list them: [A, B]", "missing-key")
+        return None
+    assert isinstance(node, MappingNode)
+    placed = _place_points(reader, node, place, given, drawing) if reader.error_count == before else None
+    if placed is None:
+        return None
+    geometry, coordinates, lengths = placed
+    for point, position in (given.get("also") or {}).items():
+        if point in coordinates:
+            reader.error(node.get("also"), place.child("also"), f'the point "{point}" is given twice', "remove one",
+                         "duplicate")
+        coordinates[point] = position
+    _coincident(reader, node, place, coordinates)
+    return Link(name, geometry, coordinates, lengths, given.get("angle") or 0.0, given.get("mass") or 0.0,
+                given.get("inertia") or 0.0, given.get("mass_centre"))
+
+
+_Placed = tuple[Geometry, dict[str, Vec], tuple[float, ...]]
+
+
+def _place_points(
+    reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any], drawing: Mapping[str, Vec]
+) -> _Placed | None:
+    """The way in which the geometry is given, and the points it places."""
+    points = given["points"]
+    sizes = [key for key in ("length", "lengths", "angle") if key in given]
+    wanted = None
+    if isinstance(points, dict):
+        if sizes:
+            wanted = f"{sizes[0]} stands next to coordinates", "remove it, or list the points as [A, B]"
+        else:
+            return "coordinates", dict(points), ()
+    elif len(points) == 1:
+        if sizes:
+            wanted = f"a link with one point has a {sizes[0]}", "list its two points, or remove it"
+        else:
+            return "point", {points[0]: (0.0, 0.0)}, ()
+    elif sizes == ["length"]:
+        if len(points) == 2:
+            return "length", {points[0]: (0.0, 0.0), points[1]: (given["length"], 0.0)}, (given["length"],)
+        wanted = (f"{len(points)} points, but one length",
+                  "keep two in points and put the others under also: {P: [x, y]}, or give lengths and angle")
+    elif not sizes:
+        return _from_drawing(reader, node, place, points, drawing)
+    elif sizes == ["lengths", "angle"] and len(points) == 3:
+        return _bent(reader, node, place, given)
+    else:
+        wanted = (f"{' and '.join(sizes)} with {len(points)} points",
+                  "two points take length; three take lengths: [l1, l2] and angle; others go under also")
+    reader.error(node.get(sizes[0]), place.child(sizes[0]), *wanted, "geometry")
+    return None
+
+
+def _bent(reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any]) -> _Placed | None:
+    first, second = given["lengths"]
+    if first <= 0 or second <= 0:
+        reader.error(node.get("lengths"), place.child("lengths"), "a length is zero or negative",
+                     "give lengths above zero", "range")
+        return None
+    corner, one, two = given["points"]
+    angle = given["angle"]
+    arm = second * math.cos(angle), second * math.sin(angle)
+    return "bent", {corner: (0.0, 0.0), one: (first, 0.0), two: arm}, (first, second)
+
+
+def _from_drawing(
+    reader: Reader, node: MappingNode, place: Place, points: list[str], drawing: Mapping[str, Vec]
+) -> _Placed | None:
+    missing = [point for point in points if point not in drawing]
+    if missing:
+        form = "length: 0.5 m" if len(points) == 2 else "lengths: [0.3 m, 0.4 m] and angle: 30 deg"
+        reader.error(node, place, f"the link has no dimensions, and the drawing no place of {', '.join(missing)}",
+                     f"give {form}, coordinates of its points, or add {', '.join(missing)} to drawing", "missing-key")
+        return None
+    if drawing[points[0]] == drawing[points[1]]:
+        reader.error(node, place, f"{points[0]} and {points[1]} are at the same place in the drawing", "move one",
+                     "range")
+        return None
+    return "drawing", from_drawing(points, drawing), ()
+
+
+def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, Vec | None]) -> None:
+    seen: dict[Vec, str] = {}
+    for name, position in points.items():
+        if position is not None and position in seen:
+            reader.error(node, place, f"the points {seen[position]} and {name} are at the same place",
+                         "give them different coordinates unless that is meant", "coincident", severity="warning")
+        elif position is not None:
+            seen[position] = name

@@ -1,0 +1,174 @@
+"""From the nodes of a file to a Mechanism, with every finding on the way."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from linkwright import units
+from linkwright.errors import Finding, QuantityError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.loads.base import Load, read_load
+from linkwright.model import expressions
+from linkwright.model.expressions import Expression
+from linkwright.model.fields import Count, Field, Free, Quantities, Text
+from linkwright.model.mechanism import Mechanism, Vec
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node
+from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
+from linkwright.model.read_joints import read_joints, scan_joints
+from linkwright.model.read_links import read_drawing, read_frame, read_links, scan_points
+from linkwright.model.reader import Place, Reader
+from linkwright.model.whole import check_whole
+
+FORMAT = 1
+SECTIONS = ("format", "name", "purpose", "source", "expected", "parameters", "frame", "links", "joints", "assembly",
+            "drawing", "driver", "drivers", "cycle", "gravity", "loads")  # fmt: skip
+WORDS = ("left", "right", "forward", "backward")
+HEADER: Mapping[str, Field] = {
+    "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),
+    "name": Text(doc="name of the mechanism"),
+    "purpose": Text(doc="what it is for, one sentence"),
+    "source": Text(doc="where it is taken from"),
+    "expected": Free(doc="numbers to compare results with; not interpreted"),
+    "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes, such as [0, -9.81 m/s²]"),
+}
+
+
+def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism | None, list[Finding]]:
+    """The mechanism, or None where an error was found, and all findings."""
+    reader = Reader(source, si=si)
+    mapping = reader.mapping(root, "")
+    if mapping is None:
+        return None, reader.findings
+    mechanism = _sections(reader, mapping, source)
+    if reader.error_count:
+        return None, reader.findings
+    return mechanism, reader.findings
+
+
+def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
+    top = Place("", "")
+    reader.unknown_keys(root, top, list(SECTIONS))
+    _scan(reader, root)
+    parameters = _parameters(reader, root.get("parameters"))
+    header = reader.table(_only(root, HEADER), top, HEADER) or {}
+    frame = read_frame(reader, root.get("frame"))
+    drawing = read_drawing(reader, root.get("drawing"), frame)
+    links = read_links(reader, root.get("links"), frame, drawing)
+    joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
+    ends = {name: (joint.block, joint.guide) for name, joint in joints.items() if isinstance(joint, PrismaticJoint)}
+    drivers = complete(read_drivers(reader, root), ends)
+    mechanism = Mechanism(
+        name=header.get("name") or Path(source).stem,
+        frame=frame,
+        links=links,
+        joints=joints,
+        drivers=drivers,
+        purpose=header.get("purpose") or "",
+        source=header.get("source") or "",
+        assembly=_assembly(reader, root.get("assembly")),
+        drawing=drawing,
+        gravity=_gravity(header),
+        loads=_loads(reader, root.get("loads")),
+        cycle=read_cycle(reader, root.get("cycle"), drivers),
+        parameters=parameters,
+        kinds={name: reader.kinds[name] for name in parameters},
+        expressions=reader.expressions,
+        expected=header.get("expected") or {},
+    )
+    check_whole(reader, root, mechanism)
+    return mechanism
+
+
+def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:
+    kept = [entry for entry in root.entries if entry.key.text in fields]
+    return MappingNode(root.line, root.column, root.start, root.end, kept, root.flow)
+
+
+def _gravity(header: Mapping[str, Any]) -> Vec:
+    given = header.get("gravity")
+    return (0.0, 0.0) if given is None else (given[0], given[1])
+
+
+def _scan(reader: Reader, root: MappingNode) -> None:
+    """Gather all names first, so that references can be checked wherever they stand."""
+    reader.names.links = {"frame": scan_points(root.get("frame"))}
+    links = root.get("links")
+    if isinstance(links, MappingNode):
+        reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
+    scan_joints(reader, root.get("joints"))
+    scan_input(reader, root)
+
+
+def _parameters(reader: Reader, node: Node | None) -> dict[str, float]:
+    mapping = None if node is None else reader.mapping(node, "parameters")
+    entries = mapping.entries if mapping else []
+    waiting = {entry.key.text for entry in entries}
+    for entry in entries:
+        name, place = entry.key.text, Place(f"parameters.{entry.key.text}", entry.key.text)
+        waiting.discard(name)
+        value = _parameter(reader, entry.key, entry.value, place, waiting)
+        if value is None:
+            reader.broken.add(name)
+            reader.kinds.setdefault(name, units.NONE)
+    return {name: reader.values[name] for name in (entry.key.text for entry in entries) if name in reader.values}
+
+
+def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set[str]) -> float | None:
+    name = place.address
+    reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
+    if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
+        what = "a function or a reserved word" if name in reserved else "not a word of letters, digits and _"
+        reader.error(key, place, f'"{name}" cannot name a parameter: it is {what}', f'rename it, such as "{name[:1]}_1"'
+                     if name in reserved else 'rename it, such as "l_1"', "name")
+        return None
+    if name in reader.names.links or reader.names.joints.get(name, "revolute") != "revolute":
+        reader.error(key, place, f'a link or joint has the name "{name}" already', "rename one of them", "duplicate")
+        return None
+    text = reader.quantity_text(node, place, "1.25 m")
+    if text is None:
+        return None
+    try:
+        expression = expressions.parse_any(text, reader.kinds)
+        reader.used |= expression.names
+        if expression.names & reader.broken:
+            return None
+        kind, value = expression.dimension(reader.kinds), expression.evaluate(reader.values)
+    except QuantityError as error:
+        later = sorted(each for each in waiting if re.search(rf"(?<!\w){re.escape(each)}(?!\w)", text))
+        if later and error.code == "unknown-name":
+            reader.error(node, place, f'"{later[0]}" is defined below', "move it above", "unknown-name")
+        else:
+            reader.quantity_error(error, node, place, text)
+        return None
+    reader.kinds[name], reader.values[name] = kind, value
+    if expression.names:
+        reader.expressions[name] = Expression(expression.text, expression.tree, expression.names)
+    return value
+
+
+def _assembly(reader: Reader, node: Node | None) -> dict[str, str]:
+    mapping = None if node is None else reader.mapping(node, "assembly")
+    found: dict[str, str] = {}
+    for entry in mapping.entries if mapping else []:
+        name, place = entry.key.text, f"assembly.{entry.key.text}"
+        known = reader.known(entry.key, place, "joint", name, list(reader.names.joints))
+        word = reader.word(entry.value, place, WORDS)
+        if known and word is not None:
+            found[name] = word
+    return found
+
+
+def _loads(reader: Reader, node: Node | None) -> dict[str, Load]:
+    mapping = None if node is None else reader.mapping(node, "loads")
+    found: dict[str, Load] = {}
+    for entry in mapping.entries if mapping else []:
+        name = reader.name(entry.key, f"loads.{entry.key.text}", "load")
+        if name is not None:
+            load = read_load(reader, entry.value, Place(f"loads.{name}", f"loads.{name}"), name)
+            if load is not None:
+                found[name] = load
+    return found

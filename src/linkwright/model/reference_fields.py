@@ -1,0 +1,136 @@
+"""Fields that refer to links, points and joints of the model by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from linkwright.model.fields import Field, Schema
+from linkwright.model.nodes import Node
+
+if TYPE_CHECKING:
+    from linkwright.model.reader import Place, Reader
+
+
+@dataclass(frozen=True)
+class LinkPoint:
+    """A point of a link."""
+
+    link: str
+    point: str
+
+    def __str__(self) -> str:
+        return f"{self.link}.{self.point}"
+
+
+@dataclass(frozen=True)
+class LinkName(Field):
+    """The name of a link; ``moving`` excludes the frame."""
+
+    moving: bool = field(default=False, kw_only=True)
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        name = reader.text(node, place)
+        if name is None or not reader.known(node, place, "link", name, list(reader.names.links)):
+            return None
+        if self.moving and name == "frame":
+            reader.error(node, place, "the frame does not move", "name a moving link", "reference")
+            return None
+        return name
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "link"}
+
+
+@dataclass(frozen=True)
+class PointName(Field):
+    """The name of a point of the link that the field ``of`` of the same table names."""
+
+    of: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        name, link = reader.text(node, place), given.get(self.of)
+        if name is None:
+            return None
+        return name if link is None or reader.point_of(node, place, name, link) else None
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "point", "x-of": self.of}
+
+
+@dataclass(frozen=True)
+class PointPair(Field):
+    """Two different points ``[P, Q]`` of the link that the field ``of`` names: the ray from P to Q."""
+
+    of: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[str, str] | None:
+        return reader.ray(node, place, given.get(self.of))
+
+    def shape(self) -> Schema:
+        return {"type": "array", "items": {"type": "string", "x-reference": "point", "x-of": self.of},
+                "minItems": 2, "maxItems": 2}
+
+    def written(self, value: Any) -> Any:
+        return list(value)
+
+
+@dataclass(frozen=True)
+class PointReference(Field):
+    """A point of the mechanism: ``link.point``, or only ``point`` where the name leaves no doubt."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> LinkPoint | None:
+        text = reader.text(node, place)
+        return None if text is None else reader.link_point(node, place, text)
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "link.point"}
+
+    def written(self, value: Any) -> Any:
+        return str(value)
+
+
+@dataclass(frozen=True)
+class PointReferences(Field):
+    """Two points of the mechanism, ``[link.point, point]``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        items = reader.items(node, place, 2, "[crank.A, O3]")
+        if items is None:
+            return None
+        one = PointReference()
+        found = [one.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)]
+        if any(point is None for point in found):
+            return None
+        if found[0] == found[1]:
+            reader.error(node, place, f"both points are {found[0]}", "name two different points", "reference")
+            return None
+        return tuple(found)
+
+    def shape(self) -> Schema:
+        return {"type": "array", "items": {"type": "string", "x-reference": "link.point"}, "minItems": 2, "maxItems": 2}
+
+    def written(self, value: Any) -> Any:
+        return [str(point) for point in value]
+
+
+@dataclass(frozen=True)
+class JointName(Field):
+    """The name of a joint, of one of ``kinds`` (revolute, prismatic, weld)."""
+
+    kinds: tuple[str, ...] = ("revolute", "prismatic")
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        name = reader.text(node, place)
+        if name is None or not reader.known(node, place, "joint", name, list(reader.names.joints)):
+            return None
+        kind = reader.names.joints[name]
+        if kind not in self.kinds:
+            reader.error(node, place, f'the joint "{name}" is {kind}', f"name a joint that is {' or '.join(self.kinds)}",
+                         "reference")
+            return None
+        return name
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "joint", "x-kinds": list(self.kinds)}

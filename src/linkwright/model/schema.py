@@ -1,0 +1,72 @@
+"""The JSON Schema of a model file, from the same declarations that read it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from linkwright.drivers.base import LAWS
+from linkwright.loads.base import LOADS
+from linkwright.model.fields import Field, Schema, Word, quantity_schema, table_schema
+from linkwright.model.read_drivers import SLIDE_FIELDS, TURN_FIELDS
+from linkwright.model.read_joints import JOINT_FIELDS
+from linkwright.model.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
+from linkwright.model.read_model import HEADER, WORDS
+
+_NAME_PATTERN = r"^[^\W\d][\w'-]*$"
+
+
+def json_schema() -> Schema:
+    """JSON Schema (2020-12) of a model file: every section, joint kind, driver law and registered load kind."""
+    properties: Schema = {name: each.schema() for name, each in HEADER.items()}
+    properties |= {
+        "parameters": {**_named({"type": ["string", "number"]}), "description": "named quantities for expressions"},
+        "frame": {**table_schema(FRAME_FIELDS), "description": "the fixed link"},
+        "links": {**_named(table_schema(LINK_FIELDS)), "description": "the moving links; shared point names are pins"},
+        "joints": {**_named({"oneOf": _joints()}), "description": "guides, welds, and attributes of pins"},
+        "assembly": {**_named({"enum": list(WORDS)}), "description": "assembly mode by inner joint"},
+        "drawing": {**Coordinates().shape(), "description": "coordinates of the assembled drawing, in frame axes"},
+        "driver": {"oneOf": _drivers(), "description": "the one driver"},
+        "drivers": {**_named({"oneOf": _drivers()}), "description": "several drivers by name"},
+        "cycle": _cycle(),
+        "loads": {**_named({"oneOf": [load.schema() for load in LOADS.values()]}), "description": "loads by name"},
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Linkwright model",
+        "type": "object",
+        "properties": properties,
+        "required": ["format", "frame", "links"],
+        "additionalProperties": False,
+    }
+
+
+def _named(shape: Schema) -> Schema:
+    return {"type": "object", "propertyNames": {"pattern": _NAME_PATTERN}, "additionalProperties": shape}
+
+
+def _joints() -> list[Schema]:
+    return [
+        {"title": kind, **table_schema({"kind": Word((kind,), required=True), **fields})}
+        for kind, fields in JOINT_FIELDS.items()
+    ]
+
+
+def _drivers() -> list[Schema]:
+    found = []
+    for rotary, way in ((True, TURN_FIELDS), (False, SLIDE_FIELDS)):
+        for key, law in LAWS.items():
+            fields: Mapping[str, Field] = {**way, **law.fields(rotary)}
+            shape = table_schema(fields)
+            shape["required"] = [*shape["required"], key]
+            found.append({"title": f"{next(iter(way))}, {key}", **shape})
+    return found
+
+
+def _cycle() -> Schema:
+    quantity = quantity_schema("angle") | {"description": "coordinate of the first driver"}
+    forms: list[tuple[str, ...]] = [("duration",), ("from", "to"), ("turns",)]
+    shapes: Schema = {"duration": quantity_schema("time"), "from": quantity, "to": quantity,
+                      "turns": quantity_schema("dimensionless")}
+    options = [{"properties": {key: shapes[key] for key in form}, "required": list(form), "additionalProperties": False}
+               for form in forms]
+    return {"type": "object", "oneOf": options, "description": "what one cycle is (default: one turn of the driver)"}

@@ -1,0 +1,228 @@
+"""Fields for what changes over the cycle: outputs, magnitudes, tables over an output, and phases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from linkwright.model.expressions import Expression
+from linkwright.model.fields import Field, Quantities, Schema, Word, quantity_schema, table_schema, written_quantity
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node
+
+if TYPE_CHECKING:
+    from linkwright.model.reader import Place, Reader
+
+
+@dataclass(frozen=True)
+class Output:
+    """A motion of the mechanism: a link's angle, a point's x or y, a prismatic joint's displacement.
+
+    ``owner`` is the link, ``link.point`` or joint; ``text`` is how the file says it.
+    """
+
+    kind: Literal["angle", "x", "y", "displacement"]
+    owner: str
+    text: str
+
+    @property
+    def dimension(self) -> str:
+        """Name of its dimension: angle or length."""
+        return "angle" if self.kind == "angle" else "length"
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class OutputName(Field):
+    """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its displacement)."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
+        text = reader.text(node, place)
+        return None if text is None else reader.output(node, place, text)
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "output"}
+
+    def written(self, value: Any) -> Any:
+        return str(value)
+
+
+@dataclass(frozen=True)
+class Magnitude(Field):
+    """A quantity, or an expression of ``t``, ``input`` (the first driver's coordinate) and outputs."""
+
+    dimension: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | Expression | None:
+        return reader.magnitude(node, place, self.dimension)
+
+    def shape(self) -> Schema:
+        return {**quantity_schema(self.dimension), "x-variables": ["t", "input", "OUTPUT"]}
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        return {"": value} if isinstance(value, float) else {}
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        return lookup("") if isinstance(value, float) else value
+
+    def written(self, value: Any) -> Any:
+        return written_quantity(value, self.dimension)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output."""
+
+    over: Literal["input", "time"] | Output
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class TableField(Field):
+    """A mapping ``{over: input | time | OUTPUT, x: […], y: […]}``."""
+
+    dimension: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Table | None:
+        over: Literal["input", "time"] | Output | None = "input"
+        across = "angle"
+        if isinstance(node, MappingNode):
+            over, across = reader.over(node, place)
+        with reader.plain_numbers("a table"):
+            values = reader.table(node, place, self._fields(across))
+        if values is None or over is None or values.get("x") is None or values.get("y") is None:
+            return None
+        if not reader.increasing(node, place, "x", values["x"], values["y"], "y"):
+            return None
+        return Table(over, values["x"], values["y"])
+
+    def _fields(self, across: str) -> dict[str, Field]:
+        from linkwright.model.fields import Text
+
+        return {
+            "over": Text(required=True, doc="input, time, or an output"),
+            "x": Quantities(across, required=True, doc="increasing values of what the table goes over"),
+            "y": Quantities(self.dimension, required=True, doc="the magnitude at each x"),
+        }
+
+    def shape(self) -> Schema:
+        shape = table_schema(self._fields("angle"))
+        shape["properties"]["x"] = {"type": "array", "items": {"type": ["string", "number"]}}
+        return shape
+
+    def written(self, value: Any) -> Any:
+        across = {"input": "angle", "time": "time"}.get(str(value.over)) or value.over.dimension
+        return {"over": str(value.over), "x": [written_quantity(x, across) for x in value.x],
+                "y": [written_quantity(y, self.dimension) for y in value.y]}
+
+
+@dataclass(frozen=True)
+class InputPhase:
+    """While the first driver's coordinate is between ``start`` and ``end`` (rad or m; angles modulo one turn)."""
+
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class MovingPhase:
+    """While an output increases or decreases."""
+
+    output: Output
+    direction: Literal["increasing", "decreasing"]
+
+
+@dataclass(frozen=True)
+class SwingPhase:
+    """While an output goes from one of its limits to the other, both found by the program."""
+
+    output: Output
+    start: Literal["max", "min"]
+    end: Literal["max", "min"]
+
+
+Phase = InputPhase | MovingPhase | SwingPhase
+
+
+@dataclass(frozen=True)
+class PhaseField(Field):
+    """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to: min}``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Phase | None:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        forms = self._forms(reader.input_dimension())
+        chosen = [key for key in forms if mapping.get(key) is not None]
+        if len(chosen) != 1:
+            reader.error(node, place, f"{'several forms' if chosen else 'no form'} of a phase",
+                         "write one of {input: [a, b]}, {moving: OUTPUT, direction: increasing}, "
+                         "{of: OUTPUT, from: max, to: min}", "choice")
+            return None
+        values = reader.table(mapping, place, forms[chosen[0]])
+        if values is None or any(values.get(name) is None for name in forms[chosen[0]]):
+            return None
+        return _phase(reader, node, place, values)
+
+    def _forms(self, across: str) -> dict[str, dict[str, Field]]:
+        limits = ("max", "min")
+        return {
+            "input": {"input": Quantities(across, count=2, required=True, doc="from, to of the input's coordinate")},
+            "moving": {"moving": OutputName(required=True, doc="an output"),
+                       "direction": Word(("increasing", "decreasing"), required=True)},
+            "of": {"of": OutputName(required=True, doc="an output"), "from": Word(limits, required=True),
+                   "to": Word(limits, required=True)},
+        }  # fmt: skip
+
+    def shape(self) -> Schema:
+        return {"oneOf": [table_schema(form) for form in self._forms("angle").values()]}
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        return {".input.0": value.start, ".input.1": value.end} if isinstance(value, InputPhase) else {}
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        return InputPhase(lookup(".input.0"), lookup(".input.1")) if isinstance(value, InputPhase) else value
+
+    def written(self, value: Any) -> Any:
+        match value:
+            case InputPhase(start, end):
+                return {"input": [written_quantity(start, "angle"), written_quantity(end, "angle")]}
+            case MovingPhase(output, direction):
+                return {"moving": str(output), "direction": direction}
+        return {"of": str(value.output), "from": value.start, "to": value.end}
+
+
+def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) -> Phase | None:
+    if "input" in values:
+        start, end = values["input"]
+        if start == end:
+            reader.error(node, place, "the phase begins where it ends", "give two different values", "range")
+            return None
+        return InputPhase(start, end)
+    if "moving" in values:
+        return MovingPhase(values["moving"], values["direction"])
+    if values["from"] == values["to"]:
+        reader.error(node, place, f"from and to are both {values['from']}", "go from max to min or from min to max",
+                     "range")
+        return None
+    return SwingPhase(values["of"], values["from"], values["to"])
+
+
+def resolve_output(text: str, links: Mapping[str, Collection[str]], joints: Mapping[str, str]) -> Output | None:
+    """The output that a text means, given each link's points and each joint's kind; None where it means none."""
+    if text in links and text != "frame":
+        return Output("angle", text, text)
+    if joints.get(text) == "prismatic":
+        return Output("displacement", text, text)
+    owner, _, axis = text.rpartition(".")
+    if axis != "x" and axis != "y":
+        return None
+    link, _, point = owner.rpartition(".")
+    if link:
+        return Output(axis, owner, text) if point in links.get(link, ()) else None
+    having = [name for name, points in links.items() if point in points]
+    return Output(axis, f"{having[0]}.{point}", text) if having else None

@@ -1,0 +1,79 @@
+"""Checks of the model as a whole: what is used nowhere, not joined, or probably misspelt."""
+
+from __future__ import annotations
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.weld import WeldJoint
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node
+from linkwright.model.reader import Reader
+
+
+def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Add the findings that concern the model as a whole."""
+    _unused_parameters(reader, root, mechanism)
+    if reader.error_count:
+        return
+    _lonely_links(reader, root, mechanism)
+    _islands(reader, root, mechanism)
+    _near_points(reader, root, mechanism)
+
+
+def _link_node(root: MappingNode, name: str) -> Node | None:
+    links = root.get("links")
+    return links.get(name) if isinstance(links, MappingNode) else None
+
+
+def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    section = root.get("parameters")
+    for name in mechanism.parameters:
+        if name not in reader.used and isinstance(section, MappingNode):
+            reader.error(section.get(name), f"parameters.{name}", f'the parameter "{name}" is used nowhere',
+                         "use or remove it", "unused", severity="warning")
+
+
+def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    for name, link in mechanism.links.items():
+        joints = [joint for joint in mechanism.joints.values() if name in joint.joined]
+        key, node = f"links.{name}", _link_node(root, name)
+        if not joints:
+            points = ", ".join(link.points)
+            reader.error(node, key, f'the link "{name}" is used nowhere: no other link has one of its points ({points})',
+                         "name a shared point alike on both links, or remove the link", "unused")
+        elif len(link.points) == 1 and not any(isinstance(joint, PrismaticJoint | WeldJoint) for joint in joints):
+            reader.error(node, key, f'the link "{name}" has one point and is in no prismatic joint',
+                         "add a second point with a length, or a prismatic joint with it as block", "one-point")
+
+
+def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    reached, found = set[str](), {"frame"}
+    while found:
+        reached |= found
+        found = {
+            link
+            for joint in mechanism.joints.values()
+            if reached & set(joint.joined)
+            for link in joint.joined
+            if link not in reached
+        }
+    apart = [name for name in mechanism.links if name not in reached]
+    joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
+    if joined:
+        reader.error(_link_node(root, joined[0]), f"links.{joined[0]}",
+                     f"{', '.join(joined)} are not connected to the frame", "share a point with the frame or with a "
+                     "link that is connected", "not-connected")
+
+
+def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    everywhere = {point for link in (mechanism.frame, *mechanism.links.values()) for point in link.points}
+    folded: dict[str, set[str]] = {}
+    for point in everywhere:
+        folded.setdefault(point.casefold(), set()).add(point)
+    for name, link in mechanism.links.items():
+        for point in link.points:
+            alike = sorted(folded[point.casefold()] - {point} - set(link.points))
+            if alike and reader.names.owners(point) == [name]:
+                reader.error(_link_node(root, name), f"links.{name}.points",
+                             f'"{point}" is on this link only, and there is a point "{alike[0]}"',
+                             "write both alike if one point is meant", "near-name", severity="warning")

@@ -1,0 +1,82 @@
+"""Registries of the elements: joints, drivers' laws, loads and everything else that is one file per kind."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterator, Mapping
+from typing import Generic, TypeVar
+
+from linkwright.errors import LinkwrightError
+
+T = TypeVar("T")
+
+
+class Registry(Mapping[str, T], Generic[T]):
+    """Elements of one package under their names; the package's modules are imported at first use.
+
+    An element registers itself with ``@REGISTRY.register("name")``; adding one touches no other file.
+    """
+
+    def __init__(self, noun: str, package: str) -> None:
+        self.noun = noun
+        self._package = package
+        self._elements: dict[str, T] = {}
+        self._discovered = False
+
+    def register(self, name: str) -> Callable[[T], T]:
+        """Decorator that files an element under ``name``; a name is used once."""
+
+        def file_under(element: T) -> T:
+            if name in self._elements:
+                raise LinkwrightError(f'the {self.noun} "{name}" is registered twice; choose another name')
+            self._elements[name] = element
+            return element
+
+        return file_under
+
+    def __getitem__(self, name: str) -> T:
+        self._discover()
+        if name not in self._elements:
+            offer = nearest(name, self._elements)
+            hint = f'did you mean "{offer}"?' if offer else f"one of: {', '.join(sorted(self._elements))}"
+            raise UnknownName(f'there is no {self.noun} "{name}"; {hint}')
+        return self._elements[name]
+
+    def __contains__(self, name: object) -> bool:
+        self._discover()
+        return name in self._elements
+
+    def __iter__(self) -> Iterator[str]:
+        self._discover()
+        return iter(sorted(self._elements))
+
+    def __len__(self) -> int:
+        self._discover()
+        return len(self._elements)
+
+    def _discover(self) -> None:
+        if self._discovered:
+            return
+        self._discovered = True
+        package = importlib.import_module(self._package)
+        for module in pkgutil.iter_modules(package.__path__):
+            importlib.import_module(f"{self._package}.{module.name}")
+
+
+class UnknownName(LinkwrightError, KeyError):
+    """A name that no registered element has."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...]) -> str | None:
+    """The candidate that looks most like ``name`` (capitals do not count), or None."""
+    known = list(candidates)
+    folded = {text.casefold(): text for text in reversed(known)}
+    if name.casefold() in folded:
+        return folded[name.casefold()]
+    found = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.5)
+    return folded[found[0]] if found else None

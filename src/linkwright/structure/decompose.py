@@ -1,0 +1,161 @@
+"""Assur groups by the block triangular form of the link-freedom/constraint graph.
+
+A maximum matching gives every equation the freedom that it determines; the strongly connected
+components of the dependence between bodies are the Assur groups, and their order is the solving
+order (Dulmage and Mendelsohn 1958; Assur 1913; Galletti, Mech. Mach. Theory 21, 1986).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure.chains import make_group
+from linkwright.structure.constraints import FRAME, ConstraintGraph
+from linkwright.structure.group import Connection, Group, Structure
+from linkwright.structure.matching import components, maximum_matching
+from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler
+
+
+def structure(mechanism: Mechanism) -> Structure:
+    """Mobility and Assur groups of a mechanism with its drivers, in solving order.
+
+    Raises:
+        StructureError: the drivers do not determine the motion, or determine it more than once.
+    """
+    graph = ConstraintGraph.of(mechanism)
+    numbers = counts(mechanism)
+    order = _solving_order(mechanism, graph, grubler(numbers) + len(graph.redundant))
+    driven = {driver.joint: driver for driver in mechanism.drivers.values()}
+    solved = [FRAME]
+    groups: list[Group] = []
+    for links in order:
+        connections = list(_connections(mechanism, links, solved, driven))
+        groups.append(make_group(links, connections, solved, tuple(graph.redundant)))
+        solved += links
+    return Structure(
+        grubler=grubler(numbers),
+        redundant=tuple(graph.redundant),
+        drivers=tuple(mechanism.drivers),
+        groups=tuple(groups),
+        counts=numbers,
+    )
+
+
+def _solving_order(mechanism: Mechanism, graph: ConstraintGraph, mobility: int) -> list[list[str]]:
+    """Sets of links that are solved together, in order."""
+    choices = graph.choices()
+    _, owners = graph.places()
+    place_of, row_of = maximum_matching(choices, len(owners))
+    _refuse_excess(mechanism, graph, choices, place_of, row_of, owners, mobility)
+    _refuse_free(mechanism, choices, row_of, owners, mobility)
+    bodies = list(graph.freedoms)
+    number = {body: i for i, body in enumerate(bodies)}
+    successors: list[list[int]] = [[] for _ in bodies]
+    for row, place in enumerate(place_of):
+        determined = number[owners[place]]
+        successors[determined] += [number[body] for body in graph.equations[row].bodies]
+    file_order = {name: i for i, name in enumerate(mechanism.links)}
+    found = []
+    for component in components(successors):
+        links = [bodies[i] for i in component if bodies[i] in file_order]
+        if links:
+            found.append(sorted(links, key=file_order.__getitem__))
+    return found
+
+
+def _refuse_excess(
+    mechanism: Mechanism,
+    graph: ConstraintGraph,
+    choices: list[list[int]],
+    place_of: list[int],
+    row_of: list[int],
+    owners: list[str],
+    mobility: int,
+) -> None:
+    unmatched = [row for row, place in enumerate(place_of) if place < 0]
+    if not unmatched:
+        return
+    rows, stack = set(unmatched), list(unmatched)
+    while stack:
+        for place in choices[stack.pop()]:
+            if (other := row_of[place]) >= 0 and other not in rows:
+                rows.add(other)
+                stack.append(other)
+    bodies = _distinct(body for row in sorted(rows) for body in graph.equations[row].bodies)
+    links = [body for body in bodies if body in mechanism.links]
+    sources = _distinct(graph.equations[row].source for row in unmatched)
+    raise explain_excess(mechanism, sources, links, mobility)
+
+
+def _refuse_free(
+    mechanism: Mechanism, choices: list[list[int]], row_of: list[int], owners: list[str], mobility: int
+) -> None:
+    free = [place for place, row in enumerate(row_of) if row < 0]
+    if not free:
+        return
+    reached, stack = set(free), list(free)
+    rows_at: dict[int, list[int]] = {}
+    for row, places in enumerate(choices):
+        for place in places:
+            rows_at.setdefault(place, []).append(row)
+    matched = {row: place for place, row in enumerate(row_of) if row >= 0}
+    while stack:
+        for row in rows_at.get(stack.pop(), []):
+            place = matched[row]
+            if place not in reached:
+                reached.add(place)
+                stack.append(place)
+    bodies = _distinct(owners[place] for place in sorted(reached))
+    raise explain_free(mechanism, [body for body in bodies if body in mechanism.links], len(free), mobility)
+
+
+def _connections(
+    mechanism: Mechanism, links: list[str], solved: list[str], driven: dict[str, object]
+) -> Iterable[Connection]:
+    """The joints of a group as pairs of links; a pin of many links is hung on the first one solved."""
+    for joint in mechanism.joints.values():
+        if isinstance(joint, RevoluteJoint):
+            yield from _pin_connections(mechanism, joint, links, solved)
+            continue
+        a, b = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.links
+        if _touches(a, b, links, solved):
+            kind = "prismatic" if isinstance(joint, PrismaticJoint) else "weld"
+            driver = driven.get(joint.name)
+            yield Connection(joint.name, kind, a, b, getattr(driver, "name", None))
+
+
+def _pin_connections(
+    mechanism: Mechanism, joint: RevoluteJoint, links: list[str], solved: list[str]
+) -> Iterable[Connection]:
+    mine = [link for link in joint.links if link in links]
+    if not mine:
+        return
+    pairs = {
+        frozenset((driver.link, driver.relative_to)): driver.name
+        for driver in mechanism.drivers.values()
+        if driver.joint == joint.name
+    }
+    present = sorted((link for link in joint.links if link in solved), key=solved.index) + mine
+    ends = [*mine, *(link for link in present if link in solved)]
+    used: list[str] = []
+    for pair, driver in pairs.items():
+        if pair <= set(ends) and any(link in links for link in pair):
+            a, b = sorted(pair, key=present.index)
+            used.append(b)
+            yield Connection(joint.name, "revolute", a, b, driver)
+    base = present[0]
+    for link in mine:
+        if link != base and link not in used:
+            yield Connection(joint.name, "revolute", base, link)
+
+
+def _touches(a: str, b: str, links: list[str], solved: list[str]) -> bool:
+    known = {*links, *solved}
+    return a in known and b in known and (a in links or b in links)
+
+
+def _distinct(names: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(names))

@@ -1,0 +1,146 @@
+"""What the structure analysis finds: Assur groups in solving order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+Kind = Literal["revolute", "prismatic", "weld"]
+LETTERS = {"revolute": "R", "prismatic": "P", "weld": "W"}
+
+
+@dataclass(frozen=True)
+class Connection:
+    """One joint between two links. Prismatic: ``a`` carries the guide, ``b`` the block. Weld: b sits on a."""
+
+    joint: str
+    kind: Kind
+    a: str
+    b: str
+    driver: str | None = None
+
+    def other(self, link: str) -> str:
+        """The link at the other end."""
+        return self.b if link == self.a else self.a
+
+    @property
+    def letter(self) -> str:
+        return LETTERS[self.kind]
+
+
+@dataclass(frozen=True)
+class TreeJoint:
+    """A joint that hangs ``child`` on ``parent`` in an open chain of the group."""
+
+    connection: Connection
+    parent: str
+    child: str
+
+    @property
+    def kind(self) -> Kind:
+        return self.connection.kind
+
+    @property
+    def joint(self) -> str:
+        return self.connection.joint
+
+    @property
+    def driver(self) -> str | None:
+        return self.connection.driver
+
+    @property
+    def free(self) -> bool:
+        """Whether the joint's coordinate is unknown."""
+        return self.kind != "weld" and self.driver is None
+
+
+@dataclass(frozen=True)
+class Group:
+    """Links that are solved together; a driven link with its frame is a group of class I.
+
+    ``tree``: joints of the open chains that hang from links solved before, parents first;
+    ``cuts``: the joints whose closure gives the equations.
+    """
+
+    name: str
+    links: tuple[str, ...]
+    tree: tuple[TreeJoint, ...]
+    cuts: tuple[Connection, ...]
+    signature: str
+    assur_class: int
+    assur_order: int
+
+    @cached_property
+    def joints(self) -> tuple[Connection, ...]:
+        return (*(step.connection for step in self.tree), *self.cuts)
+
+    @cached_property
+    def drivers(self) -> tuple[str, ...]:
+        return tuple(step.driver for step in self.tree if step.driver is not None)
+
+    @cached_property
+    def unknowns(self) -> tuple[TreeJoint, ...]:
+        return tuple(step for step in self.tree if step.free)
+
+    @property
+    def outer_joints(self) -> tuple[Connection, ...]:
+        return tuple(c for c in self.joints if c.a not in self.links or c.b not in self.links)
+
+    @property
+    def inner_joints(self) -> tuple[Connection, ...]:
+        return tuple(c for c in self.joints if c.a in self.links and c.b in self.links)
+
+    def path(self, link: str) -> Iterator[TreeJoint]:
+        """The chain of a link, from the link down to a link solved before."""
+        hung = {step.child: step for step in self.tree}
+        while link in hung:
+            step = hung[link]
+            yield step
+            link = step.parent
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Mobility and Assur groups of a mechanism, in solving order.
+
+    ``grubler``: mobility by Grübler's formula, 3n - 2p; ``redundant``: rotations that a loop of
+    guides fixes more than once (joint names), added to it. See the theory page on structure.
+    """
+
+    grubler: int
+    redundant: tuple[str, ...]
+    drivers: tuple[str, ...]
+    groups: tuple[Group, ...]
+    counts: dict[str, int]
+
+    @property
+    def mobility(self) -> int:
+        """Number of independent inputs."""
+        return self.grubler + len(self.redundant)
+
+    @property
+    def mechanism_class(self) -> int:
+        """The highest class of its groups."""
+        return max((group.assur_class for group in self.groups), default=1)
+
+    def group_of(self, link: str) -> Group:
+        """The group in which a link is solved."""
+        return next(group for group in self.groups if link in group.links)
+
+    def text(self) -> str:
+        """The structure analysis as a student would write it."""
+        from linkwright.structure.text import describe
+
+        return describe(self)
+
+    def data(self) -> dict[str, object]:
+        """The same as plain data."""
+        from linkwright.structure.text import as_data
+
+        return as_data(self)
+
+    def __repr__(self) -> str:
+        chain = " + ".join(f"{g.signature}({', '.join(g.links)})" for g in self.groups)
+        return f"Structure(mobility {self.mobility}; {chain}; class {self.mechanism_class})"

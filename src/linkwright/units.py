@@ -1,0 +1,320 @@
+"""Units at the edge of the program: text to SI floats and back.
+
+A unit is a factor to SI and a dimension, the exponents of (length, mass, time, angle); an angle is a
+dimension of its own here, so that a torque (N·m) cannot pass for a torsional stiffness (N·m/rad).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+from linkwright.errors import QuantityError
+from linkwright.registry import nearest
+
+Dimension = tuple[float, float, float, float]
+
+NONE: Dimension = (0, 0, 0, 0)
+DIMENSIONS: Mapping[str, Dimension] = {
+    "dimensionless": NONE,
+    "length": (1, 0, 0, 0),
+    "angle": (0, 0, 0, 1),
+    "time": (0, 0, 1, 0),
+    "mass": (0, 1, 0, 0),
+    "inertia": (2, 1, 0, 0),
+    "velocity": (1, 0, -1, 0),
+    "acceleration": (1, 0, -2, 0),
+    "angular_velocity": (0, 0, -1, 1),
+    "angular_acceleration": (0, 0, -2, 1),
+    "frequency": (0, 0, -1, 0),
+    "force": (1, 1, -2, 0),
+    "torque": (2, 1, -2, 0),
+    "power": (2, 1, -3, 0),
+    "pressure": (-1, 1, -2, 0),
+    "area": (2, 0, 0, 0),
+    "volume": (3, 0, 0, 0),
+    "density": (-3, 1, 0, 0),
+    "stiffness": (0, 1, -2, 0),
+    "damping": (0, 1, -1, 0),
+    "torsional_stiffness": (2, 1, -2, -1),
+    "torsional_damping": (2, 1, -1, -1),
+    "second_moment_of_area": (4, 0, 0, 0),
+}
+SI_UNITS: Mapping[str, str] = {
+    "dimensionless": "",
+    "length": "m",
+    "angle": "rad",
+    "time": "s",
+    "mass": "kg",
+    "inertia": "kg·m²",
+    "velocity": "m/s",
+    "acceleration": "m/s²",
+    "angular_velocity": "rad/s",
+    "angular_acceleration": "rad/s²",
+    "frequency": "Hz",
+    "force": "N",
+    "torque": "N·m",
+    "power": "W",
+    "pressure": "Pa",
+    "area": "m²",
+    "volume": "m³",
+    "density": "kg/m³",
+    "stiffness": "N/m",
+    "damping": "N·s/m",
+    "torsional_stiffness": "N·m/rad",
+    "torsional_damping": "N·m·s/rad",
+    "second_moment_of_area": "m⁴",
+}
+USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "angular_velocity": "rpm"}
+
+_FORCE, _ENERGY, _POWER, _PRESSURE = (1, 1, -2, 0), (2, 1, -2, 0), (2, 1, -3, 0), (-1, 1, -2, 0)
+_TURN = 2 * math.pi
+UNITS: Mapping[str, tuple[float, Dimension]] = {
+    "m": (1.0, (1, 0, 0, 0)),
+    "mm": (1e-3, (1, 0, 0, 0)),
+    "cm": (1e-2, (1, 0, 0, 0)),
+    "dm": (1e-1, (1, 0, 0, 0)),
+    "km": (1e3, (1, 0, 0, 0)),
+    "µm": (1e-6, (1, 0, 0, 0)),
+    "μm": (1e-6, (1, 0, 0, 0)),
+    "um": (1e-6, (1, 0, 0, 0)),
+    "in": (0.0254, (1, 0, 0, 0)),
+    "ft": (0.3048, (1, 0, 0, 0)),
+    "s": (1.0, (0, 0, 1, 0)),
+    "ms": (1e-3, (0, 0, 1, 0)),
+    "min": (60.0, (0, 0, 1, 0)),
+    "h": (3600.0, (0, 0, 1, 0)),
+    "kg": (1.0, (0, 1, 0, 0)),
+    "g": (1e-3, (0, 1, 0, 0)),
+    "t": (1e3, (0, 1, 0, 0)),
+    "lb": (0.45359237, (0, 1, 0, 0)),
+    "N": (1.0, _FORCE),
+    "mN": (1e-3, _FORCE),
+    "kN": (1e3, _FORCE),
+    "MN": (1e6, _FORCE),
+    "lbf": (4.4482216152605, _FORCE),
+    "J": (1.0, _ENERGY),
+    "kJ": (1e3, _ENERGY),
+    "W": (1.0, _POWER),
+    "kW": (1e3, _POWER),
+    "Pa": (1.0, _PRESSURE),
+    "kPa": (1e3, _PRESSURE),
+    "MPa": (1e6, _PRESSURE),
+    "GPa": (1e9, _PRESSURE),
+    "bar": (1e5, _PRESSURE),
+    "rad": (1.0, (0, 0, 0, 1)),
+    "mrad": (1e-3, (0, 0, 0, 1)),
+    "deg": (math.pi / 180, (0, 0, 0, 1)),
+    "°": (math.pi / 180, (0, 0, 0, 1)),
+    "rev": (_TURN, (0, 0, 0, 1)),
+    "rpm": (_TURN / 60, (0, 0, -1, 1)),
+    "Hz": (1.0, (0, 0, -1, 0)),
+}
+SPELLINGS: Mapping[str, str] = {
+    "Nm": "N·m", "N-m": "N·m", "N.m": "N·m", "mN·m": "N·m", "kNm": "kN·m", "Nmm": "N·mm", "kgm²": "kg·m²",
+    "kgm2": "kg·m²", "kgm^2": "kg·m²", "m2": "m²", "s2": "s²", "m3": "m³", "mm2": "mm²", "mm3": "mm³", "m4": "m⁴",
+    "mm4": "mm⁴", "sec": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "hour": "h",
+    "hours": "h", "meter": "m", "metre": "m", "meters": "m", "metres": "m", "millimeter": "mm",
+    "millimetre": "mm", "millimeters": "mm", "millimetres": "mm", "inch": "in", "inches": "in", "feet": "ft",
+    "foot": "ft", "degree": "deg", "degrees": "deg", "grad": "deg", "radian": "rad", "radians": "rad", "rads": "rad",
+    "newton": "N", "newtons": "N", "kilogram": "kg", "kilograms": "kg", "kgs": "kg", "gram": "g", "tonne": "t",
+    "ton": "t", "rps": "rev/s", "r": "rev", "U/min": "rpm", "u/min": "rpm", "turn": "rev", "turns": "rev", "psi": "Pa",
+    "kgf": "N", "lbs": "lb", "Mpa": "MPa", "hz": "Hz", '"': "in", "毫米": "mm", "米": "m", "度": "deg",
+}  # fmt: skip
+
+_SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
+NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_QUANTITY = re.compile(r"^([+-]?)\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_FACTOR = re.compile(r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|°)\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*")
+_JOINT = re.compile(r"[*·⋅/]")
+
+
+def tidy(text: str) -> str:
+    """Plain spaces and a plain minus sign in place of their typographic relatives."""
+    return _SPACES.sub(" ", text).replace("−", "-").strip()
+
+
+def times(a: Dimension, b: Dimension, sign: float = 1) -> Dimension:
+    """Dimension of a product (``sign`` 1), a quotient (-1), or of ``a`` times a power of ``b``."""
+    return (a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2], a[3] + sign * b[3])
+
+
+def exponent(text: str) -> int:
+    """The integer of ``^2``, ``**-1``, ``²`` or ``⁻¹``; 1 of an empty text."""
+    digits = text.translate(_SUPERSCRIPTS).lstrip("^* ").replace("−", "-").replace(" ", "")
+    power = int(digits[:4]) if digits else 1
+    if abs(power) > 9:
+        raise QuantityError(f'the exponent "{digits[:20]}" is too large', "units take exponents from -9 to 9")
+    return power
+
+
+def unit(text: str) -> tuple[float, Dimension]:
+    """Factor to SI and dimension of a unit such as ``N·m/rad`` or ``kg*m^2``.
+
+    Raises QuantityError for a unit that is not known, with the nearest known spelling.
+    """
+    factor, dimension, sign, at = 1.0, NONE, 1, 0
+    turning = re.match(r"r\s*/\s*(?=min|s)", text)
+    if turning:
+        factor, dimension, sign, at = _TURN, UNITS["rev"][1], -1, turning.end()
+    while True:
+        found = _FACTOR.match(text, at)
+        if found is None or found.group(1) not in UNITS:
+            raise unknown_unit(text, at)
+        size, kind = UNITS[found.group(1)]
+        power = sign * exponent(found.group(2) or "")
+        factor, dimension, at = factor * size**power, times(dimension, kind, power), found.end()
+        if at == len(text):
+            return factor, dimension
+        if not _JOINT.match(text, at):
+            raise unknown_unit(text, at)
+        sign, at = (-1 if text[at] == "/" else 1), at + 1
+
+
+def unknown_unit(text: str, column: int = 0) -> QuantityError:
+    """The error for a text that is not a unit, offering what was probably meant."""
+    offer = suggestion(text)
+    remedy = f'did you mean "{offer}"?' if offer else "write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²"
+    return QuantityError(f'unknown unit "{text}"', remedy, column=column, code="unknown-unit")
+
+
+def suggestion(text: str) -> str | None:
+    """A known spelling near ``text``, each factor of a product taken by itself."""
+    whole = text.replace(" ", "")
+    if whole in SPELLINGS:
+        return SPELLINGS[whole]
+    parts = re.split(r"([*·⋅/.\-])", whole)
+    offers = [part if index % 2 else _factor_suggestion(part) for index, part in enumerate(parts)]
+    if any(offer is None for offer in offers):
+        return nearest(whole, list(UNITS)) if len(parts) == 1 else None
+    joined = "".join("·" if offer in (".", "-", "*") else str(offer) for offer in offers)
+    try:
+        unit(joined)
+    except QuantityError:
+        return None
+    return joined
+
+
+def _factor_suggestion(part: str) -> str | None:
+    found = _FACTOR.fullmatch(part)
+    if found and found.group(1) in UNITS:
+        return part
+    return SPELLINGS.get(part) or nearest(part.rstrip("0123456789^²³"), list(UNITS))
+
+
+def example(dimension: str) -> str:
+    """A right form of a quantity of this dimension, for remedies: ``60.5 mm``."""
+    numbers = {"length": "60.5", "angle": "30", "angular_velocity": "170", "mass": "4.5", "dimensionless": "0.1"}
+    return f"{numbers.get(dimension, '2.5')} {USUAL_UNITS[dimension]}".strip()
+
+
+def parse(text: str, dimension: str) -> float:
+    """SI value of a text such as ``"460 rpm"`` as a quantity of ``dimension`` (a name in DIMENSIONS).
+
+    A bare 0 needs no unit; any other number does, unless the quantity is dimensionless.
+    Raises QuantityError, which says what is wrong and shows the right form.
+    """
+    plain = tidy(text)
+    found = _QUANTITY.match(plain)
+    if found is None:
+        raise not_a_number(plain, dimension)
+    sign, digits, rest = found.groups()
+    if re.match(r",\s?\d", rest):
+        raise decimal_comma(plain)
+    if re.match(r"\d", rest):
+        raise QuantityError(f'"{plain}" has a space inside the number', f'write "{digits}{rest}"', code="quantity")
+    value = float(sign + digits)
+    if rest:
+        factor, kind = _unit_of(rest, len(plain) - len(rest))
+        value *= factor
+    else:
+        kind = NONE
+    if not math.isfinite(value):
+        raise QuantityError(f'"{plain}" is not a finite number', f'write a number such as "{example(dimension)}"',
+                            code="not-finite")
+    if not rest and value == 0:
+        return 0.0
+    require(kind, dimension, plain, bare=not rest)
+    return value
+
+
+def _unit_of(text: str, column: int) -> tuple[float, Dimension]:
+    try:
+        return unit(text)
+    except QuantityError as error:
+        raise QuantityError(error.message, error.remedy, column=column + error.column, code=error.code) from None
+
+
+def decimal_comma(text: str) -> QuantityError:
+    """The error for a decimal comma, with the same text written with a point."""
+    right = re.sub(r"(?<=\d),\s?(?=\d)", ".", text)
+    return QuantityError(f'decimal comma in "{text}"', f'write a point: "{right}"', code="decimal-comma")
+
+
+def not_a_number(text: str, dimension: str) -> QuantityError:
+    """The error for a text without a number where a quantity is needed."""
+    if re.match(r"^[+-]?\.?(inf|infinity|nan)\b", text, re.IGNORECASE):
+        return QuantityError(f'"{text}" is not a finite number', f'write a number such as "{example(dimension)}"',
+                             code="not-finite")
+    return QuantityError(f'"{text}" is not a quantity', f'write a number and a unit, such as "{example(dimension)}"')
+
+
+def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -> None:
+    """Raise QuantityError unless ``kind`` is the dimension that is needed."""
+    if kind == DIMENSIONS[dimension]:
+        return
+    noun = dimension.replace("_", " ")
+    if bare:
+        right = f"{text} {USUAL_UNITS[dimension]}".strip()
+        raise QuantityError(f'"{text}" has no unit', f'{article(noun)} is needed, such as "{right}"',
+                            code="missing-unit")
+    wrong = name_of(kind)
+    raise QuantityError(f'"{text}" is {wrong}, where {article(noun)} is needed',
+                        f'write it as in "{example(dimension)}"', code="wrong-dimension")
+
+
+def article(noun: str) -> str:
+    """The noun with its article; "a dimensionless number" for a dimensionless quantity."""
+    if noun == "dimensionless":
+        return "a dimensionless number"
+    return f"an {noun}" if noun[0] in "aeiou" else f"a {noun}"
+
+
+def name_of(kind: Dimension) -> str:
+    """A dimension in words: ``a length``, or by its SI units where it has no name."""
+    for name, dimension in DIMENSIONS.items():
+        if dimension == kind:
+            return article(name.replace("_", " "))
+    return f"a quantity in {si_symbol(kind)}"
+
+
+def si_symbol(kind: Dimension) -> str:
+    """SI unit of any dimension, by its name where it has one: ``N·m/rad``, ``m^0.5``; empty for a bare number."""
+    for name, dimension in DIMENSIONS.items():
+        if dimension == kind:
+            return SI_UNITS[name]
+    parts = [f"{symbol}^{power:g}" if power != 1 else symbol
+             for symbol, power in zip(("m", "kg", "s", "rad"), kind, strict=True) if power]
+    return "·".join(parts)
+
+
+def format(value: float, dimension: str, unit: str | None = None) -> str:
+    """Text of an SI value: ``format(0.0605, "length", "mm")`` is ``"60.5 mm"``.
+
+    Without ``unit`` the SI unit of the dimension is used, and reading the text gives the same float back.
+    """
+    if unit is None:
+        return f"{number(value)} {SI_UNITS[dimension]}".strip()
+    factor, kind = _unit_of(unit, 0)
+    require(kind, dimension, unit)
+    return f"{number(value / factor, 12)} {unit}"
+
+
+def number(value: float, digits: int | None = None) -> str:
+    """Shortest text of a float, without a trailing ``.0``; ``digits`` limits the significant digits."""
+    if digits is not None:
+        return f"{value:.{digits}g}"
+    text = repr(float(value))
+    return text.removesuffix(".0")

@@ -1,0 +1,186 @@
+"""Every way to evaluate a program against direct evaluation with Python floats, on random programs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkwright.engine.llvm_backend import available, compile_program
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.trace import Trace, absolute, cos, select, sin, sqrt
+
+PARAMETERS = ("a", "b", "c")
+POSITIONS = ("x", "y")
+FIELDS = ("f",)
+STATES = ("s", "t")
+Floats = NDArray[np.float64]
+
+needs_compiler = pytest.mark.skipif(not available(), reason="llvmlite is not installed")
+
+
+class Formulas:
+    """A random chain of operations that works on floats and on traced values alike."""
+
+    def __init__(self, seed: int, length: int = 40) -> None:
+        rng = np.random.default_rng(seed)
+        self.steps = [
+            (str(rng.choice(OPERATIONS)), *(int(k) for k in rng.integers(0, 1000, 4))) for _ in range(length)
+        ]
+
+    def __call__(self, values: list, level: int) -> tuple[list, list]:  # type: ignore[type-arg]
+        values = list(values)
+        truths = []
+        for count, (op, i, j, k, m) in enumerate(self.steps):
+            pool = values[:level] if count < 8 else values
+            a, b, c, d = (pool[q % len(pool)] for q in (i, j, k, m))
+            values.append(OPERATION[op](a, b, c, d))
+            if count < 8:
+                level += 1
+            truths.append(less(a, b))
+        return values, truths
+
+
+def less(a, b):  # type: ignore[no-untyped-def]
+    return a < b
+
+
+OPERATION: dict[str, Callable] = {  # type: ignore[type-arg]
+    "add": lambda a, b, c, d: a + b,
+    "sub": lambda a, b, c, d: a - b,
+    "mul": lambda a, b, c, d: a * b,
+    "div": lambda a, b, c, d: a / (1.5 + absolute(b)),
+    "neg": lambda a, b, c, d: -a,
+    "root": lambda a, b, c, d: sqrt(1.0 + a * a),
+    "sine": lambda a, b, c, d: sin(a) + cos(b),
+    "constant": lambda a, b, c, d: 0.75 * a - 0.5,
+    "select": lambda a, b, c, d: select(less(a, b), c, d),
+    "both": lambda a, b, c, d: select(less(a, b) & ~less(c, d) | (b <= d), a, d),
+}
+OPERATIONS = list(OPERATION)
+
+
+def random_program(seed: int, *, carried: bool = False, fields: bool = True) -> tuple[Program, Formulas]:
+    formulas = Formulas(seed)
+    t = Trace()
+    inputs = [t.parameter(n) for n in PARAMETERS] + [t.position(n) for n in POSITIONS]
+    inputs += [t.field_input(n) for n in FIELDS] if fields else [0.5]
+    states = [t.state(n) for n in STATES] if carried else []
+    values, truths = formulas([*inputs, *states], len(PARAMETERS))
+    outputs = outputs_of(values, truths, inputs)
+    following = dict(zip(STATES, next_states(values), strict=True)) if carried else None
+    return Program.of(t, outputs, following), formulas
+
+
+def outputs_of(values: list, truths: list, inputs: list) -> dict:  # type: ignore[type-arg]
+    """The last values, a value per design, inputs themselves, truth values, all touching every input."""
+    touched = sum(inputs[1:], inputs[0])
+    outputs = {f"v{i}": v + touched for i, v in enumerate(values[-6:])}
+    outputs |= {"design": values[8] * inputs[0], "x": inputs[3], "a": inputs[0], "constant": 2.5}
+    outputs |= {"low": truths[-1], "valid": touched < 3.0, "again": outputs["v0"]}
+    return outputs
+
+
+def next_states(values: list) -> list:  # type: ignore[type-arg]
+    return [v / (1.0 + absolute(v)) for v in values[-2:]]
+
+
+def direct(formulas: Formulas, p: Floats, x: Floats, f: Floats, start: list[float] | None = None) -> Floats:
+    """Outputs (outputs, n) by Python floats, one position after another."""
+    columns, states = [], list(start or [])
+    for i in range(x.shape[1]):
+        inputs = [float(v) for v in (*p, *x[:, i], f[i])]
+        values, truths = formulas([*inputs, *states], len(PARAMETERS))
+        columns.append([float(v) for v in outputs_of(values, truths, inputs).values()])
+        states = next_states(values) if start else []
+    return np.array(columns).T
+
+
+def case(seed: int, n: int, designs: int = 3) -> tuple[Floats, Floats, Floats]:
+    rng = np.random.default_rng(1000 + seed)
+    return rng.normal(size=(designs, 3)), rng.normal(size=(2, n)), rng.normal(size=(designs, n))
+
+
+def agree(got: Floats, want: Floats, tolerance: float = 1e-11) -> None:
+    np.testing.assert_allclose(got, want, rtol=tolerance, atol=tolerance)
+
+
+def ordered(program: Program, p: Floats) -> list[float]:
+    return [float(p[PARAMETERS.index(name)]) for name in program.parameters]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_numpy_and_scalar_agree_with_direct_evaluation(seed: int) -> None:
+    program, formulas = random_program(seed)
+    p, x, f = case(seed, 5)
+    table = np.array([ordered(program, row) for row in p])
+    positions = dict(zip(POSITIONS, x, strict=True))
+    many = NumpyProgram(program).run_designs(table, positions, {"f": f})
+    scalar = ScalarProgram(program)
+    for d in range(3):
+        want = direct(formulas, p[d], x, f[d])
+        agree(NumpyProgram(program).run(table[d], positions, {"f": f[d]}), want)
+        agree(many[d], want)
+        at = {**positions, "f": f[d]}
+        for i in range(5):
+            along = [at[name][i] for name in program.positions]
+            outputs, _ = scalar.step(table[d].tolist(), along, fields=[at[name][i] for name in program.fields])
+            agree(np.array(outputs), want[:, i])
+
+
+@needs_compiler
+@pytest.mark.parametrize("n", [*range(1, 18), 100])
+def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) -> None:
+    program, formulas = random_program(n)
+    p, x, f = case(n, n)
+    table = np.array([ordered(program, row) for row in p])
+    positions = dict(zip(POSITIONS, x, strict=True))
+    compiled = compile_program(program)
+    assert compiled is not None
+    stored = compiled.store(table, positions, {"f": f})
+    for d in range(3):
+        want = direct(formulas, p[d], x, f[d])
+        agree(stored[d], want)
+        np.testing.assert_array_equal(compiled.run(table[d], positions, {"f": f[d]}), stored[d])
+
+
+@pytest.mark.parametrize("designs", [1, 7, 8, 19])
+@pytest.mark.parametrize("seed", range(3))
+def test_states_are_carried_alike(seed: int, designs: int) -> None:
+    program, formulas = random_program(seed, carried=True)
+    p, x, f = case(seed, 6, designs)
+    table = np.array([ordered(program, row) for row in p])
+    positions = dict(zip(POSITIONS, x, strict=True))
+    begin = np.random.default_rng(seed).normal(size=(designs, 2))
+    start = np.array([[row[STATES.index(n)] for n in program.states] for row in begin])
+    want = np.array([direct(formulas, p[d], x, f[d], list(begin[d])) for d in range(designs)])
+    evaluator = NumpyProgram(program)
+    agree(evaluator.run_designs(table, positions, {"f": f}, start=start), want)
+    agree(evaluator.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+    compiled = compile_program(program)
+    if compiled is not None:
+        agree(compiled.store(table, positions, {"f": f}, start=start), want)
+        agree(compiled.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+
+
+@needs_compiler
+def test_not_a_number_stays_where_it_arises() -> None:
+    t = Trace()
+    x, a = t.position("x"), t.parameter("a")
+    root = sqrt(x)
+    outputs = {"root": root, "quotient": a / x, "kept": select(x < 0.0, a, root), "beyond": root < 1.0}
+    compiled = compile_program(Program.of(t, outputs))
+    assert compiled is not None
+    got = compiled.run([2.0], {"x": np.array([-4.0, 0.0, 0.25, math.inf, math.nan])})
+    want = [
+        [math.nan, 0.0, 0.5, math.inf, math.nan],
+        [-0.5, math.inf, 8.0, 0.0, math.nan],
+        [2.0, 0.0, 0.5, math.inf, math.nan],
+        [0.0, 1.0, 1.0, 0.0, 0.0],
+    ]
+    np.testing.assert_array_equal(got, want)

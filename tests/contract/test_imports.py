@@ -1,0 +1,109 @@
+"""Imports go only down the stages; the core starts without slow packages; analysis knows no front end."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import linkwright
+
+ROOT = Path(linkwright.__file__).parent
+STAGES = (
+    ("errors", "units", "registry", "references", "gallery", "engine"),
+    ("model", "joints", "drivers", "loads"),
+    ("structure",),
+    ("groups",),
+    ("kinematics",),
+    ("kinetostatics",),
+    ("metrics", "machine"),
+    ("study", "synthesis", "cams", "parts"),
+    ("report", "plot", "export"),
+    ("cli", "server"),
+)
+STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
+FRONT = STAGE["report"]
+FRONT_END_PACKAGES = {
+    "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",
+    "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",
+}  # fmt: skip
+SLOW = ("scipy", "pandas", "matplotlib", "networkx", "sympy", "numba", "jax", "llvmlite")
+MODULES = sorted(path.relative_to(ROOT) for path in ROOT.rglob("*.py") if path != ROOT / "__init__.py")
+
+
+def package_of(module: Path) -> str:
+    return module.parts[0].removesuffix(".py")
+
+
+ENGINE = [module for module in MODULES if package_of(module) == "engine"]
+ANALYSIS = [module for module in MODULES if STAGE.get(package_of(module), FRONT) < FRONT]
+
+
+def imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and dotted name of everything imported at run time, inside functions too."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            continue
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"line {node.lineno}: write absolute imports"
+            names = (f"{node.module}.{alias.name}" for alias in node.names)
+            yield from ((node.lineno, name) for name in names)
+        else:
+            yield from imports(node)
+
+
+def upward(source: str, package: str) -> list[str]:
+    """What the source of a module of ``package`` imports from a higher stage."""
+    found = []
+    for line, name in imports(ast.parse(source)):
+        head, _, rest = name.partition(".")
+        target = rest.split(".")[0]
+        if head == "linkwright" and STAGE.get(target, STAGE[package]) > STAGE[package]:
+            found.append(f"line {line}: {name}")
+    return found
+
+
+def test_every_package_has_a_stage() -> None:
+    assert {package_of(module) for module in MODULES} - {"__main__"} <= set(STAGE)
+
+
+def test_an_upward_import_is_found() -> None:
+    assert upward("def late():\n    from linkwright.kinematics import motion", "structure")
+    assert upward("import linkwright.plot.curves", "metrics")
+    assert not upward("from linkwright.structure import text", "kinematics")
+
+
+@pytest.mark.parametrize("module", MODULES, ids=str)
+def test_imports_go_down(module: Path) -> None:
+    assert upward((ROOT / module).read_text(encoding="utf-8"), package_of(module)) == []
+
+
+@pytest.mark.parametrize("module", ENGINE, ids=str)
+def test_engine_knows_no_mechanism(module: Path) -> None:
+    tree = ast.parse((ROOT / module).read_text(encoding="utf-8"))
+    own = [name for _, name in imports(tree) if name.startswith("linkwright.")]
+    assert all(name.startswith(("linkwright.engine", "linkwright.errors")) for name in own), own
+
+
+@pytest.mark.parametrize(
+    "module", [each for each in MODULES if STAGE.get(package_of(each), FRONT) < FRONT], ids=str
+)
+def test_analysis_imports_no_front_end(module: Path) -> None:
+    tree = ast.parse((ROOT / module).read_text(encoding="utf-8"))
+    used = {name.split(".")[0] for _, name in imports(tree)}
+    assert used & FRONT_END_PACKAGES == set()
+
+
+def test_solving_loads_no_slow_package() -> None:
+    program = (
+        "import sys, linkwright as lw\n"
+        "forces = lw.solve_forces(lw.solve_motion(lw.load('gallery:jaw_crusher_sixbar'), steps=36))\n"
+        "forces.input_torque\n"
+        f"print(*[name for name in {SLOW!r} if name in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []

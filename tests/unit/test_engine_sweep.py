@@ -1,0 +1,160 @@
+"""Reductions over positions: against plain loops, on every back end, with failed positions and ties."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkwright.engine.llvm_backend import available, compile_program
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import KINDS, Reduction
+from linkwright.engine.sweep import VALID_COUNT, sweep
+from linkwright.engine.trace import Trace, sqrt
+
+BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
+EVERY = [Reduction("y", kind) for kind in KINDS] + [Reduction("high", "count"), Reduction("z", "max")]
+Floats = NDArray[np.float64]
+
+
+def chord() -> Program:
+    """Half a chord's length of a circle of radius a at the distance x; fails outside the circle."""
+    t = Trace()
+    x, a = t.position("x"), t.parameter("a")
+    square = a * a - x * x
+    y = sqrt(square)
+    return Program.of(t, {"y": y, "z": 1.0 / y, "valid": square >= 0.0, "high": y > 0.5, "unused": y * 3.0})
+
+
+def by_hand(a: float, x: Floats) -> dict[str, float]:
+    values = [(i, math.sqrt(a * a - v * v)) for i, v in enumerate(x) if v * v <= a * a]
+    count = len(values)
+    if not count:
+        nothing = dict.fromkeys(("y.min", "y.max", "y.mean", "y.rms", "z.max"), math.nan)
+        counts = {"y.sum": 0.0, "y.count": 0, "high.count": 0, VALID_COUNT: 0}
+        return {**nothing, **counts, "y.argmin": -1, "y.argmax": -1}
+    ys = [y for _, y in values]
+    total = math.fsum(ys)
+    return {
+        "y.min": min(ys),
+        "y.max": max(ys),
+        "y.mean": total / count,
+        "y.sum": total,
+        "y.rms": math.sqrt(math.fsum(y * y for y in ys) / count),
+        "y.argmin": next(i for i, y in values if y == min(ys)),
+        "y.argmax": next(i for i, y in values if y == max(ys)),
+        "y.count": sum(y != 0.0 for y in ys),
+        "high.count": sum(y > 0.5 for y in ys),
+        "z.max": max(1.0 / y for y in ys),
+        VALID_COUNT: count,
+    }
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("n", [*range(1, 18), 40, 361])
+def test_reductions_equal_plain_loops(backend: str, n: int) -> None:
+    x = np.random.default_rng(n).uniform(-2.0, 2.0, n)
+    radii = np.array([0.01, 0.3, 0.9, 1.5, 2.5])
+    got = sweep(chord(), radii[:, None], {"x": x}, EVERY, backend=backend)
+    for d, a in enumerate(radii):
+        for name, want in by_hand(a, x).items():
+            np.testing.assert_allclose(got[name][d], want, rtol=1e-12, err_msg=f"{name} a={a}")
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_the_first_of_equal_extremes_counts(backend: str) -> None:
+    t = Trace()
+    program = Program.of(t, {"y": t.position("x") * t.parameter("a")})
+    x = np.zeros(37)
+    x[[9, 12, 30]] = 5.0
+    x[[11, 34]] = -5.0
+    got = sweep(program, [[1.0], [-1.0]], {"x": x}, [("y", "argmax"), ("y", "argmin")], backend=backend)
+    assert got["y.argmax"].tolist() == [9, 11]
+    assert got["y.argmin"].tolist() == [11, 9]
+    assert got[VALID_COUNT].tolist() == [37, 37]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_without_validity_extremes_skip_nan_and_sums_pass_it_on(backend: str) -> None:
+    x = np.array([0.0, 0.5, 3.0, 0.25, 0.0])
+    got = sweep(chord(), [[1.0]], {"x": x}, EVERY[:8], valid=None, backend=backend)
+    assert got["y.max"][0] == 1.0
+    assert got["y.argmax"][0] == 0
+    assert math.isnan(got["y.sum"][0])
+    assert math.isnan(got["y.rms"][0])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_results_do_not_depend_on_threads_or_chunks(backend: str) -> None:
+    rng = np.random.default_rng(5)
+    radii = rng.uniform(0.1, 3.0, (3000, 1))
+    x = rng.uniform(-2.0, 2.0, 361)
+    done = []
+    one = sweep(chord(), radii, {"x": x}, EVERY, backend=backend, threads=1)
+    several = sweep(
+        chord(), radii, {"x": x}, EVERY, backend=backend, threads=3, progress=lambda d, n: done.append((d, n))
+    )
+    part = sweep(chord(), radii[1000:1013], {"x": x}, EVERY, backend=backend)
+    for name, values in one.items():
+        np.testing.assert_array_equal(values, several[name])
+        np.testing.assert_array_equal(values[1000:1013], part[name])
+    assert done[-1] == (3000, 3000)
+
+
+def test_a_sweep_can_be_stopped_by_its_progress() -> None:
+    def stop(done: int, designs: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep(chord(), [[1.0]], {"x": np.zeros(3)}, EVERY, progress=stop)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("designs", [1, 8, 11])
+def test_reductions_of_carried_states(backend: str, designs: int) -> None:
+    t = Trace()
+    s, x, a = t.state("s"), t.position("x"), t.parameter("a")
+    following = s * 0.5 + x * a
+    program = Program.of(t, {"y": following, "valid": x < 0.9, "f": t.field_input("g") * a}, {"s": following})
+    rng = np.random.default_rng(designs)
+    xs, gains, starts = rng.uniform(size=50), rng.normal(size=designs), rng.normal(size=designs)
+    field = rng.normal(size=(designs, 50))
+    kinds = [Reduction("y", kind) for kind in KINDS] + [Reduction("f", "max")]
+    got = sweep(
+        program, gains[:, None], {"x": xs}, kinds, fields={"g": field}, start=starts[:, None], backend=backend
+    )
+    for d in range(designs):
+        value, values = starts[d], []
+        for i, v in enumerate(xs):
+            value = value * 0.5 + v * gains[d]
+            if v < 0.9:
+                values.append((i, value))
+        ys = np.array([y for _, y in values])
+        want = {"min": ys.min(), "max": ys.max(), "mean": ys.mean(), "sum": ys.sum()}
+        want |= {"rms": np.sqrt((ys**2).mean()), "count": len(ys)}
+        want |= {"argmin": values[int(ys.argmin())][0], "argmax": values[int(ys.argmax())][0]}
+        for kind, number in want.items():
+            np.testing.assert_allclose(got[f"y.{kind}"][d], number, rtol=1e-11)
+        np.testing.assert_allclose(got["f.max"][d], (field[d] * gains[d])[xs < 0.9].max(), rtol=1e-14)
+
+
+def test_what_does_not_exist_is_refused() -> None:
+    x = {"x": np.zeros(3)}
+    with pytest.raises(ValueError, match="no output 'w'"):
+        sweep(chord(), [[1.0]], x, [("w", "max")])
+    with pytest.raises(ValueError, match="no reduction 'median'"):
+        sweep(chord(), [[1.0]], x, [("y", "median")])  # type: ignore[list-item]
+    with pytest.raises(ValueError, match="no back end"):
+        sweep(chord(), [[1.0]], x, [("y", "max")], backend="gpu")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="shape"):
+        sweep(chord(), [1.0], x, [("y", "max")])
+
+
+@pytest.mark.skipif(not available(), reason="no llvmlite")
+def test_a_program_compiled_for_storing_does_not_sweep() -> None:
+    compiled = compile_program(chord())
+    assert compiled is not None
+    with pytest.raises(ValueError, match="without reductions"):
+        compiled.sweep([[1.0]], {"x": np.zeros(3)})
