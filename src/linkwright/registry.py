@@ -78,5 +78,8 @@ def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str,
     folded = {text.casefold(): text for text in reversed(known)}
     if name.casefold() in folded:
         return folded[name.casefold()]
+    inside = [text for key, text in folded.items() if len(name) > 2 and key.startswith(name.casefold())]
+    if inside:
+        return min(inside, key=len)
     found = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.5)
     return folded[found[0]] if found else None

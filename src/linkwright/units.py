@@ -112,16 +112,71 @@ UNITS: Mapping[str, tuple[float, Dimension]] = {
     "Hz": (1.0, (0, 0, -1, 0)),
 }
 SPELLINGS: Mapping[str, str] = {
-    "Nm": "N·m", "N-m": "N·m", "N.m": "N·m", "mN·m": "N·m", "kNm": "kN·m", "Nmm": "N·mm", "kgm²": "kg·m²",
-    "kgm2": "kg·m²", "kgm^2": "kg·m²", "m2": "m²", "s2": "s²", "m3": "m³", "mm2": "mm²", "mm3": "mm³", "m4": "m⁴",
-    "mm4": "mm⁴", "sec": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "hour": "h",
-    "hours": "h", "meter": "m", "metre": "m", "meters": "m", "metres": "m", "millimeter": "mm",
-    "millimetre": "mm", "millimeters": "mm", "millimetres": "mm", "inch": "in", "inches": "in", "feet": "ft",
-    "foot": "ft", "degree": "deg", "degrees": "deg", "grad": "deg", "radian": "rad", "radians": "rad", "rads": "rad",
-    "newton": "N", "newtons": "N", "kilogram": "kg", "kilograms": "kg", "kgs": "kg", "gram": "g", "tonne": "t",
-    "ton": "t", "rps": "rev/s", "r": "rev", "U/min": "rpm", "u/min": "rpm", "turn": "rev", "turns": "rev", "psi": "Pa",
-    "kgf": "N", "lbs": "lb", "Mpa": "MPa", "hz": "Hz", '"': "in", "毫米": "mm", "米": "m", "度": "deg",
-}  # fmt: skip
+    "Nm": "N·m",
+    "N-m": "N·m",
+    "N.m": "N·m",
+    "mN·m": "N·m",
+    "kNm": "kN·m",
+    "Nmm": "N·mm",
+    "kgm²": "kg·m²",
+    "kgm2": "kg·m²",
+    "kgm^2": "kg·m²",
+    "m2": "m²",
+    "s2": "s²",
+    "m3": "m³",
+    "mm2": "mm²",
+    "mm3": "mm³",
+    "m4": "m⁴",
+    "mm4": "mm⁴",
+    "sec": "s",
+    "second": "s",
+    "seconds": "s",
+    "minute": "min",
+    "minutes": "min",
+    "hour": "h",
+    "hours": "h",
+    "meter": "m",
+    "metre": "m",
+    "meters": "m",
+    "metres": "m",
+    "millimeter": "mm",
+    "millimetre": "mm",
+    "millimeters": "mm",
+    "millimetres": "mm",
+    "inch": "in",
+    "inches": "in",
+    "feet": "ft",
+    "foot": "ft",
+    "degree": "deg",
+    "degrees": "deg",
+    "grad": "deg",
+    "radian": "rad",
+    "radians": "rad",
+    "rads": "rad",
+    "newton": "N",
+    "newtons": "N",
+    "kilogram": "kg",
+    "kilograms": "kg",
+    "kgs": "kg",
+    "gram": "g",
+    "tonne": "t",
+    "ton": "t",
+    "rps": "rev/s",
+    "r": "rev",
+    "U/min": "rpm",
+    "u/min": "rpm",
+    "turn": "rev",
+    "turns": "rev",
+    "psi": "Pa",
+    "kgf": "N",
+    "lbs": "lb",
+    "Mpa": "MPa",
+    "hz": "Hz",
+    '"': "in",
+    "毫米": "mm",
+    "米": "m",
+    "度": "deg",
+}
 
 _SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
 NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
@@ -206,7 +261,13 @@ def _factor_suggestion(part: str) -> str | None:
 
 def example(dimension: str) -> str:
     """A right form of a quantity of this dimension, for remedies: ``60.5 mm``."""
-    numbers = {"length": "60.5", "angle": "30", "angular_velocity": "170", "mass": "4.5", "dimensionless": "0.1"}
+    numbers = {
+        "length": "60.5",
+        "angle": "30",
+        "angular_velocity": "170",
+        "mass": "4.5",
+        "dimensionless": "0.1",
+    }
     return f"{numbers.get(dimension, '2.5')} {USUAL_UNITS[dimension]}".strip()
 
 
@@ -224,7 +285,9 @@ def parse(text: str, dimension: str) -> float:
     if re.match(r",\s?\d", rest):
         raise decimal_comma(plain)
     if re.match(r"\d", rest):
-        raise QuantityError(f'"{plain}" has a space inside the number', f'write "{digits}{rest}"', code="quantity")
+        raise QuantityError(
+            f'"{plain}" has a space inside the number', f'write "{digits}{rest}"', code="quantity"
+        )
     value = float(sign + digits)
     if rest:
         factor, kind = _unit_of(rest, len(plain) - len(rest))
@@ -232,8 +295,11 @@ def parse(text: str, dimension: str) -> float:
     else:
         kind = NONE
     if not math.isfinite(value):
-        raise QuantityError(f'"{plain}" is not a finite number', f'write a number such as "{example(dimension)}"',
-                            code="not-finite")
+        raise QuantityError(
+            f'"{plain}" is not a finite number',
+            f'write a number such as "{example(dimension)}"',
+            code="not-finite",
+        )
     if not rest and value == 0:
         return 0.0
     require(kind, dimension, plain, bare=not rest)
@@ -244,7 +310,9 @@ def _unit_of(text: str, column: int) -> tuple[float, Dimension]:
     try:
         return unit(text)
     except QuantityError as error:
-        raise QuantityError(error.message, error.remedy, column=column + error.column, code=error.code) from None
+        raise QuantityError(
+            error.message, error.remedy, column=column + error.column, code=error.code
+        ) from None
 
 
 def decimal_comma(text: str) -> QuantityError:
@@ -256,9 +324,14 @@ def decimal_comma(text: str) -> QuantityError:
 def not_a_number(text: str, dimension: str) -> QuantityError:
     """The error for a text without a number where a quantity is needed."""
     if re.match(r"^[+-]?\.?(inf|infinity|nan)\b", text, re.IGNORECASE):
-        return QuantityError(f'"{text}" is not a finite number', f'write a number such as "{example(dimension)}"',
-                             code="not-finite")
-    return QuantityError(f'"{text}" is not a quantity', f'write a number and a unit, such as "{example(dimension)}"')
+        return QuantityError(
+            f'"{text}" is not a finite number',
+            f'write a number such as "{example(dimension)}"',
+            code="not-finite",
+        )
+    return QuantityError(
+        f'"{text}" is not a quantity', f'write a number and a unit, such as "{example(dimension)}"'
+    )
 
 
 def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -> None:
@@ -268,11 +341,15 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
     noun = dimension.replace("_", " ")
     if bare:
         right = f"{text} {USUAL_UNITS[dimension]}".strip()
-        raise QuantityError(f'"{text}" has no unit', f'{article(noun)} is needed, such as "{right}"',
-                            code="missing-unit")
+        raise QuantityError(
+            f'"{text}" has no unit', f'{article(noun)} is needed, such as "{right}"', code="missing-unit"
+        )
     wrong = name_of(kind)
-    raise QuantityError(f'"{text}" is {wrong}, where {article(noun)} is needed',
-                        f'write it as in "{example(dimension)}"', code="wrong-dimension")
+    raise QuantityError(
+        f'"{text}" is {wrong}, where {article(noun)} is needed',
+        f'write it as in "{example(dimension)}"',
+        code="wrong-dimension",
+    )
 
 
 def article(noun: str) -> str:
@@ -291,12 +368,15 @@ def name_of(kind: Dimension) -> str:
 
 
 def si_symbol(kind: Dimension) -> str:
-    """SI unit of any dimension, by its name where it has one: ``N·m/rad``, ``m^0.5``; empty for a bare number."""
+    """SI unit of any dimension, named where it has a name: ``N·m/rad``, ``m^0.5``; empty for a number."""
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:
             return SI_UNITS[name]
-    parts = [f"{symbol}^{power:g}" if power != 1 else symbol
-             for symbol, power in zip(("m", "kg", "s", "rad"), kind, strict=True) if power]
+    parts = [
+        f"{symbol}^{power:g}" if power != 1 else symbol
+        for symbol, power in zip(("m", "kg", "s", "rad"), kind, strict=True)
+        if power
+    ]
     return "·".join(parts)
 
 

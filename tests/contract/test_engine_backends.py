@@ -129,7 +129,9 @@ def test_numpy_and_scalar_agree_with_direct_evaluation(seed: int) -> None:
         at = {**positions, "f": f[d]}
         for i in range(5):
             along = [at[name][i] for name in program.positions]
-            outputs, _ = scalar.step(table[d].tolist(), along, fields=[at[name][i] for name in program.fields])
+            outputs, _ = scalar.step(
+                table[d].tolist(), along, fields=[at[name][i] for name in program.fields]
+            )
             agree(np.array(outputs), want[:, i])
 
 

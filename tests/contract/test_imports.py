@@ -25,6 +25,7 @@ STAGES = (
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["report"]
+LEADS_ON = {"model/mechanism.py": {"linkwright.structure"}}  # Mechanism.structure() imports it when called
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",
     "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",
@@ -79,7 +80,9 @@ def test_an_upward_import_is_found() -> None:
 
 @pytest.mark.parametrize("module", MODULES, ids=str)
 def test_imports_go_down(module: Path) -> None:
-    assert upward((ROOT / module).read_text(encoding="utf-8"), package_of(module)) == []
+    allowed = LEADS_ON.get(module.as_posix(), set())
+    found = upward((ROOT / module).read_text(encoding="utf-8"), package_of(module))
+    assert [each for each in found if not any(f": {name}" in each for name in allowed)] == []
 
 
 @pytest.mark.parametrize("module", ENGINE, ids=str)

@@ -86,6 +86,9 @@ def _driver(mechanism: Mechanism, driver: Any, k: int) -> list[Constraint]:
 def driver_values(mechanism: Mechanism, time: Array) -> tuple[Array, Array, Array]:
     """Coordinates of all drivers with their first two derivatives, each (n, drivers)."""
     parts = [law_values(driver.law, time) for driver in mechanism.drivers.values()]
+    if not parts:
+        none = np.zeros((len(time), 0))
+        return none, none, none
     f, d, dd = (np.stack(columns, -1) for columns in zip(*((p.f, p.d, p.dd) for p in parts), strict=True))
     return f, d, dd
 

@@ -116,3 +116,36 @@ def floors(mechanism: Any, reference: Motion) -> dict[str, float]:
         "angular velocity": speed / size,
         "angular acceleration": sudden / size,
     }
+
+
+def forces_comparison(mechanism: Any, forces: Any, reference: Any) -> Comparison:
+    """Reactions, couples, driver efforts and shaking of the package against the reference's."""
+    found, motion = Comparison(), reference.motion
+    for joint in mechanism.joints.values():
+        for link in joint.joined:
+            expected, _ = reference.on(joint.name, link)
+            found.add("force", f"{joint.name} on {link}", forces.reaction(joint.name, on=link), expected)
+        if joint.kind != "revolute":
+            block = joint.joined[1]
+            about = motion.point(block, link_points(mechanism, block)[joint.at])[0]
+            _, expected = reference.on(joint.name, block, about)
+            found.add("moment", f"{joint.name} on {block}", forces.couple(joint.name, on=block), expected)
+    for driver in mechanism.drivers.values():
+        kind = "moment" if mechanism.joints[driver.joint].kind == "revolute" else "force"
+        effort = reference.effort(f"driver {driver.name}")
+        found.add(kind, f"driver {driver.name}", forces.driver_effort(driver.name), effort)
+    inertial = motion.inertia_terms()[:, 1:]
+    arms = motion.q[:, 1:, 0] * inertial[..., 1] - motion.q[:, 1:, 1] * inertial[..., 0]
+    found.add("force", "shaking force", forces.shaking_force, -inertial[..., :2].sum(1))
+    found.add("moment", "shaking moment", forces.shaking_moment, -(arms + inertial[..., 2]).sum(1))
+    return found
+
+
+def force_floors(reference: Any) -> dict[str, float]:
+    """Smallest scales of forces and moments, from the loads and the inertia forces."""
+    forces = [float(np.abs(w.force).max()) for w in reference.wrenches]
+    forces += [float(np.abs(reference.inertial[..., :2]).max())]
+    moments = [float(np.abs(w.torque).max()) for w in reference.wrenches]
+    size = max(float(np.abs(reference.motion.q[:, 1:, :2]).max()), 1e-3)
+    largest = max([*forces, 1e-3])
+    return {"force": largest, "moment": max([*moments, largest * size])}

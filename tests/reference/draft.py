@@ -270,11 +270,8 @@ def rpr(d: Draft, a: str, b: str) -> None:
     d.join(pb, last, b)
     direction = direction_away(d, lambda u: dot(u, ray) * 0.8)
     slide = d.slide_either_way(first, last, direction, pb if d.chance(0.6) else None)
-    ahead = dot(ray, (float(np.cos(direction)), float(np.sin(direction)))) * (
-        1 if slide.guide == first else -1
-    )
-    if len(d.links[first]) == len(d.links[last]) == 1 and ahead < 0:
-        slide.direction += pi  # a drawing of two points does not show the mode; without a word it is forward
+    if len(d.links[first]) == len(d.links[last]) == 1:
+        d.new_point(first, d.around(d.links[first][pa], 0.3, 0.8))  # two points alone do not show the mode
     d.dyads.append(("RPR", first, last, slide.name))
 
 

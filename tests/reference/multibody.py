@@ -266,7 +266,7 @@ class Multibody:
         """From the solution q at the driver coordinates `start` to that at `end`, halving steps."""
         if depth > 14:
             raise Unreachable(f"no way from {start} to {end}")
-        if np.abs(end - start).max() < 0.15 or depth > 4:
+        if np.abs(end - start).max(initial=0.0) < 0.15 or depth > 4:
             try:
                 return self.assemble(q, end, limit=0.4 * (1.0 + float(np.abs(q[:, :2]).max())))
             except Unreachable:
@@ -336,12 +336,13 @@ class Motion:
             k = self.system.index[wrench.body]
             applied[:, k, :2] += wrench.force
             applied[:, k, 2] += wrench.torque + _cross(wrench.point - self.q[:, k, :2], wrench.force)
-        inertial = np.zeros_like(self.q) if static else self._inertia_terms()
+        inertial = np.zeros_like(self.q) if static else self.inertia_terms()
         right = (applied - inertial)[:, 1:].reshape(len(self.q), -1)
         lam = self.system.solve(np.swapaxes(self.jac[..., 3:], -1, -2), right)
         return Forces(self, lam, wrenches, inertial)
 
-    def _inertia_terms(self) -> Array:
+    def inertia_terms(self) -> Array:
+        """Rates of momentum and of moment of momentum about each body's origin, (n, bodies, 3)."""
         out = np.zeros_like(self.q)
         for body in self.system.bodies:
             k = self.system.index[body.name]

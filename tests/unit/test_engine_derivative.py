@@ -62,7 +62,9 @@ def mixture() -> Program:
     q = (x + a) / r
     chosen = select(q < 0.3, q * r * a, absolute(d) - b * x)
     twice = select((x < 1.0) & ~(d < 0.0), r / c, select(x <= 2.0, c, a) * q)
-    return Program.of(t, {"r": r, "q": q, "w": chosen + twice, "d": -d * turn, "k": turn / a, "valid": x < 2.5})
+    return Program.of(
+        t, {"r": r, "q": q, "w": chosen + twice, "d": -d * turn, "k": turn / a, "valid": x < 2.5}
+    )
 
 
 def difference(program: Program, name: str, at: Mapping[str, float], function: Callable) -> float:  # type: ignore[type-arg]
@@ -151,7 +153,7 @@ def test_failed_positions_neither_enter_nor_poison_the_gradient(backend: str) ->
     t = Trace()
     a, x = t.parameter("a"), t.position("x")
     square = a * a - x * x
-    program = Program.of(t, {"y": sqrt(square), "valid": 0.0 < square})
+    program = Program.of(t, {"y": sqrt(square), "valid": square > 0.0})
     x_values = np.array([0.0, 0.5, 1.0, 1.5, 3.0])
     value, slope = value_and_gradient(program, [("y", "mean")])(
         {"a": [1.0, 0.01]}, {"x": x_values}, backend=backend
@@ -168,7 +170,7 @@ def test_the_branch_not_taken_does_not_poison_the_gradient(backend: str) -> None
     a, x = t.parameter("a"), t.position("x")
     gap = a - x
     root = sqrt(gap)
-    safe = select(0.0 < gap, select(x < 0.0, a, a * root / gap * 2.0), 3.0 * a)
+    safe = select(gap > 0.0, select(x < 0.0, a, a * root / gap * 2.0), 3.0 * a)
     x_values = np.array([-1.0, 0.5, 1.0, 2.0])
     _, slope = value_and_gradient(Program.of(t, {"y": safe}), [("y", "sum")])(
         {"a": 1.0}, {"x": x_values}, backend=backend
@@ -194,7 +196,9 @@ def test_states_are_constants_and_gradients_take_them_as_fields() -> None:
     following = s * a + x
     program = Program.of(t, {"y": following * a}, {"s": following})
     derived = forward(program, ["a"])
-    got = dict(zip(derived.output_names, NumpyProgram(derived).run([0.5], {"x": X}, start=[1.0]), strict=True))
+    got = dict(
+        zip(derived.output_names, NumpyProgram(derived).run([0.5], {"x": X}, start=[1.0]), strict=True)
+    )
     value, states = 1.0, []
     for x_value in X:
         states.append(value)

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 @LAWS.register("position")
 @dataclass(frozen=True)
 class ExpressionLaw(Law):
-    """q = expression(t), ``t`` in s, differentiated exactly; ``parameters`` are the values of its other names."""
+    """q = expression(t), ``t`` in s, differentiated exactly; ``parameters`` are the values of its other
+    names."""
 
     key: ClassVar[str] = "position"
     expression: Expression
@@ -35,12 +36,18 @@ class ExpressionLaw(Law):
         q, qd, qdd = (each.evaluate(values, functions) + 0.0 * t for each in self._derivatives)
         return q, qd, qdd
 
-    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> ExpressionLaw:
+    def with_dimensions(
+        self, value: Callable[[str], float], parameters: Mapping[str, float]
+    ) -> ExpressionLaw:
         return ExpressionLaw(self.expression, _used(self.expression, parameters), self.rotary)
 
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
-        return {"position": Formula("angle" if rotary else "length", doc="coordinate, an expression of the time t")}
+        return {
+            "position": Formula(
+                "angle" if rotary else "length", doc="coordinate, an expression of the time t"
+            )
+        }
 
     @classmethod
     def from_values(

@@ -39,7 +39,8 @@ class TableLaw(Law):
             return self._periodic(t)
         if np.any(t < first - slack) or np.any(t > last + slack):
             raise LinkwrightError(
-                f"the driver's table covers {first:g} s to {last:g} s, but the motion asks for {np.min(t):g} s to "
+                f"the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
+                f"{np.min(t):g} s to "
                 f"{np.max(t):g} s; shorten the cycle or extend the table"
             )
         inside = np.clip(t, first, last)
@@ -77,7 +78,9 @@ class TableLaw(Law):
         return {"table": TimeTable("angle" if rotary else "length", doc="positions over time")}
 
     @classmethod
-    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> TableLaw:
+    def from_values(
+        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
+    ) -> TableLaw:
         table = values["table"]
         assert isinstance(table, TimeTableValues)
         return cls(table.times, table.positions, table.interpolation, rotary)

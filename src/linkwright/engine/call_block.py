@@ -55,7 +55,9 @@ class Inputs:
             self.positions = [_padded(array, width) for array in self.positions]
             self.fields = [_padded(array, width) for array in self.fields]
 
-    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0) -> NDArray[np.int64]:
+    def block(
+        self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0
+    ) -> NDArray[np.int64]:
         """The call block for some designs from number ``first`` on; addresses as numbers."""
         full, rest = divmod(self.length, self.width)
         if full:
@@ -105,7 +107,10 @@ class SingleCall:
         """Whether the same arrays are given again."""
         if not self._kept or positions is not self._positions or fields is not self._fields:
             return False
-        return all(source[name] is array for source, name, array in self._given)
+        for source, name, array in self._given:
+            if source[name] is not array:
+                return False
+        return True
 
     def set_out(self, out: Floats) -> None:
         """Where the outputs go."""

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT, Kind, Reduction
 from linkwright.engine.sweep import Backend, sweep
@@ -107,7 +107,7 @@ class GradientProgram:
             sums = {f"adjoint:{i}": self._total(i, results) for i in self.boundary}
         designs = len(table)
         inner = _table({**parameters, **sums}, self.per_design.parameters, designs)
-        gradient = NumpyProgram(self.per_design).run_designs(inner, {}, length=1)[:, :, 0]
+        gradient = numpy_program(self.per_design).run_designs(inner, {}, length=1)[:, :, 0]
         return np.asarray(sum(values[1:], values[0])), gradient
 
     @cached_property

@@ -60,10 +60,8 @@ class AccumulatorWriter:
         if step in _BETTER:
             code = [f"%r{k} = call double @llvm.vector.reduce.f{step}.{suffix}({kind} {value})"]
         elif step in ("sum", "square"):
-            start = number(-0.0)
-            code = [
-                f"%r{k} = call {FAST} double @llvm.vector.reduce.fadd.{suffix}(double {start}, {kind} {value})"
-            ]
+            total = f"call {FAST} double @llvm.vector.reduce.fadd.{suffix}"
+            code = [f"%r{k} = {total}(double {number(-0.0)}, {kind} {value})"]
         elif step == "count":
             code = [
                 f"%q{k} = call i64 @llvm.vector.reduce.add.v{self.w.width}i64({kind} {value})",

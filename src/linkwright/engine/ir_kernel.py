@@ -8,7 +8,6 @@ from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
-from linkwright.engine.schedule import depth_first
 
 #: Name of the function: one argument, the address of the call block.
 ENTRY = "linkwright_run"
@@ -86,8 +85,7 @@ class PositionKernel:
         rows: dict[int, list[int]] = {}
         for row, index in enumerate(self.lines.outputs):
             rows.setdefault(index, []).append(row)
-        for index in depth_first(self.lines):
-            line = self.lines.lines[index]
+        for index, line in enumerate(self.lines.lines):
             if line.is_operation:
                 self.writer.write(index)
             elif line.op in ("position", "field"):
@@ -257,15 +255,15 @@ def load_block(shape: Shape) -> list[str]:
 def module_text(body: list[str], width: int) -> str:
     """The function with the declarations that it may need."""
     vector, integers = f"<{width} x double>", f"<{width} x i64>"
-    suffix, pointers = f"v{width}f64", f"<{width} x ptr>"
+    suffix, pointers, mask = f"v{width}f64", f"<{width} x ptr>", f"<{width} x i1>"
     declarations = [
         *(f"declare {vector} @llvm.{name}.{suffix}({vector})" for name in ("sqrt", "fabs")),
         *(f"declare double @llvm.{name}.f64(double)" for name in ("sqrt", "fabs")),
         *(f"declare double @llvm.vector.reduce.{name}.{suffix}({vector})" for name in ("fmin", "fmax")),
         f"declare double @llvm.vector.reduce.fadd.{suffix}(double, {vector})",
         *(f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})" for name in ("add", "smin")),
-        f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, <{width} x i1>, {vector})",
-        f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, <{width} x i1>)",
+        f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, {mask}, {vector})",
+        f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, {mask})",
         "declare double @linkwright_sin(double) nounwind willreturn readnone",
         "declare double @linkwright_cos(double) nounwind willreturn readnone",
     ]

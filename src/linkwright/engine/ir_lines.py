@@ -69,9 +69,10 @@ class LineWriter:
     def spread(self, scalar: str, name: str, kind: str) -> list[str]:
         """Instructions that put a scalar into all lanes of ``name``."""
         vector = f"<{self.width} x {kind}>"
+        lanes = f"<{self.width} x i32> zeroinitializer"
         return [
             f"{name}.0 = insertelement {vector} poison, {kind} {scalar}, i32 0",
-            f"{name} = shufflevector {vector} {name}.0, {vector} poison, <{self.width} x i32> zeroinitializer",
+            f"{name} = shufflevector {vector} {name}.0, {vector} poison, {lanes}",
         ]
 
     def write(self, index: int) -> None:

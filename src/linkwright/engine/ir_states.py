@@ -7,7 +7,6 @@ from linkwright.engine.ir_kernel import ENTRY, Shape, lane_numbers, load_block, 
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
-from linkwright.engine.schedule import depth_first
 
 
 class StateKernel:
@@ -61,8 +60,8 @@ class StateKernel:
         return f"<{', '.join([f'i64 {value}'] * self.width)}>"
 
     def _write_lines(self) -> None:
-        for index in depth_first(self.lines):
-            if self.lines.lines[index].is_operation:
+        for index, line in enumerate(self.lines.lines):
+            if line.is_operation:
                 self.writer.write(index)
         if self.sums is not None:
             return

@@ -15,6 +15,7 @@ from linkwright.engine.ir_kernel import ENTRY, kernel_text
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import Accumulation, Reduction
 from linkwright.engine.threads import spread_over
 
@@ -40,12 +41,25 @@ def compile_program(
     """
     if not available():
         return None
-    accumulation = None if reductions is None else Accumulation(program, tuple(reductions), valid)
+    wanted = None if reductions is None else tuple(reductions)
+    return _compiled.get(program, (wanted, valid), lambda: _compile(program, wanted, valid))
+
+
+def _compile(
+    program: Program, reductions: tuple[Reduction, ...] | None, valid: str | None
+) -> CompiledProgram:
+    accumulation = None if reductions is None else Accumulation(program, reductions, valid)
     needed = program if accumulation is None else accumulation.needed
-    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
+    if needed.states and not needed.next_states:
+        names = ", ".join(needed.states)
+        raise ValueError(f"no next values of the states {names} are given: take the states as fields")
     width = machine_code.host().width
+    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
     code = loaded_code(key, lambda: kernel_text(Lines.of(needed), width, accumulation), ENTRY)
     return CompiledProgram(needed, accumulation, code, width)
+
+
+_compiled: Recent[Program, CompiledProgram] = Recent(64)
 
 
 class CompiledProgram:
@@ -92,11 +106,16 @@ class CompiledProgram:
         return out
 
     def _run_by_store(
-        self, parameters: ArrayLike, positions: Arrays, fields: Arrays, out: Floats | None, start: ArrayLike | None
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays,
+        out: Floats | None,
+        start: ArrayLike | None,
     ) -> Floats:
         table = np.asarray(parameters, dtype=np.float64)[None, :]
         rows = {name: np.asarray(fields[name])[None, :] for name in self.program.fields}
-        stored = self.store(table, positions, rows, start=start)[0]
+        stored: Floats = self.store(table, positions, rows, start=start)[0]
         if out is None:
             return stored
         out[...] = stored
@@ -163,9 +182,9 @@ class CompiledProgram:
         if inputs.length == 0 or len(table) == 0:
             out[...] = self.accumulation.start(len(table)) if self.accumulation is not None else np.nan
             return
-        for array in inputs.fields:
-            if array.shape[0] != len(table):
-                raise ValueError(f"fields must have one row per design, {len(table)}, but have {array.shape[0]}")
+        rows = {array.shape[0] for array in inputs.fields} - {len(table)}
+        if rows:
+            raise ValueError(f"fields must have one row per design, {len(table)}, but have {rows.pop()}")
 
         def work(first: int, after: int) -> None:
             block = inputs.block(

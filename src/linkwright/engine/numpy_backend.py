@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.engine.bound import BoundPlan
 from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.registers import Registers
 from linkwright.engine.scalar_backend import LineRunner, ScalarProgram
 
@@ -218,6 +219,14 @@ class NumpyProgram:
                 plans.pop(next(iter(plans)))
             plans[key] = BoundPlan(self.lines, self.registers, designs, n)
         return plans[key]
+
+
+def numpy_program(program: Program) -> NumpyProgram:
+    """The evaluator of a program; the same one for the same program, as long as it is of use."""
+    return _evaluators.get(program, None, lambda: NumpyProgram(program))
+
+
+_evaluators: Recent[Program, NumpyProgram] = Recent(64)
 
 
 def _start_designs(plan: BoundPlan, table: Floats, starts: Floats | None) -> None:

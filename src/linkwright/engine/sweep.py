@@ -8,8 +8,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import VALID_COUNT, Accumulation, Kind, Reduction, accumulate
 from linkwright.engine.threads import chunks, cores, spread_over
 
@@ -56,7 +57,9 @@ def sweep(
     """
     table = np.ascontiguousarray(parameters, dtype=np.float64)
     wanted = tuple(r if isinstance(r, Reduction) else Reduction(*r) for r in reductions)
-    accumulation = Accumulation(program, wanted, valid if valid in program.output_names else None)
+    judged = valid if valid in program.output_names else None
+    key = (wanted, judged)
+    accumulation = _accumulations.get(program, key, lambda: Accumulation(program, *key))
     given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
     n = _length(positions, given)
     run = _runner(accumulation, backend, len(table) * n)
@@ -85,7 +88,7 @@ def sweep_numpy(
 
     ``table``: (designs, parameters) in the order of ``accumulation.needed.parameters``.
     """
-    evaluator = NumpyProgram(accumulation.needed)
+    evaluator = numpy_program(accumulation.needed)
     names = accumulation.needed.output_names
     sums = accumulation.start(len(table))
     n = _length(positions, fields)
@@ -105,6 +108,7 @@ def sweep_numpy(
     return accumulation.finish(sums, n)
 
 
+_accumulations: Recent[Program, Accumulation] = Recent(64)
 _Run = Callable[[Floats, Arrays, Arrays, ArrayLike | None, int], Results]
 
 

@@ -32,7 +32,8 @@ class Joint(ABC):
         """The same joint with the values that ``value`` gives for the addresses of ``dimensions``."""
 
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> Joint:
-        """The same joint, with what follows from the points of its first link (a guide's direction) made anew."""
+        """The same joint, with what follows from the points of its first link (a guide's direction) made
+        anew."""
         return self
 
 

@@ -34,4 +34,6 @@ class RevoluteJoint(Joint):
 
     def with_dimensions(self, value: Callable[[str], float]) -> RevoluteJoint:
         radius = None if self.pin_radius is None else value(f"{self.name}.pin_radius")
-        return replace(self, pin_radius=radius, friction=value(f"{self.name}.friction") if self.friction else 0.0)
+        return replace(
+            self, pin_radius=radius, friction=value(f"{self.name}.friction") if self.friction else 0.0
+        )

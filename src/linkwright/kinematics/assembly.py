@@ -101,7 +101,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     for group in structure.groups:
         if not group.unknowns or dyad_shape(group) is not None:
             continue
-        if not drawing:
+        if not drawing and any(step.kind == "revolute" for step in group.unknowns):
             raise AssemblyError(
                 f"the group ({', '.join(group.links)}) of class {group.assur_class} has no closed form; give the "
                 "coordinates of its points in a drawing of the assembled mechanism: "

@@ -142,22 +142,37 @@ def jacobian(
     for cut in cuts:
         rows: list[list[Scalar]] = [[0.0] * len(steps) for _ in range(cut.rows)]
         for end in (cut.connection.a, cut.connection.b):
+            tip: Vec | None = None
             for step in group.path(end):
                 if step.free:
-                    shift = _shift(step, end, cut, poses, dimensions)
+                    if tip is None:
+                        shift = _end_shift(step, end, cut, poses, dimensions)
+                    else:
+                        shift = _shift(step, tip, poses, dimensions)
                     for row, entry in zip(rows, cut.column(shift, end, poses), strict=True):
                         row[steps.index(step)] = row[steps.index(step)] + entry
+                    if step.kind == "revolute" and step.free:
+                        tip = poses[step.child].place
         matrix += rows
     return matrix
 
 
-def _shift(step: TreeJoint, end: str, cut: Cut, poses: Mapping[str, Pose], dimensions: Dimensions) -> Vec:
-    """How a unit rate of a chain coordinate moves the end of a cut."""
+def _shift(step: TreeJoint, tip: Vec, poses: Mapping[str, Pose], dimensions: Dimensions) -> Vec:
+    """How a unit rate of a chain coordinate moves ``tip``, the next free pin or the cut.
+
+    The coordinate of a pin is the absolute rotation of its link, so it turns only what lies before the next
+    free pin of the chain.
+    """
     if step.kind == "prismatic":
         pair = pair_of(step, dimensions)
         assert isinstance(pair, Guide)
         return pair.normal(poses[step.parent])
-    pivot = poses[step.child]
-    if step.child == end and isinstance(cut, PinCut):
-        return pivot.spin(cut.point(end) - pivot.anchor).perp
-    return (cut.place(end, poses) - pivot.place).perp
+    return (tip - poses[step.child].place).perp
+
+
+def _end_shift(step: TreeJoint, end: str, cut: Cut, poses: Mapping[str, Pose], dimensions: Dimensions) -> Vec:
+    """The same for the last part of a chain, up to the cut itself."""
+    pose = poses[step.child]
+    if step.kind == "revolute" and step.child == end and isinstance(cut, PinCut):
+        return pose.spin(cut.point(end) - pose.anchor).perp
+    return _shift(step, cut.place(end, poses), poses, dimensions)

@@ -153,18 +153,14 @@ class _Reverse:
                 along = pair.normal(self.motion.poses[step.parent]) if isinstance(pair, Guide) else None
                 wanted[step] = demand.moment if along is None else along.dot(demand.force)
             if step.parent in open_chains:
-                passed = self._moved(demand, step, free_pin=False)
+                passed = self._moved(demand, step, free_pin=step.free and step.kind == "revolute")
                 open_chains[step.parent] = open_chains[step.parent] + passed
         return [wanted[step] for step in placed.group.unknowns]
 
     def _moved(self, demand: Demand, step: TreeJoint, *, free_pin: bool) -> Demand:
         """A child's demand as its parent feels it; through a free pin goes no moment."""
-        poses = self.motion.poses
-        arm = self._arm_on_parent(step)
-        moment = arm.cross(demand.force)
-        if not free_pin:
-            moment = moment + demand.moment
-        return Demand(demand.force, moment) if poses else demand
+        moment = self._arm_on_parent(step).cross(demand.force)
+        return Demand(demand.force, moment if free_pin else moment + demand.moment)
 
     def _arm_on_parent(self, step: TreeJoint) -> Vec:
         parent, child = self.motion.poses[step.parent], self.motion.poses[step.child]

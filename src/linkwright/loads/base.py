@@ -35,10 +35,30 @@ from linkwright.registry import Registry
 
 if TYPE_CHECKING:
     from linkwright.model.nodes import Node
-    from linkwright.model.reader import Place, Reader
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
 
-__all__ = ["LOADS", "LinkPoint", "Load", "Output", "Phase", "Table", "joint", "link", "magnitude", "output", "phase",
-           "point", "point_of", "points", "quantity", "ray", "table", "values", "word"]  # fmt: skip
+__all__ = [
+    "LOADS",
+    "LinkPoint",
+    "Load",
+    "Output",
+    "Phase",
+    "Table",
+    "joint",
+    "link",
+    "magnitude",
+    "output",
+    "phase",
+    "point",
+    "point_of",
+    "points",
+    "quantity",
+    "ray",
+    "table",
+    "values",
+    "word",
+]
 
 _REQUIRED: Any = object()
 
@@ -47,7 +67,8 @@ _REQUIRED: Any = object()
 class Load:
     """A load on the mechanism; ``name`` is its name in the model.
 
-    ``exactly_one`` lists groups of fields of which exactly one must be given, ``at_most_one`` of which one may be.
+    ``exactly_one`` lists groups of fields of which exactly one must be given, ``at_most_one`` of which one
+    may be.
     """
 
     kind: ClassVar[str]
@@ -58,7 +79,9 @@ class Load:
     @classmethod
     def fields(cls) -> dict[str, Field]:
         """The declared fields by their attribute names."""
-        return {each.name: each.metadata["field"] for each in dataclasses.fields(cls) if "field" in each.metadata}
+        return {
+            each.name: each.metadata["field"] for each in dataclasses.fields(cls) if "field" in each.metadata
+        }
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
@@ -86,7 +109,9 @@ class Load:
             address = f"loads.{self.name}.{each.key or name}"
             return each.rebuild(getattr(self, name), lambda suffix: value(address + suffix))
 
-        return dataclasses.replace(self, **{name: rebuilt(name, each) for name, each in self.fields().items()})
+        return dataclasses.replace(
+            self, **{name: rebuilt(name, each) for name, each in self.fields().items()}
+        )
 
     def written(self) -> dict[str, Any]:
         """The load as plain data for a file."""
@@ -109,7 +134,9 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
         return None
     kind_node = mapping.get("kind")
     if kind_node is None:
-        reader.error(node, place, "the load has no kind", f"write kind: one of {', '.join(LOADS)}", "missing-key")
+        reader.error(
+            node, place, "the load has no kind", f"write kind: one of {', '.join(LOADS)}", "missing-key"
+        )
         return None
     kind = reader.word(kind_node, place.child("kind"), tuple(LOADS))
     if kind is None:
@@ -119,11 +146,19 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     found = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
     if found is None:
         return None
-    given = {attribute for attribute, each in cls.fields().items() if mapping.get(each.key or attribute) is not None}
+    given = {
+        attribute
+        for attribute, each in cls.fields().items()
+        if mapping.get(each.key or attribute) is not None
+    }
     _check_choices(reader, node, place, cls, given)
     if reader.error_count == before:
-        cls.check(found, lambda key, message, remedy: reader.error(
-            mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load"))
+        cls.check(
+            found,
+            lambda key, message, remedy: reader.error(
+                mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load"
+            ),
+        )
     if reader.error_count > before:
         return None
     present = {key: value for key, value in found.items() if key != "kind" and value is not None}
@@ -139,7 +174,9 @@ def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], gi
                 continue
             words = ", ".join(group)
             if chosen:
-                reader.error(node, place, f"{' and '.join(chosen)} are both given", f"keep one of {words}", "choice")
+                reader.error(
+                    node, place, f"{' and '.join(chosen)} are both given", f"keep one of {words}", "choice"
+                )
             else:
                 reader.error(node, place, f"none of {words} is given", "give exactly one of them", "choice")
 
@@ -160,12 +197,20 @@ def quantity(
     doc: str = "",
     key: str = "",
 ) -> Any:
-    """A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI. Without ``default`` it is required."""
-    return _declare(Quantity(dimension, minimum=minimum, above=above, nonzero=nonzero, doc=doc, key=key), default)
+    """A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI. Without ``default`` it
+    is required."""
+    return _declare(
+        Quantity(dimension, minimum=minimum, above=above, nonzero=nonzero, doc=doc, key=key), default
+    )
 
 
 def values(
-    dimension: str, *, names: tuple[str, ...] = (), count: int | None = None, default: Any = _REQUIRED, doc: str = "",
+    dimension: str,
+    *,
+    names: tuple[str, ...] = (),
+    count: int | None = None,
+    default: Any = _REQUIRED,
+    doc: str = "",
     key: str = "",
 ) -> Any:
     """A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``."""

@@ -48,47 +48,109 @@ class Model:
         self._data.setdefault("frame", {"points": {}})["points"].update(points)
 
     def link(
-        self, name: str, points: Iterable[str] | Mapping[str, Pair], *, length: Value | None = None,
-        lengths: Pair | None = None, angle: Value | None = None, also: Mapping[str, Pair] | None = None,
-        mass: Value | None = None, inertia: Value | None = None, mass_centre: Pair | None = None,
+        self,
+        name: str,
+        points: Iterable[str] | Mapping[str, Pair],
+        *,
+        length: Value | None = None,
+        lengths: Pair | None = None,
+        angle: Value | None = None,
+        also: Mapping[str, Pair] | None = None,
+        mass: Value | None = None,
+        inertia: Value | None = None,
+        mass_centre: Pair | None = None,
     ) -> None:
         """A moving link; the keys are those of a file: m, rad, kg, kg·m²."""
-        given = {"length": length, "lengths": lengths, "angle": angle, "also": also, "mass": mass, "inertia": inertia,
-                 "mass_centre": mass_centre}
+        given = {
+            "length": length,
+            "lengths": lengths,
+            "angle": angle,
+            "also": also,
+            "mass": mass,
+            "inertia": inertia,
+            "mass_centre": mass_centre,
+        }
         listed = points if isinstance(points, Mapping) else list(points)
         self._section("links", name, {"points": listed, **_present(given)})
 
     def pin(self, name: str, *, radius: Value | None = None, friction: Value | None = None) -> None:
         """Attributes of the implied pin at the shared point ``name``."""
-        self._section("joints", name, {"kind": "revolute", **_present({"pin_radius": radius, "friction": friction})})
+        self._section(
+            "joints", name, {"kind": "revolute", **_present({"pin_radius": radius, "friction": friction})}
+        )
 
     def prismatic(
-        self, name: str, *, guide: str, through: str, direction: Value | tuple[str, str], block: str, at: str,
-        offset: Value | None = None, block_angle: Value | None = None, friction: Value | None = None,
+        self,
+        name: str,
+        *,
+        guide: str,
+        through: str,
+        direction: Value | tuple[str, str],
+        block: str,
+        at: str,
+        offset: Value | None = None,
+        block_angle: Value | None = None,
+        friction: Value | None = None,
     ) -> None:
-        """A guide on one link and a block on it; ``direction`` in rad in the guide's axes, or two of its points."""
+        """A guide on one link and a block on it; ``direction`` in rad in the guide's axes, or two of its
+        points."""
         along = list(direction) if isinstance(direction, tuple) else direction
         given = {"offset": offset, "block_angle": block_angle, "friction": friction}
-        self._section("joints", name, {"kind": "prismatic", "guide": guide, "through": through, "direction": along,
-                                       "block": block, "at": at, **_present(given)})
+        self._section(
+            "joints",
+            name,
+            {
+                "kind": "prismatic",
+                "guide": guide,
+                "through": through,
+                "direction": along,
+                "block": block,
+                "at": at,
+                **_present(given),
+            },
+        )
 
     def weld(self, name: str, a: str, b: str, *, at: str, angle: Value | None = None) -> None:
         """Link b fixed to link a at their common point, its x axis at ``angle`` (rad) to a's."""
-        self._section("joints", name, {"kind": "weld", "links": [a, b], "at": at, **_present({"angle": angle})})
+        self._section(
+            "joints", name, {"kind": "weld", "links": [a, b], "at": at, **_present({"angle": angle})}
+        )
 
     def drive(
-        self, link: str, *, about: str, relative_to: str | None = None, name: str = "driver", speed: Value | None = None,
-        start: Value | None = None, position: str | None = None, table: Mapping[str, Any] | None = None,
+        self,
+        link: str,
+        *,
+        about: str,
+        relative_to: str | None = None,
+        name: str = "driver",
+        speed: Value | None = None,
+        start: Value | None = None,
+        position: str | None = None,
+        table: Mapping[str, Any] | None = None,
     ) -> None:
-        """Turn a link about a pin: by constant ``speed`` (rad/s), an expression ``position``, or a ``table``."""
-        law = {"relative_to": relative_to, "speed": speed, "start": start, "position": position, "table": table}
+        """Turn a link about a pin: by constant ``speed`` (rad/s), an expression ``position``, or a
+        ``table``."""
+        law = {
+            "relative_to": relative_to,
+            "speed": speed,
+            "start": start,
+            "position": position,
+            "table": table,
+        }
         self._section("drivers", name, {"turn": link, "about": about, **_present(law)})
 
     def slide(
-        self, joint: str, *, name: str = "driver", speed: Value | None = None, start: Value | None = None,
-        position: str | None = None, table: Mapping[str, Any] | None = None,
+        self,
+        joint: str,
+        *,
+        name: str = "driver",
+        speed: Value | None = None,
+        start: Value | None = None,
+        position: str | None = None,
+        table: Mapping[str, Any] | None = None,
     ) -> None:
-        """Drive a prismatic joint: by constant ``speed`` (m/s), an expression ``position``, or a ``table``."""
+        """Drive a prismatic joint: by constant ``speed`` (m/s), an expression ``position``, or a
+        ``table``."""
         law = {"speed": speed, "start": start, "position": position, "table": table}
         self._section("drivers", name, {"slide": joint, **_present(law)})
 
@@ -113,7 +175,9 @@ class Model:
 
     def load(self, name: str, kind: str, **fields: Any) -> None:
         """A load of a registered kind, by the keys of a file (``from_`` stands for ``from``)."""
-        self._section("loads", name, {"kind": kind, **{key.rstrip("_"): value for key, value in fields.items()}})
+        self._section(
+            "loads", name, {"kind": kind, **{key.rstrip("_"): value for key, value in fields.items()}}
+        )
 
     def build(self) -> Mechanism:
         """The checked mechanism. Raises ModelError with all findings."""
@@ -129,7 +193,9 @@ def _present(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def _node(value: Any) -> Node:
     if isinstance(value, Mapping):
-        return MappingNode(0, 0, 0, 0, [Entry(Scalar(0, 0, 0, 0, str(key)), _node(each)) for key, each in value.items()])
+        return MappingNode(
+            0, 0, 0, 0, [Entry(Scalar(0, 0, 0, 0, str(key)), _node(each)) for key, each in value.items()]
+        )
     if isinstance(value, str):
         return Scalar(0, 0, 0, 0, value, plain=False)
     if isinstance(value, bool):

@@ -35,8 +35,10 @@ class Document:
     def set(self, address: str, value: str) -> None:
         """Write ``value`` (the text that stands in the file, such as ``"1.3 m"``) at a place of the file.
 
-        ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``). A last key
-        that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a model;
+        ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``).
+        A last key
+        that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a
+        model;
         LinkwrightError for a place that the file does not have.
         """
         root, _ = compose(self.text.removeprefix("\ufeff"))
@@ -53,7 +55,9 @@ class Document:
                     self._insert(node, rest[0], value)
                     return
         offer = nearest(address, self.mechanism.dimensions())
-        raise LinkwrightError(f'the file has no place for "{address}"' + (f'; did you mean "{offer}"?' if offer else ""))
+        raise LinkwrightError(
+            f'the file has no place for "{address}"' + (f'; did you mean "{offer}"?' if offer else "")
+        )
 
     def save(self, path: str | Path) -> None:
         """Write the text to a file, by way of a temporary file next to it."""
@@ -82,7 +86,7 @@ class Document:
         end = _content_end(last) + offset
         line_end = self.text.find("\n", end)
         at = len(self.text) if line_end < 0 else line_end
-        if self.text[at - 1:at] == "\r":
+        if self.text[at - 1 : at] == "\r":
             at -= 1
         newline = "\r\n" if "\r\n" in self.text else "\n"
         self._accept(self.text[:at] + newline + " " * last.key.column + entry + self.text[at:])
@@ -148,7 +152,9 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
             below = node.get(part)
         elif isinstance(node, Sequence):
             position = _AXES.get(part, part)
-            below = node.items[int(position)] if position.isdigit() and int(position) < len(node.items) else None
+            below = (
+                node.items[int(position)] if position.isdigit() and int(position) < len(node.items) else None
+            )
         if below is None:
             return node, path[index:]
         node = below
@@ -156,7 +162,8 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
 
 
 def write_atomically(text: str, path: Path) -> None:
-    """Write a text to a temporary file next to ``path`` and rename it, so that no half-written file is left."""
+    """Write a text to a temporary file next to ``path`` and rename it, so that no half-written file is
+    left."""
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     except OSError as error:

@@ -12,9 +12,22 @@ from linkwright import units
 from linkwright.errors import QuantityError
 
 ARITY: Mapping[str, int] = {
-    "sin": 1, "cos": 1, "tan": 1, "asin": 1, "acos": 1, "atan": 1, "atan2": 2, "sqrt": 1, "abs": 1,
-    "exp": 1, "log": 1, "min": 2, "max": 2, "sign": 1, "step": 1,
-}  # fmt: skip
+    "sin": 1,
+    "cos": 1,
+    "tan": 1,
+    "asin": 1,
+    "acos": 1,
+    "atan": 1,
+    "atan2": 2,
+    "sqrt": 1,
+    "abs": 1,
+    "exp": 1,
+    "log": 1,
+    "min": 2,
+    "max": 2,
+    "sign": 1,
+    "step": 1,
+}
 _FROM_ANGLE, _TO_ANGLE, _PURE = ("sin", "cos", "tan"), ("asin", "acos", "atan"), ("exp", "log")
 _ANGLE = units.DIMENSIONS["angle"]
 
@@ -70,10 +83,23 @@ Node = Number | Variable | Negative | Binary | Call
 def scalar_functions() -> Mapping[str, Callable[..., Any]]:
     """The functions of the language on floats; ``step(x)`` is 1 from x = 0 on."""
     return {
-        "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
-        "atan2": math.atan2, "sqrt": math.sqrt, "abs": abs, "exp": math.exp, "log": math.log, "min": min, "max": max,
-        "sign": lambda x: (x > 0) - (x < 0), "step": lambda x: 1.0 if x >= 0 else 0.0, "pow": pow,
-    }  # fmt: skip
+        "sin": math.sin,
+        "cos": math.cos,
+        "tan": math.tan,
+        "asin": math.asin,
+        "acos": math.acos,
+        "atan": math.atan,
+        "atan2": math.atan2,
+        "sqrt": math.sqrt,
+        "abs": abs,
+        "exp": math.exp,
+        "log": math.log,
+        "min": min,
+        "max": max,
+        "sign": lambda x: (x > 0) - (x < 0),
+        "step": lambda x: 1.0 if x >= 0 else 0.0,
+        "pow": pow,
+    }
 
 
 def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
@@ -127,7 +153,9 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
         case Binary("^", base, exponent, column):
             return _power_dimension(base, exponent, kinds, column)
         case Binary("*" | "/" as sign, left, right):
-            return units.times(dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1)
+            return units.times(
+                dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1
+            )
     word = "added to" if node.sign == "+" else "subtracted from"
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
@@ -144,22 +172,32 @@ def _common_dimension(
     bare = any(isinstance(node, Number) and node.dimension == units.NONE for node in nodes)
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE
-    raise QuantityError(f"{units.name_of(right)} cannot be {word} {units.name_of(left)}",
-                        "give both the same dimension", column=column, code="wrong-dimension")
+    raise QuantityError(
+        f"{units.name_of(right)} cannot be {word} {units.name_of(left)}",
+        "give both the same dimension",
+        column=column,
+        code="wrong-dimension",
+    )
 
 
 def _power_dimension(
     base: Node, exponent: Node, kinds: Mapping[str, units.Dimension], column: int
 ) -> units.Dimension:
     if dimension_of(exponent, kinds) != units.NONE:
-        raise QuantityError("an exponent has a unit", "use a plain number", column=column, code="wrong-dimension")
+        raise QuantityError(
+            "an exponent has a unit", "use a plain number", column=column, code="wrong-dimension"
+        )
     kind = dimension_of(base, kinds)
     if kind == units.NONE:
         return units.NONE
     power = exponent.operand if isinstance(exponent, Negative) else exponent
     if not isinstance(power, Number):
-        raise QuantityError("a quantity with a unit has an exponent that is not a number", "write the number",
-                            column=column, code="wrong-dimension")
+        raise QuantityError(
+            "a quantity with a unit has an exponent that is not a number",
+            "write the number",
+            column=column,
+            code="wrong-dimension",
+        )
     return units.times(units.NONE, kind, power.value if power is exponent else -power.value)
 
 
@@ -180,8 +218,12 @@ def _call_dimension(
     allowed = (units.NONE, _ANGLE) if function in _FROM_ANGLE else (units.NONE,)
     if kind not in allowed:
         needed = "an angle" if function in _FROM_ANGLE else "a dimensionless number"
-        raise QuantityError(f"{function} is taken of {units.name_of(kind)}, where {needed} is needed",
-                            "divide by a quantity of the same dimension", column=column, code="wrong-dimension")
+        raise QuantityError(
+            f"{function} is taken of {units.name_of(kind)}, where {needed} is needed",
+            "divide by a quantity of the same dimension",
+            column=column,
+            code="wrong-dimension",
+        )
     return _ANGLE if function in _TO_ANGLE else units.NONE
 
 

@@ -67,23 +67,30 @@ class Expression:
     tree: Node = field(compare=False, repr=False)
     names: frozenset[str] = field(compare=False, repr=False)
 
-    def evaluate(self, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+    def evaluate(
+        self, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None
+    ) -> Any:
         """Value in SI for the given values of the free names.
 
         Without ``functions`` the values are floats; with the functions of another kind of value
         (``array_functions()`` for NumPy) the same expression runs on that kind.
-        Raises QuantityError where a float result does not exist (a division by zero, the root of a negative number).
+        Raises QuantityError where a float result does not exist (a division by zero, the root of a
+        negative number).
         """
         if functions is not None:
             return evaluate(self.tree, values, functions)
         try:
             value = float(evaluate(self.tree, values, scalar_functions()))
         except ZeroDivisionError:
-            raise QuantityError(f'"{self.text}" divides by zero', "change the values", code="not-finite") from None
+            raise QuantityError(
+                f'"{self.text}" divides by zero', "change the values", code="not-finite"
+            ) from None
         except (ValueError, OverflowError, TypeError):
             value = math.nan
         if not math.isfinite(value):
-            raise QuantityError(f'"{self.text}" has no finite real value', "change the values", code="not-finite")
+            raise QuantityError(
+                f'"{self.text}" has no finite real value', "change the values", code="not-finite"
+            )
         return value
 
     def diff(self, name: str) -> Expression:
@@ -92,7 +99,8 @@ class Expression:
         return Expression(f"d({self.text})/d{name}", tree, self.names)
 
     def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
-        """Dimension of the result, given those of the free names; raises QuantityError where they do not fit."""
+        """Dimension of the result, given those of the free names; raises QuantityError where they do not
+        fit."""
         return dimension_of(self.tree, kinds)
 
     def __str__(self) -> str:
@@ -104,10 +112,23 @@ def array_functions() -> Mapping[str, Callable[..., Any]]:
     import numpy as np
 
     return {
-        "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
-        "atan2": np.arctan2, "sqrt": np.sqrt, "abs": np.abs, "exp": np.exp, "log": np.log, "min": np.minimum,
-        "max": np.maximum, "sign": np.sign, "step": lambda x: np.heaviside(x, 1.0), "pow": np.power,
-    }  # fmt: skip
+        "sin": np.sin,
+        "cos": np.cos,
+        "tan": np.tan,
+        "asin": np.arcsin,
+        "acos": np.arccos,
+        "atan": np.arctan,
+        "atan2": np.arctan2,
+        "sqrt": np.sqrt,
+        "abs": np.abs,
+        "exp": np.exp,
+        "log": np.log,
+        "min": np.minimum,
+        "max": np.maximum,
+        "sign": np.sign,
+        "step": lambda x: np.heaviside(x, 1.0),
+        "pow": np.power,
+    }
 
 
 def parse(text: str, variables: Collection[str] = ()) -> Expression:
@@ -117,15 +138,22 @@ def parse(text: str, variables: Collection[str] = ()) -> Expression:
     """
     plain = text.replace("−", "-").strip()
     if len(plain) > MAX_LENGTH:
-        raise ExpressionError(f"the expression has {len(plain)} characters", f"at most {MAX_LENGTH}; split it with "
-                              "named parameters", plain[:60] + "…", 0)
+        raise ExpressionError(
+            f"the expression has {len(plain)} characters",
+            f"at most {MAX_LENGTH}; split it with named parameters",
+            plain[:60] + "…",
+            0,
+        )
     parser = _Parser(plain, variables)
     tree = parser.whole()
     return Expression(plain, tree, frozenset(parser.used))
 
 
-def parse_quantity(text: str, dimension: str, kinds: Mapping[str, units.Dimension] | None = None) -> float | Expression:
-    """A quantity as a file gives it: a number with its unit (SI float), or an expression of the names in ``kinds``.
+def parse_quantity(
+    text: str, dimension: str, kinds: Mapping[str, units.Dimension] | None = None
+) -> float | Expression:
+    """A quantity as a file gives it: a number with its unit (SI float), or an expression of the names in
+    ``kinds``.
 
     An expression without names is evaluated at once. Raises QuantityError.
     """
@@ -135,7 +163,11 @@ def parse_quantity(text: str, dimension: str, kinds: Mapping[str, units.Dimensio
         return units.parse(plain, dimension)
     if re.search(r"\d,\d", plain) and "(" not in plain:
         raise units.decimal_comma(plain)
-    if not plain or (plain in units.UNITS and plain not in kinds) or re.match(r"^[+-]?\.?(inf|infinity|nan)\b", plain, re.IGNORECASE):
+    if (
+        not plain
+        or (plain in units.UNITS and plain not in kinds)
+        or re.match(r"^[+-]?\.?(inf|infinity|nan)\b", plain, re.IGNORECASE)
+    ):
         raise units.not_a_number(plain, dimension)
     expression = parse(plain, kinds)
     require(expression, dimension, kinds)
@@ -169,8 +201,11 @@ def require(expression: Expression, dimension: str, kinds: Mapping[str, units.Di
     if kind == units.NONE and isinstance(expression.tree, Number) and expression.tree.value == 0:
         return
     if kind == units.NONE and dimension == "angle":
-        raise QuantityError(f'"{expression.text}" has no unit', f'an angle is needed: "({expression.text})*rad"',
-                            code="missing-unit")
+        raise QuantityError(
+            f'"{expression.text}" has no unit',
+            f'an angle is needed: "({expression.text})*rad"',
+            code="missing-unit",
+        )
     units.require(kind, dimension, expression.text)
 
 
@@ -179,7 +214,7 @@ def is_literal(text: str, names: Collection[str] = ()) -> bool:
     found = re.match(r"^[+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![.\w]*\()", text)
     if found is None:
         return False
-    rest = text[found.end():].strip()
+    rest = text[found.end() :].strip()
     if not rest or re.match(r"[\d,.]", rest):
         return "(" not in rest
     return re.fullmatch(r"[^\W\d_]?[^()+,]*", rest) is not None and _only_units(rest, names)
@@ -210,8 +245,11 @@ class _Parser:
             found = _TOKEN.match(self.text, position)
             if found is None or found.lastgroup is None:
                 column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
-                raise self._error(f'"{self.text[column]}" is not part of an expression',
-                                  "use numbers with units, names, + - * / ^ and parentheses", column)
+                raise self._error(
+                    f'"{self.text[column]}" is not part of an expression',
+                    "use numbers with units, names, + - * / ^ and parentheses",
+                    column,
+                )
             token = found.group(found.lastgroup)
             tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
             position = found.end()
@@ -277,18 +315,23 @@ class _Parser:
         kind, name, place = self.tokens[self.at]
         if kind != "name" or self.tokens[self.at + 1][1] == "(":
             return Number(value, units.NONE, column)
-        turning = [entry[1] for entry in self.tokens[self.at:self.at + 3]] in (["r", "/", "min"], ["r", "/", "s"])
+        turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (
+            ["r", "/", "min"],
+            ["r", "/", "s"],
+        )
         if name not in units.UNITS and not turning:
             if name in self.variables:
-                raise self._error(f'a factor "{token} {name}" without a sign', f'write "{token}*{name}"', place)
+                raise self._error(
+                    f'a factor "{token} {name}" without a sign', f'write "{token}*{name}"', place
+                )
             error = units.unknown_unit(name)
             raise self._error(error.message, error.remedy, place, "unknown-unit")
         factor, dimension = self._unit("rev" if turning else name)
         while self._joined_unit():
             sign = -1 if self.tokens[self.at][1] == "/" else 1
             self.at += 1
-            size, kind = self._unit(self.tokens[self.at][1])
-            factor, dimension = factor * size**sign, units.times(dimension, kind, sign)
+            size, extra = self._unit(self.tokens[self.at][1])
+            factor, dimension = factor * size**sign, units.times(dimension, extra, sign)
         return Number(value * factor, dimension, column)
 
     def _unit(self, name: str) -> tuple[float, units.Dimension]:
@@ -300,7 +343,9 @@ class _Parser:
         if kind == "power":
             self.at += 1
             exponent = units.exponent(power)
-        elif power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit():
+        elif (
+            power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit()
+        ):
             exponent = units.exponent(self.tokens[self.at + 1][1])
             self.at += 2
         return factor**exponent, units.times(units.NONE, dimension, exponent)
@@ -311,15 +356,23 @@ class _Parser:
         Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
         """
         _, sign, column = self.tokens[self.at]
-        if sign not in ("*", "/") or self.tokens[self.at + 1][0] != "name" or self.tokens[self.at + 2][1] == "(":
+        if (
+            sign not in ("*", "/")
+            or self.tokens[self.at + 1][0] != "name"
+            or self.tokens[self.at + 2][1] == "("
+        ):
             return False
         _, name, place = self.tokens[self.at + 1]
         if name not in units.UNITS:
             return False
         if self.text[column] == "*":
             if name in self.variables and name != "t":
-                raise self._error(f'"{name}" is a unit and a parameter', f'write "·{name}" for the unit, or put the '
-                                  "parameter first", place, "ambiguous")
+                raise self._error(
+                    f'"{name}" is a unit and a parameter',
+                    f'write "·{name}" for the unit, or put the parameter first',
+                    place,
+                    "ambiguous",
+                )
             return False
         tight = place == column + 1 and self.text[column - 1] != " "
         return tight or name not in self.variables
@@ -336,15 +389,26 @@ class _Parser:
             factor, dimension = units.UNITS[name]
             return Number(factor, dimension, column)
         offer = nearest(name, [*self.variables, *CONSTANTS])
-        known = ", ".join(sorted(self.variables)) or "none is defined"
-        raise self._error(f'unknown name "{name}"', f'did you mean "{offer}"?' if offer else
-                          f"define it under parameters (known: {known})", column, "unknown-name")
+        known = (
+            ", ".join(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
+            or "none is defined"
+        )
+        raise self._error(
+            f'unknown name "{name}"',
+            f'did you mean "{offer}"?' if offer else f"define it under parameters (known: {known})",
+            column,
+            "unknown-name",
+        )
 
     def _call(self, name: str, column: int) -> Node:
         if name not in ARITY:
             offer = nearest(name, list(ARITY))
-            raise self._error(f'unknown function "{name}"', f'did you mean "{offer}"?' if offer else
-                              f"one of: {', '.join(ARITY)}", column, "unknown-name")
+            raise self._error(
+                f'unknown function "{name}"',
+                f'did you mean "{offer}"?' if offer else f"one of: {', '.join(ARITY)}",
+                column,
+                "unknown-name",
+            )
         self.at += 1
         arguments = [self._binary(0)]
         while self.tokens[self.at][1] == ",":
@@ -352,6 +416,9 @@ class _Parser:
             arguments.append(self._binary(0))
         self._close(column)
         if len(arguments) != ARITY[name]:
-            raise self._error(f"{name} takes {ARITY[name]} argument(s), {len(arguments)} are given",
-                              "separate arguments by commas, decimals by points", column)
+            raise self._error(
+                f"{name} takes {ARITY[name]} argument(s), {len(arguments)} are given",
+                "separate arguments by commas, decimals by points",
+                column,
+            )
         return Call(name, tuple(arguments), column)

@@ -1,4 +1,5 @@
-"""What a key of a model file may hold: one class per kind of value, with its reading, its schema and its text.
+"""What a key of a model file may hold: one class per kind of value, with its reading, its schema and its
+text.
 
 A table of the file (a link, a joint, a load) is declared as named fields; unit checks, findings with the
 nearest key, the JSON Schema and the writing of files all follow from that declaration.
@@ -17,7 +18,8 @@ from linkwright.model.expressions import Expression
 from linkwright.model.nodes import Node, Scalar
 
 if TYPE_CHECKING:
-    from linkwright.model.reader import Place, Reader
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
 
 Schema = dict[str, Any]
 
@@ -58,7 +60,11 @@ class Field(ABC):
 def quantity_schema(dimension: str) -> Schema:
     """JSON Schema of a quantity: a text with a unit, or a bare 0; a number where it is dimensionless."""
     bare: Schema = {"type": "number"} if dimension == "dimensionless" else {"const": 0}
-    return {"anyOf": [{"type": "string"}, bare], "x-dimension": dimension, "examples": [units.example(dimension)]}
+    return {
+        "anyOf": [{"type": "string"}, bare],
+        "x-dimension": dimension,
+        "examples": [units.example(dimension)],
+    }
 
 
 def written_quantity(value: Any, dimension: str) -> Any:
@@ -105,7 +111,9 @@ class Quantity(Field):
         if self.above is not None:
             return f"{noun} above {units.format(self.above, self.dimension) if self.above else 'zero'}"
         if self.minimum is not None:
-            return f"{noun} of {units.format(self.minimum, self.dimension) if self.minimum else 'zero'} or more"
+            return (
+                f"{noun} of {units.format(self.minimum, self.dimension) if self.minimum else 'zero'} or more"
+            )
         return f"{noun} other than zero"
 
     def shape(self) -> Schema:
@@ -128,17 +136,23 @@ class Quantities(Field):
     dimension: str
     names: tuple[str, ...] = ()
     count: int | None = None
+    form: str = field(default="", kw_only=True)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[float, ...] | None:
         items = reader.items(node, place, len(self.names) or self.count, self._form())
         if items is None:
             return None
         values = [
-            reader.quantity(item, place.child(self._suffix(index)), self.dimension) for index, item in enumerate(items)
+            reader.quantity(item, place.child(self._suffix(index)), self.dimension)
+            for index, item in enumerate(items)
         ]
         return None if any(value is None for value in values) else tuple(v for v in values if v is not None)
 
     def _form(self) -> str:
+        if self.form:
+            return self.form
         one = units.example(self.dimension)
         return f"[{', '.join([one] * (len(self.names) or self.count or 2))}]"
 
@@ -205,7 +219,9 @@ class Count(Field):
         text = reader.text(node, place)
         if text is None or text.strip() == str(self.only):
             return self.only
-        reader.error(node, place, f'version "{text}" is not known', f"write {place.key}: {self.only}", "version")
+        reader.error(
+            node, place, f'version "{text}" is not known', f"write {place.key}: {self.only}", "version"
+        )
         return None
 
     def shape(self) -> Schema:
@@ -250,7 +266,9 @@ class TimeTable(Field):
             "interpolation": Word(("cubic", "periodic", "linear"), doc="default cubic"),
         }
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> TimeTableValues | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> TimeTableValues | None:
         with reader.plain_numbers("a driver's table"):
             values = reader.table(node, place, self._fields())
         if values is None or values.get("time") is None or values.get("position") is None:
@@ -260,11 +278,20 @@ class TimeTable(Field):
         if not reader.increasing(node, place, "time", times, positions, "position"):
             return None
         drift = positions[-1] - positions[0]
-        turns = drift / (2 * math.pi) if self.dimension == "angle" else drift / (abs(max(positions, key=abs)) or 1.0)
+        turns = (
+            drift / (2 * math.pi)
+            if self.dimension == "angle"
+            else drift / (abs(max(positions, key=abs)) or 1.0)
+        )
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
-            reader.error(node, place, "a periodic table must end where it begins" +
-                         (" (or whole turns further)" if self.dimension == "angle" else ""),
-                         "make the last position equal to the first", "table")
+            reader.error(
+                node,
+                place,
+                "a periodic table must end where it begins"
+                + (" (or whole turns further)" if self.dimension == "angle" else ""),
+                "make the last position equal to the first",
+                "table",
+            )
             return None
         return TimeTableValues(times, positions, way)
 
@@ -273,14 +300,20 @@ class TimeTable(Field):
 
     def written(self, value: Any) -> Any:
         fields = self._fields()
-        return {"time": fields["time"].written(value.times), "position": fields["position"].written(value.positions),
-                "interpolation": value.interpolation}
+        return {
+            "time": fields["time"].written(value.times),
+            "position": fields["position"].written(value.positions),
+            "interpolation": value.interpolation,
+        }
 
 
 def table_schema(fields: Mapping[str, Field]) -> Schema:
     """JSON Schema of a mapping with these fields and no others."""
     keys = {each.key or name: each for name, each in fields.items()}
     required = [key for key, each in keys.items() if each.required]
-    found: Schema = {"type": "object", "properties": {key: each.schema() for key, each in keys.items()},
-                     "additionalProperties": False}
+    found: Schema = {
+        "type": "object",
+        "properties": {key: each.schema() for key, each in keys.items()},
+        "additionalProperties": False,
+    }
     return {**found, "required": required} if required else found

@@ -9,9 +9,12 @@ from linkwright.errors import Finding, ModelError
 from linkwright.model.compose import compose
 from linkwright.model.document import Document
 from linkwright.model.mechanism import Mechanism
+from linkwright.model.nodes import Scalar
 from linkwright.model.read_model import read_model
-from linkwright.model.write import dump as dump
+from linkwright.model.write import dump
 from linkwright.registry import nearest
+
+__all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
 
 MAX_BYTES = 5_000_000
 GALLERY = "gallery:"
@@ -56,10 +59,17 @@ def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
     """The mechanism of a text, or None where there is an error, and all findings."""
     root, remarks = compose(text.removeprefix("\ufeff"))
     findings = [
-        Finding("error", f"{name}:{remark.line + 1}:{remark.column + 1}", "", remark.message, remark.remedy, remark.code)
+        Finding(
+            "error",
+            f"{name}:{remark.line + 1}:{remark.column + 1}",
+            remark.key,
+            remark.message,
+            remark.remedy,
+            remark.code,
+        )
         for remark in remarks
     ]
-    if root is None:
+    if root is None or (isinstance(root, Scalar) and root.empty):
         empty = Finding("error", f"{name}:1:1", "", "the file is empty", "begin with format: 1", "empty")
         return None, findings or [empty]
     mechanism, found = read_model(root, name)
@@ -69,7 +79,9 @@ def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
 def gallery_names() -> list[str]:
     """Names of the models in the gallery."""
     folder = resources.files("linkwright") / "gallery"
-    return sorted(entry.name.removesuffix(".yaml") for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+    return sorted(
+        entry.name.removesuffix(".yaml") for entry in folder.iterdir() if entry.name.endswith(".yaml")
+    )
 
 
 def _read(source: str | Path) -> tuple[str, str]:
@@ -84,13 +96,19 @@ def _read(source: str | Path) -> tuple[str, str]:
             raise _refuse(path, "there is no such file", _near_file(path), "no-file")
         size = path.stat().st_size
         if size > MAX_BYTES:
-            raise _refuse(path, f"the file has {size / 1e6:.1f} MB", f"a model has at most {MAX_BYTES / 1e6:.0f} MB",
-                          "size")
+            raise _refuse(
+                path,
+                f"the file has {size / 1e6:.1f} MB",
+                f"a model has at most {MAX_BYTES / 1e6:.0f} MB",
+                "size",
+            )
         with path.open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise _refuse(path, f"the file cannot be read ({reason})", "check its name and permissions", "no-file") from None
+        raise _refuse(
+            path, f"the file cannot be read ({reason})", "check its name and permissions", "no-file"
+        ) from None
     if len(content) > MAX_BYTES:
         raise _refuse(path, "the source has no end", f"a model has at most {MAX_BYTES / 1e6:.0f} MB", "size")
     return decode(content, path.name), path.name
@@ -116,7 +134,9 @@ def _read_gallery(name: str) -> tuple[str, str]:
     if name not in names:
         near = nearest(name, names)
         remedy = f'did you mean "{GALLERY}{near}"?' if near else f"one of: {', '.join(names)}"
-        raise ModelError([Finding("error", GALLERY + name, "", f'the gallery has no model "{name}"', remedy, "no-file")])
+        raise ModelError(
+            [Finding("error", GALLERY + name, "", f'the gallery has no model "{name}"', remedy, "no-file")]
+        )
     content = (resources.files("linkwright") / "gallery" / f"{name}.yaml").read_bytes()
     return decode(content, f"{name}.yaml"), f"{name}.yaml"
 
@@ -126,13 +146,33 @@ def decode(content: bytes, name: str) -> str:
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise ModelError([Finding("error", name, "", "the file is UTF-16", "save it as UTF-8", "encoding")])
     if b"\x00" in content:
-        raise ModelError([Finding("error", name, "", f"the file is not text (a zero byte at offset {content.index(0)})",
-                                  "name a model file, YAML or JSON in UTF-8", "encoding")])
+        raise ModelError(
+            [
+                Finding(
+                    "error",
+                    name,
+                    "",
+                    f"the file is not text (a zero byte at offset {content.index(0)})",
+                    "name a model file, YAML or JSON in UTF-8",
+                    "encoding",
+                )
+            ]
+        )
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
         before = content[: error.start]
         line, column = before.count(b"\n") + 1, len(before) - before.rfind(b"\n")
         byte = content[error.start]
-        raise ModelError([Finding("error", f"{name}:{line}:{column}", "", f"the file is not UTF-8: byte 0x{byte:02x} at "
-                                  f"offset {error.start}", "save it as UTF-8", "encoding")]) from None
+        raise ModelError(
+            [
+                Finding(
+                    "error",
+                    f"{name}:{line}:{column}",
+                    "",
+                    f"the file is not UTF-8: byte 0x{byte:02x} at offset {error.start}",
+                    "save it as UTF-8",
+                    "encoding",
+                )
+            ]
+        ) from None

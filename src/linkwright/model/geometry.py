@@ -20,7 +20,8 @@ def local_points(
 
     length: first point (0, 0), second (length, 0).  bent: first (0, 0), second (l0, 0), third
     l1·(cos angle, sin angle).  drawing: first (0, 0), second (x, 0).  point: the only listed point at (0, 0).
-    All further points, and all points of ``coordinates``, by their coordinates. Structural zeros are the float 0.0.
+    All further points, and all points of ``coordinates``, by their coordinates. Structural zeros are the
+    float 0.0.
     """
     points: dict[str, tuple[T | float, T | float]] = {}
     for index, point in enumerate(link.points):
@@ -41,7 +42,8 @@ STRUCTURAL_POINTS: Mapping[str, int] = {"length": 2, "bent": 3, "drawing": 2, "p
 
 
 def point_addresses(link: Link, index: int, point: str) -> tuple[str, str] | None:
-    """Addresses of the coordinates of the link's point number ``index``; None where the geometry places it."""
+    """Addresses of the coordinates of the link's point number ``index``; None where the geometry places
+    it."""
     if index < STRUCTURAL_POINTS[link.geometry]:
         return None
     return f"{link.name}.{point}.x", f"{link.name}.{point}.y"
@@ -68,7 +70,8 @@ def from_drawing(
 
 
 def centre(link: Link, points: Mapping[str, Pair], dimension: Callable[[str], Any]) -> Pair:
-    """Mass centre (m) in the link's axes: as given, else midway between the first two points (one point: at it)."""
+    """Mass centre (m) in the link's axes: as given, else midway between the first two points (one point:
+    at it)."""
     if link.mass_centre is not None:
         return dimension(f"{link.name}.mass_centre.x"), dimension(f"{link.name}.mass_centre.y")
     first, *others = list(points.values())[:2] or [(0.0, 0.0)]

@@ -25,10 +25,12 @@ Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid link with named points in its own axes (m), mass (kg) and moment of inertia about its centre (kg·m²).
+    """A rigid link with named points in its own axes (m), mass (kg) and moment of inertia about its centre
+    (kg·m²).
 
     ``geometry`` says how the user gave it: ``length`` (two points), ``bent`` (two lengths and an angle),
-    ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at the origin).
+    ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at
+    the origin).
     ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` None means the default:
     midway between the first two points, or at the only one.
     """
@@ -74,11 +76,15 @@ class Link:
     def with_dimensions(self, value: Callable[[str], float]) -> Link:
         """The same link with the values that ``value`` gives for the addresses of ``dimensions``."""
         name = self.name
-        lengths = {
-            "length": lambda: (value(f"{name}.length"),),
-            "bent": lambda: (value(f"{name}.lengths.0"), value(f"{name}.lengths.1")),
-        }.get(self.geometry, tuple)()
-        moved = {point: (float(x), float(y)) for point, (x, y) in local_points(self, value, math.cos, math.sin).items()}
+        lengths: tuple[float, ...] = ()
+        if self.geometry == "length":
+            lengths = (value(f"{name}.length"),)
+        elif self.geometry == "bent":
+            lengths = (value(f"{name}.lengths.0"), value(f"{name}.lengths.1"))
+        moved = {
+            point: (float(x), float(y))
+            for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
+        }
         changed = replace(self, points=moved, lengths=lengths)
         if self.geometry == "bent":
             changed = replace(changed, angle=value(f"{name}.angle"))
@@ -92,7 +98,8 @@ class Link:
 
 @dataclass(frozen=True)
 class Cycle:
-    """What one cycle is: a ``duration`` (s), a range of the first driver's coordinate (rad or m), or ``turns`` of it."""
+    """What one cycle is: a ``duration`` (s), a range of the first driver's coordinate (rad or m), or
+    ``turns`` of it."""
 
     duration: float | None = None
     start: float | None = None
@@ -100,7 +107,8 @@ class Cycle:
     turns: float | None = None
 
     def dimensions(self) -> dict[str, float]:
-        """Addresses (``cycle.duration``, ``cycle.from``, ``cycle.to``, ``cycle.turns``) with their SI values."""
+        """Addresses (``cycle.duration``, ``cycle.from``, ``cycle.to``, ``cycle.turns``) with their SI
+        values."""
         values = {"duration": self.duration, "from": self.start, "to": self.end, "turns": self.turns}
         return {f"cycle.{name}": value for name, value in values.items() if value is not None}
 
@@ -114,8 +122,10 @@ class Cycle:
 class Mechanism:
     """A planar mechanism as the file or the code gave it: links, joints, drivers, loads; SI units, radians.
 
-    ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the implied
-    pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the ``parameters``. ``expressions`` maps the address of every
+    ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the
+    implied
+    pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the
+    ``parameters``. ``expressions`` maps the address of every
     dimension that was given by an expression of ``parameters`` to that expression.
     """
 
@@ -149,11 +159,15 @@ class Mechanism:
     def with_dimensions(self, changes: Mapping[str, float]) -> Mechanism:
         """A new mechanism with changed SI values.
 
-        Dimensions that are expressions of changed parameters follow; a changed dimension that was an expression
-        loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that is not
+        Dimensions that are expressions of changed parameters follow; a changed dimension that was an
+        expression
+        loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that
+        is not
         positive, a negative mass or inertia.
         """
-        new = self._dimensions | {address: self._checked(address, value) for address, value in changes.items()}
+        new = self._dimensions | {
+            address: self._checked(address, value) for address, value in changes.items()
+        }
         kept = {address: each for address, each in self.expressions.items() if address not in changes}
         for address, expression in kept.items():
             new[address] = self._checked(address, expression.evaluate(new))
@@ -166,9 +180,12 @@ class Mechanism:
             frame=frame,
             links=links,
             joints={
-                name: joint.with_dimensions(value).aligned(points[joint.joined[0]]) for name, joint in self.joints.items()
+                name: joint.with_dimensions(value).aligned(points[joint.joined[0]])
+                for name, joint in self.joints.items()
             },
-            drivers={name: driver.with_dimensions(value, parameters) for name, driver in self.drivers.items()},
+            drivers={
+                name: driver.with_dimensions(value, parameters) for name, driver in self.drivers.items()
+            },
             loads={name: load.with_dimensions(value) for name, load in self.loads.items()},
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
@@ -188,14 +205,20 @@ class Mechanism:
             return self.frame
         if name not in self.links:
             offer = nearest(name, ["frame", *self.links])
-            raise LinkwrightError(f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else ""))
+            raise LinkwrightError(
+                f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else "")
+            )
         return self.links[name]
 
     @cached_property
     def _dimensions(self) -> dict[str, float]:
         found = dict(self.parameters)
-        for owner in (self.frame, *self.links.values(), *self.joints.values(), *self.drivers.values()):
-            found.update(owner.dimensions())
+        for link in (self.frame, *self.links.values()):
+            found.update(link.dimensions())
+        for joint in self.joints.values():
+            found.update(joint.dimensions())
+        for driver in self.drivers.values():
+            found.update(driver.dimensions())
         for load in self.loads.values():
             found.update(load.dimensions())
         found["gravity.x"], found["gravity.y"] = self.gravity
@@ -215,7 +238,7 @@ class Mechanism:
         if not math.isfinite(value):
             raise LinkwrightError(f"{address} is set to {value}; give a finite number")
         last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
-        owner = address.split(".")[0]
+        owner = address.split(".", maxsplit=1)[0]
         if owner in self.links and last in ("length", "lengths") and value <= 0:
             raise LinkwrightError(f"{address} is set to {value:g} m; a length must be positive")
         if owner in self.links and last in ("mass", "inertia") and value < 0:
@@ -224,7 +247,8 @@ class Mechanism:
 
     def __repr__(self) -> str:
         names = ", ".join(self.links)
-        return f"Mechanism({self.name!r}: links {names}; {len(self.joints)} joints, {len(self.drivers)} driver(s))"
+        counts = f"{len(self.joints)} joints, {len(self.drivers)} driver(s)"
+        return f"Mechanism({self.name!r}: links {names}; {counts})"
 
     def __getstate__(self) -> dict[str, Any]:
         return {key: value for key, value in self.__dict__.items() if key != "_dimensions"}

@@ -1,4 +1,5 @@
-"""The tree of a YAML or JSON text, every node with its place, read without ever making Python objects of tags.
+"""The tree of a YAML or JSON text, every node with its place, read without ever making Python objects of
+tags.
 
 Problems (duplicate keys, tags, a second document, too deep nesting) become remarks, not exceptions.
 """
@@ -8,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-MAX_DEPTH, MAX_NODES = 40, 200_000
+MAX_DEPTH, MAX_NODES = 40, 30_000
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 
 
@@ -78,6 +79,7 @@ class Remark:
     message: str
     remedy: str
     code: str
+    key: str = ""
 
 
 def noun(node: Node | None) -> str:

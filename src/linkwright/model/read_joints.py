@@ -15,7 +15,8 @@ from linkwright.model.fields import Field, Quantity, Schema, Text, quantity_sche
 from linkwright.model.mechanism import Link
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.reader import Place, Reader
+from linkwright.model.plain_reader import Place
+from linkwright.model.reader import Reader
 from linkwright.model.reference_fields import LinkName, PointName
 
 
@@ -40,7 +41,9 @@ class Direction(Field):
 class LinkNames(Field):
     """Two different links [a, b]."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[str, str] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[str, str] | None:
         items = reader.items(node, place, 2, "[a, b]")
         if items is None:
             return None
@@ -54,7 +57,12 @@ class LinkNames(Field):
         return first, second
 
     def shape(self) -> Schema:
-        return {"type": "array", "items": {"type": "string", "x-reference": "link"}, "minItems": 2, "maxItems": 2}
+        return {
+            "type": "array",
+            "items": {"type": "string", "x-reference": "link"},
+            "minItems": 2,
+            "maxItems": 2,
+        }
 
 
 _FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
@@ -66,10 +74,14 @@ JOINT_FIELDS: Mapping[str, Mapping[str, Field]] = {
     "prismatic": {
         "guide": LinkName(required=True, doc="the link that carries the guide"),
         "through": PointName("guide", required=True, doc="point of the guide link on the guide line"),
-        "direction": Direction(required=True, doc="direction: an angle in the guide link's axes, or two points [P, Q]"),
+        "direction": Direction(
+            required=True, doc="direction: an angle in the guide link's axes, or two points [P, Q]"
+        ),
         "block": LinkName(required=True, doc="the link that slides"),
         "at": PointName("block", required=True, doc="point of the block that follows the line"),
-        "offset": Quantity("length", doc="normal distance of the point from the line, left positive (default 0)"),
+        "offset": Quantity(
+            "length", doc="normal distance of the point from the line, left positive (default 0)"
+        ),
         "block_angle": Quantity("angle", doc="direction of the line in the block's axes (default 0)"),
         "friction": _FRICTION,
     },
@@ -83,10 +95,13 @@ JOINT_FIELDS: Mapping[str, Mapping[str, Field]] = {
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
     """Fill the reader's names with the implied pins and the explicit joints."""
-    declared = [(key, value) for key, value in node if isinstance(value, MappingNode)] if isinstance(
-        node, MappingNode) else []
+    declared = (
+        [(key, value) for key, value in node if isinstance(value, MappingNode)]
+        if isinstance(node, MappingNode)
+        else []
+    )
     reader.names.pins = _implied_pins(reader.names.links, [value for _, value in declared])
-    reader.names.joints = {pin: "revolute" for pin in reader.names.pins}
+    reader.names.joints = dict.fromkeys(reader.names.pins, "revolute")
     for key, value in declared:
         kind = _word(value, "kind")
         if kind in ("prismatic", "weld"):
@@ -98,19 +113,28 @@ def _word(node: MappingNode, key: str) -> str:
     return value.text if isinstance(value, Scalar) else ""
 
 
-def _implied_pins(links: Mapping[str, tuple[str, ...]], joints: list[MappingNode]) -> dict[str, tuple[str, ...]]:
+def _implied_pins(
+    links: Mapping[str, tuple[str, ...]], joints: list[MappingNode]
+) -> dict[str, tuple[str, ...]]:
     holders: dict[str, list[str]] = {}
     for link, points in links.items():
         for point in points:
             holders.setdefault(point, []).append(link)
     for joint in joints:
         kind, at = _word(joint, "kind"), _word(joint, "at")
-        if kind == "prismatic" and at == _word(joint, "through") and _word(joint, "guide") in holders.get(at, ()):
+        if (
+            kind == "prismatic"
+            and at == _word(joint, "through")
+            and _word(joint, "guide") in holders.get(at, ())
+        ):
             holders[at].remove(_word(joint, "guide"))
         elif kind == "weld":
             welded = joint.get("links")
-            names = [item.text for item in welded.items if isinstance(item, Scalar)] if isinstance(
-                welded, Sequence) else []
+            names = (
+                [item.text for item in welded.items if isinstance(item, Scalar)]
+                if isinstance(welded, Sequence)
+                else []
+            )
             if len(names) == 2 and set(names) <= set(holders.get(at, ())):
                 holders[at].remove(names[1])
     return {point: tuple(owners) for point, owners in holders.items() if len(owners) > 1}
@@ -126,10 +150,21 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
         if joint is None or name is None:
             continue
         if name in joints and not isinstance(joint, RevoluteJoint):
-            reader.error(entry.key, f"joints.{name}", f'the pin at the point "{name}" has this name already',
-                         "rename the joint", "duplicate")
+            reader.error(
+                entry.key,
+                f"joints.{name}",
+                f'the pin at the point "{name}" has this name already',
+                "rename the joint",
+                "duplicate",
+            )
         elif name in links:
-            reader.error(entry.key, f"joints.{name}", f'a link has the name "{name}" already', "rename one", "duplicate")
+            reader.error(
+                entry.key,
+                f"joints.{name}",
+                f'a link has the name "{name}" already',
+                "rename one",
+                "duplicate",
+            )
         joints[name] = joint
     return joints
 
@@ -141,8 +176,13 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
         return None
     kind_node = mapping.get("kind")
     if kind_node is None:
-        reader.error(node, place.child("kind"), "the joint has no kind", f"add kind: one of {', '.join(JOINTS)}",
-                     "missing-key")
+        reader.error(
+            node,
+            place.child("kind"),
+            "the joint has no kind",
+            f"add kind: one of {', '.join(JOINTS)}",
+            "missing-key",
+        )
         return None
     kind = reader.word(kind_node, place.child("kind"), tuple(JOINTS))
     if kind is None:
@@ -154,7 +194,11 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
     values = {key: value for key, value in given.items() if key != "kind" and value is not None}
     if kind == "prismatic":
         return _prismatic(reader, mapping, place, name, values, links)
-    return _weld(reader, mapping, place, name, values) if kind == "weld" else _pin(reader, node, place, name, values)
+    return (
+        _weld(reader, mapping, place, name, values)
+        if kind == "weld"
+        else _pin(reader, node, place, name, values)
+    )
 
 
 def _pin(reader: Reader, node: Node, place: Place, name: str, values: Mapping[str, Any]) -> Joint | None:
@@ -166,18 +210,33 @@ def _pin(reader: Reader, node: Node, place: Place, name: str, values: Mapping[st
 
 
 def _prismatic(
-    reader: Reader, node: MappingNode, place: Place, name: str, values: dict[str, Any], links: Mapping[str, Link]
+    reader: Reader,
+    node: MappingNode,
+    place: Place,
+    name: str,
+    values: dict[str, Any],
+    links: Mapping[str, Link],
 ) -> Joint | None:
     guide = values["guide"]
     if guide == values["block"]:
-        reader.error(node.get("block"), place.child("block"), f'guide and block are both "{guide}"',
-                     "name two different links", "reference")
+        reader.error(
+            node.get("block"),
+            place.child("block"),
+            f'guide and block are both "{guide}"',
+            "name two different links",
+            "reference",
+        )
         return None
     point = values["at"]
     others = [owner for owner in reader.names.owners(point) if owner not in (guide, values["block"])]
     if point == values["through"] and others:
-        reader.error(node.get("at"), place.child("at"), f'"{point}" names a point of the guide and of the block, and '
-                     f"{', '.join(others)} has it too", "rename the point of the guide", "ambiguous")
+        reader.error(
+            node.get("at"),
+            place.child("at"),
+            f'"{point}" names a point of the guide and of the block, and {", ".join(others)} has it too',
+            "rename the point of the guide",
+            "ambiguous",
+        )
         return None
     direction = values.pop("direction")
     if isinstance(direction, float):
@@ -189,12 +248,20 @@ def _prismatic(
     if first is None or second is None:
         return joint
     if math.dist(first, second) == 0:
-        reader.error(node.get("direction"), place.child("direction"), f"{' and '.join(direction)} are at the same place",
-                     "name two points apart from each other", "range")
+        reader.error(
+            node.get("direction"),
+            place.child("direction"),
+            f"{' and '.join(direction)} are at the same place",
+            "name two points apart from each other",
+            "range",
+        )
     return joint.aligned(links[guide].points)
 
 
 def _weld(reader: Reader, node: MappingNode, place: Place, name: str, values: dict[str, Any]) -> Joint | None:
-    if all(reader.point_of(node.get("at") or node, place.child("at"), values["at"], link) for link in values["links"]):
+    if all(
+        reader.point_of(node.get("at") or node, place.child("at"), values["at"], link)
+        for link in values["links"]
+    ):
         return WeldJoint(name, **values)
     return None

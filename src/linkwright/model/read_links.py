@@ -12,16 +12,20 @@ from linkwright.model.geometry import from_drawing
 from linkwright.model.mechanism import Geometry, Link, Vec
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.reader import Place, Reader
+from linkwright.model.plain_reader import NAME, Place
+from linkwright.model.reader import Reader
 
 _PAIR = Quantities("length", ("x", "y"))
 
 
 @dataclass(frozen=True)
 class Coordinates(Field):
-    """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``; ``in_address`` False for a key like ``points``."""
+    """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``; ``in_address`` False for a key like
+    ``points``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> dict[str, Vec | None] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> dict[str, Vec | None] | None:
         mapping = reader.mapping(node, place)
         if mapping is None:
             return None
@@ -53,7 +57,9 @@ class LinkPoints(Field):
         for index, item in enumerate(node.items):
             name = reader.name(item, place.child(str(index)), "point")
             if name in names:
-                reader.error(item, place, f'the point "{name}" is listed twice', "remove one or rename it", "duplicate")
+                reader.error(
+                    item, place, f'the point "{name}" is listed twice', "remove one or rename it", "duplicate"
+                )
             elif name is not None:
                 names.append(name)
         return names
@@ -78,6 +84,14 @@ FRAME_FIELDS: Mapping[str, Field] = {
 }
 
 
+def legible(node: Node | None) -> bool:
+    """Whether all points that a link's node may have can be read from it."""
+    points = node.get("points") if isinstance(node, MappingNode) else None
+    if isinstance(points, Sequence):
+        return all(isinstance(item, Scalar) and NAME.fullmatch(item.text) for item in points.items)
+    return isinstance(points, MappingNode)
+
+
 def scan_points(node: Node | None) -> tuple[str, ...]:
     """The points that a link's node names, whatever else is wrong with it."""
     if not isinstance(node, MappingNode):
@@ -95,12 +109,19 @@ def scan_points(node: Node | None) -> tuple[str, ...]:
 def read_frame(reader: Reader, node: Node | None) -> Link:
     """The frame with its points."""
     if node is None:
-        reader.error(None, "frame", "the model has no frame", "add frame: {points: {O1: [0 m, 0 m]}}", "missing-key")
+        reader.error(
+            None, "frame", "the model has no frame", "add frame: {points: {O1: [0 m, 0 m]}}", "missing-key"
+        )
         return Link("frame", "coordinates", {})
     points = node.get("points") if isinstance(node, MappingNode) else None
     if isinstance(points, Sequence):
-        reader.error(points, "frame.points", "the frame's points have no coordinates",
-                     "write points: {O1: [0 m, 0 m], …}", "type")
+        reader.error(
+            points,
+            "frame.points",
+            "the frame's points have no coordinates",
+            "write points: {O1: [0 m, 0 m], …}",
+            "type",
+        )
         return Link("frame", "coordinates", {})
     found = reader.table(node, Place("frame", "frame"), FRAME_FIELDS) or {}
     placed = {name: place for name, place in (found.get("points") or {}).items() if place is not None}
@@ -121,8 +142,13 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
             continue
         fixed = frame.points.get(name)
         if fixed is not None and reader.names.owners(name) == ["frame"] and math.dist(fixed, place) > 1e-9:
-            reader.error(value, f"drawing.{name}", f'"{name}" is a point of the frame and stands elsewhere there',
-                         "leave it out of the drawing", "conflict")
+            reader.error(
+                value,
+                f"drawing.{name}",
+                f'"{name}" is a point of the frame and stands elsewhere there',
+                "leave it out of the drawing",
+                "conflict",
+            )
         drawing[name] = place
     return drawing
 
@@ -130,22 +156,37 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
 def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[str, Vec]) -> dict[str, Link]:
     """All moving links, in the file's order."""
     if node is None:
-        reader.error(None, "links", "the model has no links", "add links: {crank: {points: [O1, A], length: 0.1 m}}",
-                     "missing-key")
+        reader.error(
+            None,
+            "links",
+            "the model has no links",
+            "add links: {crank: {points: [O1, A], length: 0.1 m}}",
+            "missing-key",
+        )
         return {}
     mapping = reader.mapping(node, "links")
     if mapping is None:
         return {}
     if not mapping.entries:
-        reader.error(node, "links", "there is no link", "add one, such as crank: {points: [O1, A], length: 0.1 m}",
-                     "missing-key")
+        reader.error(
+            node,
+            "links",
+            "there is no link",
+            "add one, such as crank: {points: [O1, A], length: 0.1 m}",
+            "missing-key",
+        )
     links: dict[str, Link] = {}
     seen = {**frame.points, **drawing}
     for entry in mapping.entries:
         name = reader.name(entry.key, f"links.{entry.key.text}", "link")
         if name in ("frame", "gravity", "loads", "parameters", "cycle"):
-            reader.error(entry.key, f"links.{name}", f'"{name}" cannot be the name of a link', "choose another name",
-                         "name")
+            reader.error(
+                entry.key,
+                f"links.{name}",
+                f'"{name}" cannot be the name of a link',
+                "choose another name",
+                "name",
+            )
         elif name is not None:
             link = _read_link(reader, entry.value, name, seen)
             if link is not None:
@@ -162,7 +203,9 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     points = given["points"]
     if not points:
         if reader.error_count == before:
-            reader.error(node, place.child("points"), "the link has no points", "list them: [A, B]", "missing-key")
+            reader.error(
+                node, place.child("points"), "the link has no points", "list them: [A, B]", "missing-key"
+            )
         return None
     assert isinstance(node, MappingNode)
     placed = _place_points(reader, node, place, given, drawing) if reader.error_count == before else None
@@ -171,12 +214,25 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     geometry, coordinates, lengths = placed
     for point, position in (given.get("also") or {}).items():
         if point in coordinates:
-            reader.error(node.get("also"), place.child("also"), f'the point "{point}" is given twice', "remove one",
-                         "duplicate")
+            reader.error(
+                node.get("also"),
+                place.child("also"),
+                f'the point "{point}" is given twice',
+                "remove one",
+                "duplicate",
+            )
         coordinates[point] = position
     _coincident(reader, node, place, coordinates)
-    return Link(name, geometry, coordinates, lengths, given.get("angle") or 0.0, given.get("mass") or 0.0,
-                given.get("inertia") or 0.0, given.get("mass_centre"))
+    return Link(
+        name,
+        geometry,
+        coordinates,
+        lengths,
+        given.get("angle") or 0.0,
+        given.get("mass") or 0.0,
+        given.get("inertia") or 0.0,
+        given.get("mass_centre"),
+    )
 
 
 _Placed = tuple[Geometry, dict[str, Vec], tuple[float, ...]]
@@ -202,15 +258,19 @@ def _place_points(
     elif sizes == ["length"]:
         if len(points) == 2:
             return "length", {points[0]: (0.0, 0.0), points[1]: (given["length"], 0.0)}, (given["length"],)
-        wanted = (f"{len(points)} points, but one length",
-                  "keep two in points and put the others under also: {P: [x, y]}, or give lengths and angle")
+        wanted = (
+            f"{len(points)} points, but one length",
+            "keep two in points and put the others under also: {P: [x, y]}, or give lengths and angle",
+        )
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)
     elif sizes == ["lengths", "angle"] and len(points) == 3:
         return _bent(reader, node, place, given)
     else:
-        wanted = (f"{' and '.join(sizes)} with {len(points)} points",
-                  "two points take length; three take lengths: [l1, l2] and angle; others go under also")
+        wanted = (
+            f"{' and '.join(sizes)} with {len(points)} points",
+            "two points take length; three take lengths: [l1, l2] and angle; others go under also",
+        )
     reader.error(node.get(sizes[0]), place.child(sizes[0]), *wanted, "geometry")
     return None
 
@@ -218,8 +278,13 @@ def _place_points(
 def _bent(reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any]) -> _Placed | None:
     first, second = given["lengths"]
     if first <= 0 or second <= 0:
-        reader.error(node.get("lengths"), place.child("lengths"), "a length is zero or negative",
-                     "give lengths above zero", "range")
+        reader.error(
+            node.get("lengths"),
+            place.child("lengths"),
+            "a length is zero or negative",
+            "give lengths above zero",
+            "range",
+        )
         return None
     corner, one, two = given["points"]
     angle = given["angle"]
@@ -233,12 +298,22 @@ def _from_drawing(
     missing = [point for point in points if point not in drawing]
     if missing:
         form = "length: 0.5 m" if len(points) == 2 else "lengths: [0.3 m, 0.4 m] and angle: 30 deg"
-        reader.error(node, place, f"the link has no dimensions, and the drawing no place of {', '.join(missing)}",
-                     f"give {form}, coordinates of its points, or add {', '.join(missing)} to drawing", "missing-key")
+        reader.error(
+            node,
+            place,
+            f"the link has no dimensions, and the drawing no place of {', '.join(missing)}",
+            f"give {form}, coordinates of its points, or add {', '.join(missing)} to drawing",
+            "missing-key",
+        )
         return None
     if drawing[points[0]] == drawing[points[1]]:
-        reader.error(node, place, f"{points[0]} and {points[1]} are at the same place in the drawing", "move one",
-                     "range")
+        reader.error(
+            node,
+            place,
+            f"{points[0]} and {points[1]} are at the same place in the drawing",
+            "move one",
+            "range",
+        )
         return None
     return "drawing", from_drawing(points, drawing), ()
 
@@ -247,7 +322,13 @@ def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, V
     seen: dict[Vec, str] = {}
     for name, position in points.items():
         if position is not None and position in seen:
-            reader.error(node, place, f"the points {seen[position]} and {name} are at the same place",
-                         "give them different coordinates unless that is meant", "coincident", severity="warning")
+            reader.error(
+                node,
+                place,
+                f"the points {seen[position]} and {name} are at the same place",
+                "give them different coordinates unless that is meant",
+                "coincident",
+                severity="warning",
+            )
         elif position is not None:
             seen[position] = name

@@ -12,20 +12,36 @@ from linkwright.errors import Finding, QuantityError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.loads.base import Load, read_load
 from linkwright.model import expressions
-from linkwright.model.expressions import Expression
 from linkwright.model.fields import Count, Field, Free, Quantities, Text
 from linkwright.model.mechanism import Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
+from linkwright.model.plain_reader import Place
 from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
 from linkwright.model.read_joints import read_joints, scan_joints
-from linkwright.model.read_links import read_drawing, read_frame, read_links, scan_points
-from linkwright.model.reader import Place, Reader
+from linkwright.model.read_links import legible, read_drawing, read_frame, read_links, scan_points
+from linkwright.model.reader import Reader
 from linkwright.model.whole import check_whole
 
 FORMAT = 1
-SECTIONS = ("format", "name", "purpose", "source", "expected", "parameters", "frame", "links", "joints", "assembly",
-            "drawing", "driver", "drivers", "cycle", "gravity", "loads")  # fmt: skip
+SECTIONS = (
+    "format",
+    "name",
+    "purpose",
+    "source",
+    "expected",
+    "parameters",
+    "frame",
+    "links",
+    "joints",
+    "assembly",
+    "drawing",
+    "driver",
+    "drivers",
+    "cycle",
+    "gravity",
+    "loads",
+)
 WORDS = ("left", "right", "forward", "backward")
 HEADER: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),
@@ -33,7 +49,7 @@ HEADER: Mapping[str, Field] = {
     "purpose": Text(doc="what it is for, one sentence"),
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
-    "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes, such as [0, -9.81 m/s²]"),
+    "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
 
 
@@ -59,7 +75,11 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     drawing = read_drawing(reader, root.get("drawing"), frame)
     links = read_links(reader, root.get("links"), frame, drawing)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
-    ends = {name: (joint.block, joint.guide) for name, joint in joints.items() if isinstance(joint, PrismaticJoint)}
+    ends = {
+        name: (joint.block, joint.guide)
+        for name, joint in joints.items()
+        if isinstance(joint, PrismaticJoint)
+    }
     drivers = complete(read_drivers(reader, root), ends)
     mechanism = Mechanism(
         name=header.get("name") or Path(source).stem,
@@ -98,7 +118,9 @@ def _scan(reader: Reader, root: MappingNode) -> None:
     reader.names.links = {"frame": scan_points(root.get("frame"))}
     links = root.get("links")
     if isinstance(links, MappingNode):
+        reader.names.incomplete = not all(legible(value) for _, value in links)
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
+    reader.names.incomplete |= not (isinstance(links, MappingNode) and legible(root.get("frame")))
     scan_joints(reader, root.get("joints"))
     scan_input(reader, root)
 
@@ -114,7 +136,9 @@ def _parameters(reader: Reader, node: Node | None) -> dict[str, float]:
         if value is None:
             reader.broken.add(name)
             reader.kinds.setdefault(name, units.NONE)
-    return {name: reader.values[name] for name in (entry.key.text for entry in entries) if name in reader.values}
+    return {
+        name: reader.values[name] for name in (entry.key.text for entry in entries) if name in reader.values
+    }
 
 
 def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set[str]) -> float | None:
@@ -122,11 +146,18 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
     reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
         what = "a function or a reserved word" if name in reserved else "not a word of letters, digits and _"
-        reader.error(key, place, f'"{name}" cannot name a parameter: it is {what}', f'rename it, such as "{name[:1]}_1"'
-                     if name in reserved else 'rename it, such as "l_1"', "name")
+        reader.error(
+            key,
+            place,
+            f'"{name}" cannot name a parameter: it is {what}',
+            f'rename it, such as "{name[:1]}_1"' if name in reserved else 'rename it, such as "l_1"',
+            "name",
+        )
         return None
     if name in reader.names.links or reader.names.joints.get(name, "revolute") != "revolute":
-        reader.error(key, place, f'a link or joint has the name "{name}" already', "rename one of them", "duplicate")
+        reader.error(
+            key, place, f'a link or joint has the name "{name}" already', "rename one of them", "duplicate"
+        )
         return None
     text = reader.quantity_text(node, place, "1.25 m")
     if text is None:
@@ -136,7 +167,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
         reader.used |= expression.names
         if expression.names & reader.broken:
             return None
-        kind, value = expression.dimension(reader.kinds), expression.evaluate(reader.values)
+        kind, value = expression.dimension(reader.kinds), float(expression.evaluate(reader.values))
     except QuantityError as error:
         later = sorted(each for each in waiting if re.search(rf"(?<!\w){re.escape(each)}(?!\w)", text))
         if later and error.code == "unknown-name":
@@ -146,7 +177,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
         return None
     reader.kinds[name], reader.values[name] = kind, value
     if expression.names:
-        reader.expressions[name] = Expression(expression.text, expression.tree, expression.names)
+        reader.expressions[name] = expression
     return value
 
 

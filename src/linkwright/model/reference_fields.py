@@ -10,7 +10,8 @@ from linkwright.model.fields import Field, Schema
 from linkwright.model.nodes import Node
 
 if TYPE_CHECKING:
-    from linkwright.model.reader import Place, Reader
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
 
 
 @dataclass(frozen=True)
@@ -65,12 +66,18 @@ class PointPair(Field):
 
     of: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[str, str] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[str, str] | None:
         return reader.ray(node, place, given.get(self.of))
 
     def shape(self) -> Schema:
-        return {"type": "array", "items": {"type": "string", "x-reference": "point", "x-of": self.of},
-                "minItems": 2, "maxItems": 2}
+        return {
+            "type": "array",
+            "items": {"type": "string", "x-reference": "point", "x-of": self.of},
+            "minItems": 2,
+            "maxItems": 2,
+        }
 
     def written(self, value: Any) -> Any:
         return list(value)
@@ -109,7 +116,12 @@ class PointReferences(Field):
         return tuple(found)
 
     def shape(self) -> Schema:
-        return {"type": "array", "items": {"type": "string", "x-reference": "link.point"}, "minItems": 2, "maxItems": 2}
+        return {
+            "type": "array",
+            "items": {"type": "string", "x-reference": "link.point"},
+            "minItems": 2,
+            "maxItems": 2,
+        }
 
     def written(self, value: Any) -> Any:
         return [str(point) for point in value]
@@ -127,8 +139,13 @@ class JointName(Field):
             return None
         kind = reader.names.joints[name]
         if kind not in self.kinds:
-            reader.error(node, place, f'the joint "{name}" is {kind}', f"name a joint that is {' or '.join(self.kinds)}",
-                         "reference")
+            reader.error(
+                node,
+                place,
+                f'the joint "{name}" is {kind}',
+                f"name a joint that is {' or '.join(self.kinds)}",
+                "reference",
+            )
             return None
         return name
 

@@ -16,19 +16,32 @@ _NAME_PATTERN = r"^[^\W\d][\w'-]*$"
 
 
 def json_schema() -> Schema:
-    """JSON Schema (2020-12) of a model file: every section, joint kind, driver law and registered load kind."""
+    """JSON Schema (2020-12) of a model file: every section, joint kind, driver law and registered load
+    kind."""
     properties: Schema = {name: each.schema() for name, each in HEADER.items()}
     properties |= {
-        "parameters": {**_named({"type": ["string", "number"]}), "description": "named quantities for expressions"},
+        "parameters": {
+            **_named({"type": ["string", "number"]}),
+            "description": "named quantities for expressions",
+        },
         "frame": {**table_schema(FRAME_FIELDS), "description": "the fixed link"},
-        "links": {**_named(table_schema(LINK_FIELDS)), "description": "the moving links; shared point names are pins"},
+        "links": {
+            **_named(table_schema(LINK_FIELDS)),
+            "description": "the moving links; shared point names are pins",
+        },
         "joints": {**_named({"oneOf": _joints()}), "description": "guides, welds, and attributes of pins"},
         "assembly": {**_named({"enum": list(WORDS)}), "description": "assembly mode by inner joint"},
-        "drawing": {**Coordinates().shape(), "description": "coordinates of the assembled drawing, in frame axes"},
+        "drawing": {
+            **Coordinates().shape(),
+            "description": "coordinates of the assembled drawing, in frame axes",
+        },
         "driver": {"oneOf": _drivers(), "description": "the one driver"},
         "drivers": {**_named({"oneOf": _drivers()}), "description": "several drivers by name"},
         "cycle": _cycle(),
-        "loads": {**_named({"oneOf": [load.schema() for load in LOADS.values()]}), "description": "loads by name"},
+        "loads": {
+            **_named({"oneOf": [load.schema() for load in LOADS.values()]}),
+            "description": "loads by name",
+        },
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -65,8 +78,22 @@ def _drivers() -> list[Schema]:
 def _cycle() -> Schema:
     quantity = quantity_schema("angle") | {"description": "coordinate of the first driver"}
     forms: list[tuple[str, ...]] = [("duration",), ("from", "to"), ("turns",)]
-    shapes: Schema = {"duration": quantity_schema("time"), "from": quantity, "to": quantity,
-                      "turns": quantity_schema("dimensionless")}
-    options = [{"properties": {key: shapes[key] for key in form}, "required": list(form), "additionalProperties": False}
-               for form in forms]
-    return {"type": "object", "oneOf": options, "description": "what one cycle is (default: one turn of the driver)"}
+    shapes: Schema = {
+        "duration": quantity_schema("time"),
+        "from": quantity,
+        "to": quantity,
+        "turns": quantity_schema("dimensionless"),
+    }
+    options = [
+        {
+            "properties": {key: shapes[key] for key in form},
+            "required": list(form),
+            "additionalProperties": False,
+        }
+        for form in forms
+    ]
+    return {
+        "type": "object",
+        "oneOf": options,
+        "description": "what one cycle is (default: one turn of the driver)",
+    }

@@ -7,12 +7,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.model.expressions import Expression
-from linkwright.model.fields import Field, Quantities, Schema, Word, quantity_schema, table_schema, written_quantity
+from linkwright.model.fields import (
+    Field,
+    Quantities,
+    Schema,
+    Word,
+    quantity_schema,
+    table_schema,
+    written_quantity,
+)
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
 
 if TYPE_CHECKING:
-    from linkwright.model.reader import Place, Reader
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
 
 
 @dataclass(frozen=True)
@@ -37,7 +46,8 @@ class Output:
 
 @dataclass(frozen=True)
 class OutputName(Field):
-    """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its displacement)."""
+    """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its
+    displacement)."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
         text = reader.text(node, place)
@@ -56,7 +66,9 @@ class Magnitude(Field):
 
     dimension: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | Expression | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> float | Expression | None:
         return reader.magnitude(node, place, self.dimension)
 
     def shape(self) -> Schema:
@@ -116,13 +128,17 @@ class TableField(Field):
 
     def written(self, value: Any) -> Any:
         across = {"input": "angle", "time": "time"}.get(str(value.over)) or value.over.dimension
-        return {"over": str(value.over), "x": [written_quantity(x, across) for x in value.x],
-                "y": [written_quantity(y, self.dimension) for y in value.y]}
+        return {
+            "over": str(value.over),
+            "x": [written_quantity(x, across) for x in value.x],
+            "y": [written_quantity(y, self.dimension) for y in value.y],
+        }
 
 
 @dataclass(frozen=True)
 class InputPhase:
-    """While the first driver's coordinate is between ``start`` and ``end`` (rad or m; angles modulo one turn)."""
+    """While the first driver's coordinate is between ``start`` and ``end`` (rad or m; angles modulo one
+    turn)."""
 
     start: float
     end: float
@@ -150,7 +166,8 @@ Phase = InputPhase | MovingPhase | SwingPhase
 
 @dataclass(frozen=True)
 class PhaseField(Field):
-    """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to: min}``."""
+    """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to:
+    min}``."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Phase | None:
         mapping = reader.mapping(node, place)
@@ -159,9 +176,14 @@ class PhaseField(Field):
         forms = self._forms(reader.input_dimension())
         chosen = [key for key in forms if mapping.get(key) is not None]
         if len(chosen) != 1:
-            reader.error(node, place, f"{'several forms' if chosen else 'no form'} of a phase",
-                         "write one of {input: [a, b]}, {moving: OUTPUT, direction: increasing}, "
-                         "{of: OUTPUT, from: max, to: min}", "choice")
+            reader.error(
+                node,
+                place,
+                f"{'several forms' if chosen else 'no form'} of a phase",
+                "write one of {input: [a, b]}, {moving: OUTPUT, direction: increasing}, "
+                "{of: OUTPUT, from: max, to: min}",
+                "choice",
+            )
             return None
         values = reader.table(mapping, place, forms[chosen[0]])
         if values is None or any(values.get(name) is None for name in forms[chosen[0]]):
@@ -171,12 +193,19 @@ class PhaseField(Field):
     def _forms(self, across: str) -> dict[str, dict[str, Field]]:
         limits = ("max", "min")
         return {
-            "input": {"input": Quantities(across, count=2, required=True, doc="from, to of the input's coordinate")},
-            "moving": {"moving": OutputName(required=True, doc="an output"),
-                       "direction": Word(("increasing", "decreasing"), required=True)},
-            "of": {"of": OutputName(required=True, doc="an output"), "from": Word(limits, required=True),
-                   "to": Word(limits, required=True)},
-        }  # fmt: skip
+            "input": {
+                "input": Quantities(across, count=2, required=True, doc="from, to of the input's coordinate")
+            },
+            "moving": {
+                "moving": OutputName(required=True, doc="an output"),
+                "direction": Word(("increasing", "decreasing"), required=True),
+            },
+            "of": {
+                "of": OutputName(required=True, doc="an output"),
+                "from": Word(limits, required=True),
+                "to": Word(limits, required=True),
+            },
+        }
 
     def shape(self) -> Schema:
         return {"oneOf": [table_schema(form) for form in self._forms("angle").values()]}
@@ -206,21 +235,30 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     if "moving" in values:
         return MovingPhase(values["moving"], values["direction"])
     if values["from"] == values["to"]:
-        reader.error(node, place, f"from and to are both {values['from']}", "go from max to min or from min to max",
-                     "range")
+        reader.error(
+            node,
+            place,
+            f"from and to are both {values['from']}",
+            "go from max to min or from min to max",
+            "range",
+        )
         return None
     return SwingPhase(values["of"], values["from"], values["to"])
 
 
-def resolve_output(text: str, links: Mapping[str, Collection[str]], joints: Mapping[str, str]) -> Output | None:
-    """The output that a text means, given each link's points and each joint's kind; None where it means none."""
+def resolve_output(
+    text: str, links: Mapping[str, Collection[str]], joints: Mapping[str, str]
+) -> Output | None:
+    """The output that a text means, given each link's points and each joint's kind; None where it means
+    none."""
     if text in links and text != "frame":
         return Output("angle", text, text)
     if joints.get(text) == "prismatic":
         return Output("displacement", text, text)
-    owner, _, axis = text.rpartition(".")
-    if axis != "x" and axis != "y":
+    owner, _, word = text.rpartition(".")
+    if word not in ("x", "y"):
         return None
+    axis: Literal["x", "y"] = "x" if word == "x" else "y"
     link, _, point = owner.rpartition(".")
     if link:
         return Output(axis, owner, text) if point in links.get(link, ()) else None

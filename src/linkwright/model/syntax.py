@@ -8,24 +8,40 @@ from typing import Any
 from linkwright.model.nodes import Remark
 
 _MEANINGS: tuple[tuple[str, str, str], ...] = (
-    ("mapping values are not allowed", "a colon is not expected here",
-     'check the indentation, a bracket or quote that is not closed above, or put a text with ": " in quotes'),
-    ("could not find expected ':'", "a key without a colon", 'write "key: value", with a space after the colon'),
-    ("expected ',' or '}'", "a mapping in braces is not closed or a comma is missing",
-     "separate entries by commas and close with }"),
-    ("expected ',' or ']'", "a list in brackets is not closed or a comma is missing",
-     "separate entries by commas and close with ]"),
+    (
+        "mapping values are not allowed",
+        "a colon is not expected here",
+        'check the indentation, brackets and quotes above, or put a text with ": " in quotes',
+    ),
+    (
+        "could not find expected ':'",
+        "a key without a colon",
+        'write "key: value", with a space after the colon',
+    ),
+    (
+        "expected ',' or '}'",
+        "a mapping in braces is not closed or a comma is missing",
+        "separate entries by commas and close with }",
+    ),
+    (
+        "expected ',' or ']'",
+        "a list in brackets is not closed or a comma is missing",
+        "separate entries by commas and close with ]",
+    ),
     ("cannot start any token", "this character cannot begin a value", "put the value in quotes"),
     ("unexpected end of stream", "a quoted text is not closed", "add the closing quote"),
-    ("expected <block end>", "the indentation does not fit the lines above",
-     "indent entries of one level by the same number of spaces"),
+    (
+        "expected <block end>",
+        "the indentation does not fit the lines above",
+        "indent entries of one level by the same number of spaces",
+    ),
     ("expected the node content", "a value is missing here", "write the value"),
     ("unacceptable character", "a control character", "remove it: a model is plain text"),
     ("special characters are not allowed", "a control character", "remove it: a model is plain text"),
     ("unknown escape character", "an unknown escape in a quoted text", "write \\\\ for a backslash"),
     ("undefined tag", "an unknown tag", "remove the tag (the word with !)"),
     ("duplicate", "given twice", "remove one"),
-)  # fmt: skip
+)
 
 
 def explain(error: Any, text: str) -> Remark:
@@ -36,10 +52,17 @@ def explain(error: Any, text: str) -> Remark:
     context = str(getattr(error, "context", None) or "")
     for sign, message, remedy in _MEANINGS:
         if sign in said:
-            return Remark(line, column, f"not readable as YAML: {message}{_since(error, line)}", remedy, "syntax")
+            return Remark(
+                line, column, f"not readable as YAML: {message}{_since(error, line)}", remedy, "syntax"
+            )
     where = f" {context}" if context else ""
-    return Remark(line, column, f"not readable as YAML{where}: {said}{_since(error, line)}",
-                  "check indentation, brackets and quotes", "syntax")
+    return Remark(
+        line,
+        column,
+        f"not readable as YAML{where}: {said}{_since(error, line)}",
+        "check indentation, brackets and quotes",
+        "syntax",
+    )
 
 
 def _since(error: Any, line: int) -> str:
@@ -61,5 +84,7 @@ def tab_remarks(text: str) -> list[Remark]:
     for number, line in enumerate(text.splitlines()):
         indentation = re.match(r"[ ]*\t[ \t]*(?=\S)", line)
         if indentation:
-            found.append(Remark(number, line.index("\t"), "a tab in the indentation", "indent with spaces", "tab"))
+            found.append(
+                Remark(number, line.index("\t"), "a tab in the indentation", "indent with spaces", "tab")
+            )
     return found[:10]

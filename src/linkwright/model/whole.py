@@ -13,11 +13,19 @@ from linkwright.model.reader import Reader
 def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     """Add the findings that concern the model as a whole."""
     _unused_parameters(reader, root, mechanism)
-    if reader.error_count:
+    if not _all_read(reader, root, mechanism):
         return
     _lonely_links(reader, root, mechanism)
     _islands(reader, root, mechanism)
     _near_points(reader, root, mechanism)
+
+
+def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
+    """Whether every link and joint could be read: only then is a missing connection really missing."""
+    joints = root.get("joints")
+    declared = [key for key, _ in joints] if isinstance(joints, MappingNode) else []
+    links = all(name in mechanism.links or name == "frame" for name in reader.names.links)
+    return links and bool(mechanism.links) and all(name in mechanism.joints for name in declared)
 
 
 def _link_node(root: MappingNode, name: str) -> Node | None:
@@ -29,8 +37,14 @@ def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) 
     section = root.get("parameters")
     for name in mechanism.parameters:
         if name not in reader.used and isinstance(section, MappingNode):
-            reader.error(section.get(name), f"parameters.{name}", f'the parameter "{name}" is used nowhere',
-                         "use or remove it", "unused", severity="warning")
+            reader.error(
+                section.get(name),
+                f"parameters.{name}",
+                f'the parameter "{name}" is used nowhere',
+                "use or remove it",
+                "unused",
+                severity="warning",
+            )
 
 
 def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -39,11 +53,23 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
         key, node = f"links.{name}", _link_node(root, name)
         if not joints:
             points = ", ".join(link.points)
-            reader.error(node, key, f'the link "{name}" is used nowhere: no other link has one of its points ({points})',
-                         "name a shared point alike on both links, or remove the link", "unused")
-        elif len(link.points) == 1 and not any(isinstance(joint, PrismaticJoint | WeldJoint) for joint in joints):
-            reader.error(node, key, f'the link "{name}" has one point and is in no prismatic joint',
-                         "add a second point with a length, or a prismatic joint with it as block", "one-point")
+            reader.error(
+                node,
+                key,
+                f'the link "{name}" is used nowhere: no other link has one of its points ({points})',
+                "name a shared point alike on both links, or remove the link",
+                "unused",
+            )
+        elif len(link.points) == 1 and not any(
+            isinstance(joint, PrismaticJoint | WeldJoint) for joint in joints
+        ):
+            reader.error(
+                node,
+                key,
+                f'the link "{name}" has one point and is in no prismatic joint',
+                "add a second point with a length, or a prismatic joint with it as block",
+                "one-point",
+            )
 
 
 def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -60,9 +86,13 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     apart = [name for name in mechanism.links if name not in reached]
     joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
     if joined:
-        reader.error(_link_node(root, joined[0]), f"links.{joined[0]}",
-                     f"{', '.join(joined)} are not connected to the frame", "share a point with the frame or with a "
-                     "link that is connected", "not-connected")
+        reader.error(
+            _link_node(root, joined[0]),
+            f"links.{joined[0]}",
+            f"{', '.join(joined)} are not connected to the frame",
+            "share a point with the frame or with a link that is connected",
+            "not-connected",
+        )
 
 
 def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -74,6 +104,11 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
         for point in link.points:
             alike = sorted(folded[point.casefold()] - {point} - set(link.points))
             if alike and reader.names.owners(point) == [name]:
-                reader.error(_link_node(root, name), f"links.{name}.points",
-                             f'"{point}" is on this link only, and there is a point "{alike[0]}"',
-                             "write both alike if one point is meant", "near-name", severity="warning")
+                reader.error(
+                    _link_node(root, name),
+                    f"links.{name}.points",
+                    f'"{point}" is on this link only, and there is a point "{alike[0]}"',
+                    "write both alike if one point is meant",
+                    "near-name",
+                    severity="warning",
+                )

@@ -20,7 +20,9 @@ from linkwright.model.read_links import LINK_FIELDS
 from linkwright.units import NONE, number, si_symbol
 
 Plain = dict[str, Any]
-_SAFE = re.compile(r"[^\W\d_][^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )|[+-]?\d[^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )")
+_SAFE = re.compile(
+    r"[^\W\d_][^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )|[+-]?\d[^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )"
+)
 _RESERVED = frozenset(("null", "Null", "NULL", "true", "false", "True", "False", "TRUE", "FALSE"))
 
 
@@ -34,21 +36,31 @@ def to_data(mechanism: Mechanism) -> Plain:
     texts = {address: expression.text for address, expression in mechanism.expressions.items()}
     data: Plain = {"format": 1, "name": mechanism.name}
     data |= {key: text for key in ("purpose", "source") if (text := getattr(mechanism, key))}
-    data["parameters"] = {name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters}
+    data["parameters"] = {
+        name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters
+    }
     data["frame"] = {"points": _points(mechanism.frame, texts)}
     drawn = {**mechanism.frame.points, **mechanism.drawing}
     data["links"] = {name: _link(link, texts, drawn) for name, link in mechanism.links.items()}
-    data["joints"] = {name: found for name, joint in mechanism.joints.items() if (found := _joint(joint, texts))}
+    data["joints"] = {
+        name: found for name, joint in mechanism.joints.items() if (found := _joint(joint, texts))
+    }
     data["assembly"] = dict(mechanism.assembly)
     data["drawing"] = {name: [_length(x), _length(y)] for name, (x, y) in mechanism.drawing.items()}
     data |= _drivers(mechanism.drivers, texts)
     cycle = mechanism.cycle.dimensions() if mechanism.cycle else {}
-    data["cycle"] = {address.removeprefix("cycle."): texts.get(address) or _cycle_value(mechanism, address, value)
-                     for address, value in cycle.items()}
+    data["cycle"] = {
+        address.removeprefix("cycle."): texts.get(address) or _cycle_value(mechanism, address, value)
+        for address, value in cycle.items()
+    }
     if mechanism.gravity != (0.0, 0.0) or "gravity.x" in texts or "gravity.y" in texts:
-        data["gravity"] = [texts.get(f"gravity.{axis}") or written_quantity(value, "acceleration")
-                           for axis, value in zip("xy", mechanism.gravity, strict=True)]
-    data["loads"] = {name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()}
+        data["gravity"] = [
+            texts.get(f"gravity.{axis}") or written_quantity(value, "acceleration")
+            for axis, value in zip("xy", mechanism.gravity, strict=True)
+        ]
+    data["loads"] = {
+        name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
+    }
     data["expected"] = dict(mechanism.expected)
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
@@ -79,7 +91,9 @@ def _link(link: Link, texts: Mapping[str, str], drawn: Mapping[str, Vec]) -> Pla
     if link.geometry == "length":
         found["length"] = texts.get(f"{name}.length") or _length(link.lengths[0])
     if link.geometry == "bent":
-        found["lengths"] = [texts.get(f"{name}.lengths.{i}") or _length(value) for i, value in enumerate(link.lengths)]
+        found["lengths"] = [
+            texts.get(f"{name}.lengths.{i}") or _length(value) for i, value in enumerate(link.lengths)
+        ]
         found["angle"] = texts.get(f"{name}.angle") or written_quantity(link.angle, "angle")
     if listed and names[listed:]:
         found["also"] = {point: points[point] for point in names[listed:]}
@@ -108,7 +122,9 @@ def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
     if isinstance(joint, PrismaticJoint):
         values = {"guide": joint.guide, "through": joint.through, "block": joint.block, "at": joint.at}
         values["direction"] = list(joint.direction_points) if joint.direction_points else joint.direction
-        values |= {key: value for key in ("offset", "block_angle", "friction") if (value := getattr(joint, key))}
+        values |= {
+            key: value for key in ("offset", "block_angle", "friction") if (value := getattr(joint, key))
+        }
     elif isinstance(joint, WeldJoint):
         values = {"links": list(joint.links), "at": joint.at, "angle": joint.angle}
     elif isinstance(joint, RevoluteJoint):
@@ -117,8 +133,11 @@ def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
             return None
     fields = JOINT_FIELDS[joint.kind]
     values |= {key: 0.0 for key in fields if f"{joint.name}.{key}" in texts}
-    written = {key: texts.get(f"{joint.name}.{key}") or
-               (value if isinstance(value, list | str) else fields[key].written(value)) for key, value in values.items()}
+    written = {
+        key: texts.get(f"{joint.name}.{key}")
+        or (value if isinstance(value, list | str) else fields[key].written(value))
+        for key, value in values.items()
+    }
     return {"kind": joint.kind, **written}
 
 
@@ -135,14 +154,18 @@ def _driver(driver: Driver, texts: Mapping[str, str]) -> Plain:
     if law.rotary:
         way = {"turn": driver.link, "about": driver.joint, "relative_to": driver.relative_to}
     fields, values = type(law).fields(law.rotary), law.text_values()
-    written = {key: texts.get(f"{driver.name}.{key}") or fields[key].written(value) for key, value in values.items()}
+    written = {
+        key: texts.get(f"{driver.name}.{key}") or fields[key].written(value) for key, value in values.items()
+    }
     return {**way, **written}
 
 
 def _cycle_value(mechanism: Mechanism, address: str, value: float) -> Any:
     first = next(iter(mechanism.drivers.values()), None)
     across = "angle" if first is None or first.law.rotary else "length"
-    return written_quantity(value, {"cycle.duration": "time", "cycle.turns": "dimensionless"}.get(address, across))
+    return written_quantity(
+        value, {"cycle.duration": "time", "cycle.turns": "dimensionless"}.get(address, across)
+    )
 
 
 def _substituted(value: Any, address: str, texts: Mapping[str, str]) -> Any:

@@ -1,0 +1,231 @@
+"""Reading of plain structure from nodes: mappings, lists, texts and words, every problem a finding."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+from linkwright.errors import Finding, Severity
+from linkwright.model.fields import Field
+from linkwright.model.nodes import Entry, Node, Scalar, Sequence, noun
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.registry import nearest
+
+if TYPE_CHECKING:
+    from linkwright.model.reader import Reader
+
+NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+NAME = re.compile(r"[^\W\d][\w'-]*")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a value stands: ``key`` in the file, ``address`` among the mechanism's dimensions."""
+
+    key: str
+    address: str
+
+    def child(self, name: str) -> Place:
+        """A key below, which counts in the address as well."""
+        return Place(
+            f"{self.key}.{name}" if self.key else name, f"{self.address}.{name}" if self.address else name
+        )
+
+    def nested(self, name: str) -> Place:
+        """A key below that the address leaves out."""
+        return Place(f"{self.key}.{name}" if self.key else name, self.address)
+
+
+class PlainReader:
+    """What every reader of a file needs; a method that reads returns None after it has noted a finding.
+
+    ``si`` admits bare numbers as SI values (models built in code).
+    """
+
+    def __init__(self, source: str, *, si: bool = False) -> None:
+        self.source, self.si = source, si
+        self.findings: list[Finding] = []
+
+    @property
+    def error_count(self) -> int:
+        """How many errors were found so far."""
+        return sum(finding.severity == "error" for finding in self.findings)
+
+    def error(
+        self,
+        node: Node | None,
+        place: Place | str,
+        message: str,
+        remedy: str = "",
+        code: str = "",
+        *,
+        column: int = 0,
+        severity: Severity = "error",
+    ) -> None:
+        """Note a finding at a node; ``column`` is an offset within it."""
+        key = place if isinstance(place, str) else place.key
+        self.findings.append(Finding(severity, self.where(node, column), key, message, remedy, code))
+
+    def where(self, node: Node | None, column: int = 0) -> str:
+        """The place of a node as ``file:line:column``."""
+        if self.si:
+            return self.source
+        if node is None:
+            return f"{self.source}:1:1"
+        return f"{self.source}:{node.line + 1}:{node.column + column + 1}"
+
+    def mapping(self, node: Node | None, place: Place | str) -> MappingNode | None:
+        """The node if it is a mapping."""
+        if isinstance(node, MappingNode):
+            return node
+        self.error(
+            node,
+            place,
+            f"{noun(node)} stands where a mapping (key: value) is needed",
+            "write {key: value, …} or indented lines key: value",
+            "type",
+        )
+        return None
+
+    def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None:
+        """The items of a list, of a given count where there is one; ``form`` is an example."""
+        if not isinstance(node, Sequence):
+            self.error(
+                node, place, f"{noun(node)} stands where a list is needed", f"write it as {form}", "type"
+            )
+            return None
+        if count is None or len(node.items) == count:
+            return node.items
+        texts = [item.text if isinstance(item, Scalar) else "" for item in node.items]
+        comma = len(texts) > count and any(re.fullmatch(r"[+-]?\d+", text) and text != "0" for text in texts)
+        remedy = f"write it as {form}" + (", with decimal points, not commas" if comma else "")
+        code = "decimal-comma" if comma else "count"
+        self.error(node, place, f"{len(node.items)} values stand where {count} are needed", remedy, code)
+        return None
+
+    def text(self, node: Node, place: Place | str) -> str | None:
+        """The text of a single value."""
+        if isinstance(node, Scalar) and not node.empty:
+            return node.text
+        self.error(
+            node, place, f"{noun(node)} stands where a text is needed", "write a name or a text", "type"
+        )
+        return None
+
+    def name(self, node: Node, place: Place | str, what: str) -> str | None:
+        """A name that the user chose for something new."""
+        text = self.text(node, place)
+        if text is None or NAME.fullmatch(text):
+            return text
+        right = re.sub(r"[^\w'-]", "_", text).strip("_") or "a"
+        right = right if NAME.fullmatch(right) else f"{what[0]}{right}"
+        self.error(
+            node,
+            place,
+            f'"{text}" cannot be the name of a {what}',
+            f'names begin with a letter and hold letters, digits, _ and -: "{right}"',
+            "name",
+        )
+        return None
+
+    def word(self, node: Node, place: Place | str, choices: tuple[str, ...]) -> str | None:
+        """One of a few words."""
+        text = self.text(node, place)
+        if text is None or text in choices:
+            return text
+        offer = nearest(text, choices)
+        hint = f'did you mean "{offer}"? ' if offer else ""
+        self.error(
+            node,
+            place,
+            f'"{text}" is not known here',
+            f"{hint}(one of: {', '.join(choices)})",
+            "unknown-word",
+        )
+        return None
+
+    def table(self, node: Node, place: Place, fields: Mapping[str, Field]) -> dict[str, Any] | None:
+        """The values of a mapping by its fields; unknown and missing keys are findings."""
+        mapping = self.mapping(node, place)
+        if mapping is None:
+            return None
+        keys = {each.key or name: name for name, each in fields.items()}
+        split = self.unknown_keys(mapping, place, list(keys))
+        found: dict[str, Any] = {}
+        for key, name in keys.items():
+            value = mapping.get(key)
+            if value is None and fields[name].required:
+                self.error(
+                    mapping,
+                    place.child(key),
+                    f'the key "{key}" is missing',
+                    fields[name].doc or "add it",
+                    "missing-key",
+                )
+            elif value is not None:
+                found[name] = (
+                    None
+                    if key in split
+                    else fields[name].read(cast("Reader", self), value, place.child(key), found)
+                )
+        return found
+
+    def unknown_keys(self, mapping: MappingNode, place: Place, known: list[str]) -> set[str]:
+        """A finding for each key that is not known, with the nearest that is.
+
+        Gives the keys whose value a decimal comma has split (``{length: 60,5 mm}`` has the key ``5 mm``).
+        """
+        present = {entry.key.text for entry in mapping.entries}
+        split: set[str] = set()
+        for index, entry in enumerate(mapping.entries):
+            key = entry.key.text
+            if key in known:
+                continue
+            before = mapping.entries[index - 1] if index else None
+            if before is not None and self._comma(before, entry, place):
+                split.add(before.key.text)
+                continue
+            offer = nearest(key[:100], [each for each in known if each not in present] or known)
+            remedy = f'did you mean "{offer}"? ' if offer else ""
+            self.error(
+                entry.key,
+                place.child(key),
+                f'unknown key "{key[:100]}"',
+                f"{remedy}(known: {', '.join(known)})",
+                "unknown-key",
+            )
+        return split
+
+    def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:
+        whole, rest = before.value, entry.key.text
+        if not (isinstance(whole, Scalar) and isinstance(entry.value, Scalar) and entry.value.empty):
+            return False
+        if not re.fullmatch(r"[+-]?\d+", whole.text) or not re.match(r"\d", rest):
+            return False
+        self.error(
+            whole,
+            place.child(before.key.text),
+            f'decimal comma in "{whole.text},{rest}"',
+            f'write a point: "{whole.text}.{rest}"',
+            "decimal-comma",
+        )
+        return True
+
+    def free(self, node: Node) -> Any:
+        """Plain data of any node, numbers and truth values as in YAML 1.2."""
+        if isinstance(node, MappingNode):
+            return {key: self.free(value) for key, value in node}
+        if isinstance(node, Sequence):
+            return [self.free(item) for item in node.items]
+        assert isinstance(node, Scalar)
+        if not node.plain:
+            return node.text
+        if node.empty:
+            return None
+        if node.text in ("true", "false"):
+            return node.text == "true"
+        if re.fullmatch(r"[+-]?\d{1,18}", node.text):
+            return int(node.text)
+        return float(node.text) if NUMBER.fullmatch(node.text) else node.text
