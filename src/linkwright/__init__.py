@@ -14,5 +14,6 @@ from linkwright.model.file import loads as loads
 from linkwright.model.mechanism import Mechanism as Mechanism
 from linkwright.structure import Structure as Structure
 from linkwright.structure import StructureError as StructureError
+from linkwright.structure import structure as structure
 
 __version__ = "0.1.0"

@@ -36,8 +36,8 @@ class Comparison:
         return lines
 
 
-def motion_comparison(mechanism: Any, motion: Any, reference: Motion) -> Comparison:
-    """All points, links and joint coordinates of the package's motion against the reference's."""
+def motion_comparison(mechanism: Any, motion: Any, reference: Motion, *, derived: bool = True) -> Comparison:
+    """Points and links of the package's motion against the reference's; derived: mass centres and joints too."""
     found = Comparison()
     for name, link in mechanism.links.items():
         direction, rate, second = reference.direction(name), *reference.angle(name)[1:]
@@ -47,12 +47,13 @@ def motion_comparison(mechanism: Any, motion: Any, reference: Motion) -> Compari
         found.add("direction", f"{name} by its angle", turned, direction)
         found.add("angular velocity", name, ours.angular_velocity, rate)
         found.add("angular acceleration", name, ours.angular_acceleration, second)
-        _add_point(found, f"mass centre of {name}", ours.centre, reference.point(name, link.centre))
+        if derived:
+            _add_point(found, f"mass centre of {name}", ours.centre, reference.point(name, link.centre))
         for point, local in link.points.items():
             _add_point(
                 found, f"{name}.{point}", motion.point(f"{name}.{point}"), reference.point(name, local)
             )
-    for joint in mechanism.joints.values():
+    for joint in mechanism.joints.values() if derived else ():
         _add_joint(found, mechanism, motion, reference, joint)
     return found
 

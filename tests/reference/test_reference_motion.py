@@ -56,7 +56,8 @@ def random_failures(seed: int) -> list[str]:
     if abs(motion.time[0] - case.span[0]) > 1e-9 or abs(motion.time[-1] - case.span[1]) > 1e-9:
         return [f"times {motion.time[0]} to {motion.time[-1]}, expected {case.span}"]
     reference = case.motion(motion.time)
-    return motion_comparison(mechanism, motion, reference).failures(TOLERANCE, floors(mechanism, reference))
+    comparison = motion_comparison(mechanism, motion, reference, derived=seed % 3 == 0)
+    return comparison.failures(TOLERANCE, floors(mechanism, reference))
 
 
 @pytest.mark.parametrize("seed", range(30))

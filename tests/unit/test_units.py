@@ -1,4 +1,4 @@
-"""Units: values by their definitions (SI brochure, international yard and pound), and what must be refused."""
+"""Units: values by their definitions (SI brochure, yard and pound), and what is refused."""
 
 import math
 

@@ -52,11 +52,11 @@ class Group:
         parts = [term.weight * results[r.name] for term, r in zip(self.terms, self.reductions(), strict=True)]
         return np.asarray(sum(parts[1:], parts[0]), dtype=np.float64)
 
-    def factor(self, results: Mapping[str, NDArray[Any]]) -> Floats:
-        """What the adjoints' sums are multiplied with, per design."""
-        count = np.asarray(results[VALID_COUNT], dtype=np.float64)
+    def factor(self, results: Mapping[str, NDArray[Any]]) -> Floats | None:
+        """What the adjoints' sums are multiplied with, per design; None for one."""
         if self.kind == "sum":
-            return np.ones_like(count)
+            return None
+        count = np.asarray(results[VALID_COUNT], dtype=np.float64)
         if self.kind == "mean":
             return np.asarray(1.0 / count)
         return np.asarray(1.0 / (count * results[self.reductions()[0].name]))
@@ -92,6 +92,7 @@ class GradientProgram:
         position has the value NaN, or 0 for sums.
         """
         table = _table(parameters, self.along.parameters)
+        designs = len(table)
         results = sweep(
             self.along,
             table,
@@ -104,8 +105,7 @@ class GradientProgram:
         )
         with np.errstate(all="ignore"):
             values = [group.value(results) for group in self.groups]
-            sums = {f"adjoint:{i}": self._total(i, results) for i in self.boundary}
-        designs = len(table)
+            sums = self._totals(results, designs)
         inner = _table({**parameters, **sums}, self.per_design.parameters, designs)
         gradient = numpy_program(self.per_design).run_designs(inner, {}, length=1)[:, :, 0]
         return np.asarray(sum(values[1:], values[0])), gradient
@@ -116,21 +116,27 @@ class GradientProgram:
         wanted = [Reduction(name, "sum") for name in self.along.output_names if name.startswith("adjoint:")]
         return list(dict.fromkeys([r for group in self.groups for r in group.reductions()] + wanted))
 
-    def _total(self, index: int, results: Mapping[str, NDArray[Any]]) -> Floats:
-        total = np.zeros(len(results[VALID_COUNT]))
-        for number, group in enumerate(self.groups):
-            name = f"adjoint:{number}:{index}.sum"
-            if name in results:
-                total = total + group.factor(results) * results[name]
-        return total
+    def _totals(self, results: Mapping[str, NDArray[Any]], designs: int) -> dict[str, Floats]:
+        """Adjoints of the boundary lines by the names of the parameters that take them."""
+        factors = [group.factor(results) for group in self.groups]
+        totals: dict[str, Floats] = {}
+        for index in self.boundary:
+            parts = []
+            for number, factor in enumerate(factors):
+                total = results.get(f"adjoint:{number}:{index}.sum")
+                if total is not None:
+                    parts.append(total if factor is None else factor * total)
+            totals[f"adjoint:{index}"] = sum(parts[1:], parts[0]) if parts else np.zeros(designs)
+        return totals
 
 
 def _table(parameters: Mapping[str, ArrayLike], names: tuple[str, ...], designs: int | None = None) -> Floats:
     missing = [name for name in names if name not in parameters]
     if missing:
         raise ValueError(f"the parameters {', '.join(missing)} are not given")
-    columns = [np.asarray(parameters[name], dtype=np.float64).ravel() for name in names]
-    count = max((len(c) for c in columns), default=1) if designs is None else designs
-    if not columns:
-        return np.empty((count, 0))
-    return np.stack([np.broadcast_to(c, (count,)) for c in columns], axis=1)
+    if designs is None:
+        designs = max((np.size(parameters[name]) for name in names), default=1)
+    table = np.empty((designs, len(names)))
+    for column, name in enumerate(names):
+        table[:, column] = parameters[name]
+    return table

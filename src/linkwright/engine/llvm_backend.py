@@ -98,7 +98,7 @@ class CompiledProgram:
             call = self._own.call = SingleCall(self.program, self.width, positions, fields)
         if self.program.next_states or call.inputs.stride != call.inputs.length:
             return self._run_by_store(parameters, positions, fields, out, start)
-        call.parameters[:] = parameters
+        call.set_parameters(parameters)
         if out is None:
             out = aligned(call.shape)
         call.set_out(out)

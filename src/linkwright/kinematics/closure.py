@@ -42,13 +42,13 @@ class PinCut:
     def drift(self, states: Mapping[str, State]) -> list[Scalar]:
         """Relative velocity of the two ends."""
         a, b = states[self.connection.a], states[self.connection.b]
-        gap = a.velocity_at(a.arm(self.on_a)) - b.velocity_at(b.arm(self.on_b))
+        gap = a.velocity_of(self.on_a) - b.velocity_of(self.on_b)
         return [gap.x, gap.y]
 
     def bend(self, states: Mapping[str, State]) -> list[Scalar]:
         """Relative acceleration of the two ends."""
         a, b = states[self.connection.a], states[self.connection.b]
-        gap = a.acceleration_at(a.arm(self.on_a)) - b.acceleration_at(b.arm(self.on_b))
+        gap = a.acceleration_of(self.on_a) - b.acceleration_of(self.on_b)
         return [gap.x, gap.y]
 
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Mapping[str, Pose]) -> Vec:
@@ -92,15 +92,15 @@ class GuideCut:
     def drift(self, states: Mapping[str, State]) -> list[Scalar]:
         a, b = states[self.connection.a], states[self.connection.b]
         place = b.pose.point(self.at)
-        gap = b.velocity_at(b.arm(self.at)) - a.velocity_at(place - a.pose.place)
+        gap = b.velocity_of(self.at) - a.velocity_at(place - a.pose.place)
         return [a.pose.spin(self.direction).perp.dot(gap)]
 
     def bend(self, states: Mapping[str, State]) -> list[Scalar]:
         a, b = states[self.connection.a], states[self.connection.b]
         arm = b.pose.point(self.at) - a.pose.place
         n = a.pose.spin(self.direction)
-        slide = n.dot(b.velocity_at(b.arm(self.at)) - a.velocity_at(arm))
-        gap = b.acceleration_at(b.arm(self.at)) - a.acceleration_at(arm)
+        slide = n.dot(b.velocity_of(self.at) - a.velocity_at(arm))
+        gap = b.acceleration_of(self.at) - a.acceleration_at(arm)
         return [n.perp.dot(gap) - 2.0 * (a.omega * slide)]
 
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Mapping[str, Pose]) -> Vec:

@@ -81,10 +81,10 @@ class MotionOutputs:
         guide, block = states[joint.guide], states[joint.block]
         n = guide.pose.spin(dimensions.guide_direction(joint))
         start = guide.arm(dimensions.point(joint.guide, joint.through))
-        arm = block.arm(dimensions.point(joint.block, joint.at))
-        gap = block.pose.place + arm - guide.pose.place
-        rate = n.dot(block.velocity_at(arm) - guide.velocity_at(gap))
-        second = n.dot(block.acceleration_at(arm) - guide.acceleration_at(gap))
+        at = dimensions.point(joint.block, joint.at)
+        gap = block.pose.place + block.arm(at) - guide.pose.place
+        rate = n.dot(block.velocity_of(at) - guide.velocity_at(gap))
+        second = n.dot(block.acceleration_of(at) - guide.acceleration_at(gap))
         return n.dot(gap - start), rate, second
 
     def standard(self) -> list[str]:

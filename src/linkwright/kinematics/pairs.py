@@ -50,10 +50,10 @@ class Pin:
         return Pose(self.on_child, parent.point(self.on_parent), coordinate)
 
     def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        return State(pose, parent.velocity_at(parent.arm(self.on_parent)), rate)
+        return State(pose, parent.velocity_of(self.on_parent), rate)
 
     def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        acceleration = parent.acceleration_at(parent.arm(self.on_parent))
+        acceleration = parent.acceleration_of(self.on_parent)
         return State(child.pose, child.velocity, child.omega, acceleration, second)
 
 
@@ -111,10 +111,10 @@ class Fixed:
         return Pose(self.on_child, parent.point(self.on_parent), rotor)
 
     def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        return State(pose, parent.velocity_at(parent.arm(self.on_parent)), parent.omega)
+        return State(pose, parent.velocity_of(self.on_parent), parent.omega)
 
     def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        acceleration = parent.acceleration_at(parent.arm(self.on_parent))
+        acceleration = parent.acceleration_of(self.on_parent)
         return State(child.pose, child.velocity, child.omega, acceleration, parent.alpha)
 
 

@@ -50,6 +50,17 @@ class State:
         """From the anchor to a point of the link, in frame axes."""
         return self.pose.spin(local - self.pose.anchor)
 
+    def velocity_of(self, local: Vec) -> Vec:
+        """Velocity of a point given in the link's axes."""
+        rotor = self.pose.rotor
+        return self.velocity + (rotor.now.perp * self.omega).turn((local - self.pose.anchor).over(rotor.local))
+
+    def acceleration_of(self, local: Vec) -> Vec:
+        """Acceleration of a point given in the link's axes."""
+        rotor = self.pose.rotor
+        bend = rotor.now.perp * self.alpha - rotor.now * (self.omega * self.omega)
+        return self.acceleration + bend.turn((local - self.pose.anchor).over(rotor.local))
+
     def velocity_at(self, arm: Vec) -> Vec:
         """Velocity of the point of the link that is ``arm`` away from the anchor."""
         return self.velocity + arm.perp * self.omega

@@ -45,8 +45,7 @@ class MotionTrace:
     def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
         """Position, velocity and acceleration of a point given in a link's axes."""
         state = self.states[link]
-        arm = state.arm(local)
-        return state.pose.place + arm, state.velocity_at(arm), state.acceleration_at(arm)
+        return state.pose.place + state.arm(local), state.velocity_of(local), state.acceleration_of(local)
 
 
 def trace_motion(

@@ -66,8 +66,9 @@ class ForceOutputs:
         dimensions = self.forces.motion.dimensions
         for name in self.mechanism.links:
             state = self.forces.motion.states[name]
-            arm = state.arm(dimensions.centre(name))
-            push = state.acceleration_at(arm) * dimensions(f"{name}.mass")
+            centre = dimensions.centre(name)
+            arm = state.arm(centre)
+            push = state.acceleration_of(centre) * dimensions(f"{name}.mass")
             force = force - push
             moment = moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
         return force, moment

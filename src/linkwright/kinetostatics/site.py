@@ -23,7 +23,7 @@ class TracedSite:
 
     def velocity(self, link: str, point: str) -> Vec:
         state = self.motion.states[link]
-        return state.velocity_at(state.arm(self.motion.dimensions.point(link, point)))
+        return state.velocity_of(self.motion.dimensions.point(link, point))
 
     def axis(self, link: str) -> Vec:
         return self.motion.states[link].pose.direction

@@ -112,8 +112,9 @@ def _own_demand(motion: MotionTrace, link: str, forces: ForceTrace, inertia: boo
     state, dimensions = motion.states[link], motion.dimensions
     mass = dimensions(f"{link}.mass")
     gravity = Vec(dimensions("gravity.x"), dimensions("gravity.y"))
-    arm = state.arm(dimensions.centre(link))
-    acceleration = state.acceleration_at(arm) if inertia else ZERO
+    centre = dimensions.centre(link)
+    arm = state.arm(centre)
+    acceleration = state.acceleration_of(centre) if inertia else ZERO
     force = (acceleration - gravity) * mass
     moment: Scalar = arm.cross(force)
     if inertia:

@@ -1,0 +1,252 @@
+"""What a model file must be refused for: the place, the key, the code and the words of every finding."""
+
+from pathlib import Path
+
+import pytest
+
+from linkwright.errors import Finding, ModelError
+from linkwright.model.file import MAX_BYTES, check, load, loads, read_text
+
+MODEL = """\
+format: 1
+name: four-bar
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 3.5 m}
+  rocker: {points: [O2, B], length: 3 m}
+driver: {turn: crank, about: O1, speed: 10 rpm}
+"""
+
+
+def findings(text: str) -> list[Finding]:
+    mechanism, found = read_text(text, "m.yaml")
+    assert (mechanism is None) == any(each.severity == "error" for each in found)
+    return found
+
+
+def changed(old: str, new: str) -> str:
+    assert old in MODEL
+    return MODEL.replace(old, new, 1)
+
+
+def test_the_model_that_the_cases_change_is_right() -> None:
+    assert findings(MODEL) == []
+
+
+ONE_CHANGE = [
+    ("length: 1 m", "lenght: 1 m", "5:28", "links.crank.lenght", "unknown-key", '"length"'),
+    ("length: 1 m", "length: 1", "5:36", "links.crank.length", "missing-unit", '"1 mm"'),
+    ("length: 1 m", "length: 1 kg", "5:36", "links.crank.length", "wrong-dimension", "a mass"),
+    ("length: 1 m", "length: 60,5 mm", "5:36", "links.crank.length", "decimal-comma", '"60.5 mm"'),
+    ("length: 1 m", 'length: "60,5 mm"', "5:37", "links.crank.length", "decimal-comma", '"60.5 mm"'),
+    ("[4 m, 0 m]", "[4,5 m, 0 m]", "3:38", "frame.points.O2", "decimal-comma", "decimal points"),
+    ("  rocker:", "  crank:", "7:3", "links.crank", "duplicate-key", "line 5"),
+    ("[O2, B], length: 3 m", "[B]", "7:11", "links.rocker", "one-point", "prismatic"),
+    ("1 m}", "1 m, mass: -3 kg}", "5:47", "links.crank.mass", "range", "negative"),
+    ("1 m}", "1 m, inertia: 3 kg*m}", "5:50", "links.crank.inertia", "wrong-dimension", "an inertia"),
+    ("length: 1 m", "length: 0 m", "5:36", "links.crank.length", "range", "zero"),
+    ("length: 1 m", "length: 0", "5:36", "links.crank.length", "range", "zero"),
+    ("length: 1 m", "length: -1 m", "5:36", "links.crank.length", "range", "negative"),
+    ("length: 1 m", "length: .nan", "5:36", "links.crank.length", "not-finite", "finite"),
+    ("length: 1 m", "length: .inf m", "5:36", "links.crank.length", "not-finite", "finite"),
+    ("length: 1 m", "length: 1e999 m", "5:36", "links.crank.length", "not-finite", "finite"),
+    ("length: 1 m", "length: [1 m]", "5:36", "links.crank.length", "type", "a list"),
+    ("length: 1 m", "length:", "5:35", "links.crank.length", "type", "nothing"),
+    (", length: 1 m", "", "5:10", "links.crank", "missing-key", "A"),
+    ("[A, B]", "[A, B, P]", "6:40", "links.coupler.length", "geometry", "also"),
+    ("[O1, A]", "[O1, O1]", "5:24", "links.crank.points", "duplicate", "twice"),
+    ("[O1, A]", "O1", "5:19", "links.crank.points", "type", "[A, B]"),
+    ("[O1, A]", "[O1 A]", "5:20", "links.crank.points.0", "name", '"O1_A"'),
+    ("{points: [O1, A], length: 1 m}", "", "6:3", "links.crank", "type", "mapping"),
+    ("about: O1", "about: B", "8:30", "driver.about", "reference", "O1, A"),
+    ("about: O1", "about: Q", "8:30", "driver.about", "unknown-name", "joints: O1, O2, A, B"),
+    ("turn: crank", "turn: crnk", "8:16", "driver.turn", "unknown-name", '"crank"'),
+    ("turn: crank", "turn: frame", "8:16", "driver.turn", "reference", "does not move"),
+    ("10 rpm", "460 rmp", "8:45", "driver.speed", "unknown-unit", '"rpm"'),
+    ("10 rpm", "10 Hz", "8:41", "driver.speed", "wrong-dimension", "a frequency"),
+    (", speed: 10 rpm", "", "8:9", "driver", "choice", "speed"),
+    ("speed: 10 rpm", "speed: 10 rpm, position: 3 deg", "8:9", "driver", "choice", "position and speed"),
+    ("speed: 10 rpm", "position: 30 deg*sin(om*t)", "8:55", "driver.position", "unknown-name", '"om"'),
+    ("format: 1", "format: 2", "1:9", "format", "version", "format: 1"),
+    ("format: 1\n", "", "1:1", "format", "missing-key", "format: 1"),
+    (
+        "{points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}",
+        "{points: [O1]}",
+        "3:17",
+        "frame.points",
+        "type",
+        "O1: [0 m",
+    ),
+    ("name: four-bar", "name: !!python/object/apply:os.system [ls]", "2:7", "name", "tag", "python"),
+    ("length: 1 m", "length: *x", "5:36", "links.crank.length", "alias", "*x"),
+    ("links:\n", "links: &l\n  loop: *l\n", "5:9", "links.loop", "alias", "own anchor"),
+    ("name: four-bar", "expected: " + "[" * 60 + "]" * 60, "2:50", "", "depth", "deeper"),
+    ("  crank:", "\tcrank:", "5:1", "", "tab", "spaces"),
+    ("[O1, A]", "[O1, A", "5:38", "", "syntax", "]"),
+    ("four-bar", '"four-bar', "9:1", "", "syntax", "line 2"),
+    ("four-bar", "four: bar", "2:11", "", "syntax", "quotes"),
+    ("four-bar", "four\x07bar", "2:11", "", "syntax", "control character"),
+    ("driver:", "---\nformat: 1\n", "8:1", "", "documents", "one model"),
+    ("crank:", "1:", "5:3", "links.1", "name", '"l1"'),
+    ("crank:", "[a, b]:", "5:3", "links", "key", "single word"),
+    (
+        "driver:",
+        "  spare: {points: [X, Y], length: 1 m}\ndriver:",
+        "8:10",
+        "links.spare",
+        "unused",
+        "nowhere",
+    ),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "place", "key", "code", "words"), ONE_CHANGE)
+def test_one_wrong_thing_is_found_at_its_place(
+    old: str, new: str, place: str, key: str, code: str, words: str
+) -> None:
+    found = findings(changed(old, new))
+    matching = [each for each in found if each.code == code]
+    assert matching, [str(each) for each in found]
+    first = matching[0]
+    assert first.where == f"m.yaml:{place}"
+    assert key in (first.key, "") or first.key.startswith(key)
+    assert words in str(first)
+    assert first.remedy
+
+
+ADDED = [
+    ("gravity: 9.81 m/s²", "gravity", "type", "[0, -9.81 m/s²]"),
+    ("gravity: [0, -9.81]", "gravity.y", "missing-unit", "-9.81 m/s²"),
+    ("assembly: {B: links}", "assembly.B", "unknown-word", "left"),
+    ("assembly: {b: left}", "assembly.b", "unknown-name", '"B"'),
+    ("joints: {g: {kind: prismatic, guide: frame, through: O1, block: rocker, at: B}}", "joints.g.direction",
+     "missing-key", "angle"),
+    ("joints: {g: {kind: prismatik}}", "joints.g.kind", "unknown-word", '"prismatic"'),
+    ("joints: {g: {guide: frame}}", "joints.g.kind", "missing-key", "kind"),
+    ("joints: {C: {kind: revolute}}", "joints.C", "unknown-name", "O1, O2, A, B"),
+    ("joints: {B: {kind: revolute, friction: -0.1}}", "joints.B.friction", "range", "negative"),
+    ("joints: {crank: {kind: weld, links: [crank, coupler], at: A}}", "joints.crank", "duplicate", "crank"),
+    ("joints: {w: {kind: weld, links: [crank, rocker], at: A}}", "joints.w.at", "unknown-name", "crank, coupler"),
+    ("loads: {l: {kind: forse}}", "loads.l.kind", "unknown-word", '"force"'),
+    ("loads: {l: {kind: force, on: rocker, at: B, direction: 0, magnitude: 5 Nm}}", "loads.l.magnitude", "unknown-unit",
+     "N·m"),
+    ("loads: {l: {kind: force, on: rocker, at: A, direction: 0, magnitude: 5 N}}", "loads.l.at", "unknown-name", "O2, B"),
+    ("loads: {l: {kind: force, on: rocker, at: B, magnitude: 5 N}}", "loads.l", "choice", "normal_to"),
+    ("loads: {l: {kind: force, on: rocker, at: B, direction: 0, ramp: [0 N, 5 N]}}", "loads.l.ramp", "load", "phase"),
+    ("loads: {l: {kind: force, on: rocker, at: B, direction: 0, magnitude: 5 N, phase: {of: rockr, from: max, to: min}}}",
+     "loads.l.phase.of", "unknown-name", '"rocker"'),
+    ("parameters: {a: b*2, b: 1 m}", "parameters.a", "unknown-name", "above"),
+    ("parameters: {e: 1/0}", "parameters.e", "not-finite", "zero"),
+    ("parameters: {crank: 1 m}", "parameters.crank", "duplicate", "crank"),
+    ("cycle: {from: 90 deg, to: 0 deg}", "cycle", "range", "exchange"),
+    ("cycle: {duration: -1 s}", "cycle.duration", "range", "negative"),
+    ("drawing: {Q: [1 m, 0 m]}", "drawing.Q", "unknown-name", "O1, O2, A, B"),
+    ("drivers: {}", "drivers", "choice", "driver"),
+    ("speed: 3 rpm", "speed", "unknown-key", "known:"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "key", "code", "words"), ADDED)
+def test_one_wrong_section_is_found(line: str, key: str, code: str, words: str) -> None:
+    matching = [each for each in findings(MODEL + line + "\n") if (each.key, each.code) == (key, code)]
+    assert matching, [str(each) for each in findings(MODEL + line + "\n")]
+    assert matching[0].where.startswith("m.yaml:9:")
+    assert words in str(matching[0])
+
+
+def test_all_findings_come_at_once() -> None:
+    text = (
+        changed("length: 1 m", "lenght: 1 m")
+        .replace("3.5 m", "3,5 m")
+        .replace("10 rpm", "10")
+        .replace("3 m}", "-3 m}")
+    )
+    codes = {each.code for each in findings(text)}
+    assert {"unknown-key", "decimal-comma", "missing-unit", "range"} <= codes
+
+
+def test_a_broken_link_brings_no_findings_about_what_refers_to_it() -> None:
+    assert [each.key for each in findings(changed("[O1, A]", "O1"))] == ["links.crank.points"]
+
+
+@pytest.mark.parametrize("text", ["", "# only a comment\n", "---\n", "\ufeff", "   \n\n"])
+def test_an_empty_text_is_called_empty(text: str) -> None:
+    assert [each.code for each in findings(text)] == ["empty"]
+
+
+@pytest.mark.parametrize("text", ["- a\n- b\n", "hello\n", "a,b,c\n1,2,3\n", "<html></html>", "42"])
+def test_what_is_no_mapping_is_refused(text: str) -> None:
+    assert [each.code for each in findings(text)] == ["type"]
+
+
+SECTIONS = ("format", "name", "purpose", "source", "expected", "parameters", "frame", "links", "joints", "assembly",
+            "drawing", "driver", "drivers", "cycle", "gravity", "loads")  # fmt: skip
+WRONG = ["", "[]", "{}", "[[]]", "[{}]", "{a: }", "{a: []}", "{a: {}}", "{1: 2}", "{a: [1, 2]}", "{a: {b: {c: d}}}", "3",
+         "true", "~", "[~]", "'x'", "{points: }", "{points: [~]}", "{points: {A: [~, {}]}}", "{a: {kind: force}}",
+         "{a: {kind: [x]}}", "{a: {kind: prismatic, guide: [a], at: {}}}", "{turn: [], about: {}}", "{slide: []}",
+         "{a: {points: [A], also: [3]}}", "{a: {kind: weld, links: {}, at: []}}", "2024-01-01", "!!binary aGk=",
+         "!x {a: 1}", "{? [a] : b}", "{<<: 3}", "{<<: [1, {a: 2}]}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+@pytest.mark.parametrize("value", WRONG)
+def test_any_value_in_any_section_gives_findings_or_a_mechanism(section: str, value: str) -> None:
+    lines = [line for line in MODEL.split("\n") if not line.startswith(section)]
+    if section == "links":
+        lines = [line for line in lines if not line.startswith("  ")]
+    found = findings("\n".join([*lines, f"{section}: {value}"]))
+    assert all(each.where.startswith("m.yaml:") and each.message for each in found)
+
+
+def test_anchors_aliases_and_merge_keys_are_read() -> None:
+    text = changed("crank: {points: [O1, A], length: 1 m}", "crank: &c {points: [O1, A], length: &l 1 m}")
+    text = text.replace("coupler: {points: [A, B], length: 3.5 m}", "coupler: {<<: *c, points: [A, B]}")
+    assert loads(text).links["coupler"].lengths == (1.0,)
+
+
+def test_an_exploding_alias_is_stopped() -> None:
+    lines = ["a: &a [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join(['*' + chr(97 + i)] * 10)}]" for i in range(9)]
+    assert "size" in {each.code for each in findings("\n".join(lines))}
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "words"),
+    [
+        ("# caf\xe9\n".encode("latin-1"), "encoding", "offset 5"),
+        (
+            MODEL.replace("four", "b\x96r").encode("cp1252", "replace").replace(b"?", b"\x96"),
+            "encoding",
+            "0x96",
+        ),
+        (MODEL.encode("utf-16"), "encoding", "UTF-16"),
+        (bytes(range(256)), "encoding", "not text"),
+        (b"x" * (MAX_BYTES + 1), "size", "5 MB"),
+    ],
+)
+def test_a_file_that_is_no_utf8_text_is_refused(
+    tmp_path: Path, content: bytes, code: str, words: str
+) -> None:
+    path = tmp_path / "m.yaml"
+    path.write_bytes(content)
+    found = check(path)
+    assert [each.code for each in found] == [code]
+    assert words in str(found[0])
+
+
+def test_a_missing_file_offers_the_nearest(tmp_path: Path) -> None:
+    (tmp_path / "press.yaml").write_text(MODEL)
+    with pytest.raises(ModelError, match=r"did you mean \"press\.yaml\""):
+        load(tmp_path / "pres.yaml")
+    with pytest.raises(ModelError, match="folder"):
+        load(tmp_path)
+    with pytest.raises(ModelError, match="gallery:jaw_crusher_sixbar"):
+        load("gallery:jaw_crusher_sixba")
+
+
+@pytest.mark.parametrize(
+    "text", [MODEL.replace("\n", "\r\n"), "\ufeff" + MODEL, MODEL.replace("crank", "曲柄")]
+)
+def test_line_ends_marks_and_scripts_do_not_matter(text: str) -> None:
+    assert findings(text) == []
