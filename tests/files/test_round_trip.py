@@ -86,8 +86,12 @@ def test_a_refused_change_changes_nothing(tmp_path: Path, address: str, value: s
 
 
 def test_json_stays_json(tmp_path: Path) -> None:
-    data = {"format": 1, "frame": {"points": {"O": ["0 m", 0]}}, "links": {"arm": {"points": ["O", "P"], "length": "1 m"}},
-            "driver": {"turn": "arm", "about": "O", "speed": "10 rpm"}}  # fmt: skip
+    data = {
+        "format": 1,
+        "frame": {"points": {"O": ["0 m", 0]}},
+        "links": {"arm": {"points": ["O", "P"], "length": "1 m"}},
+        "driver": {"turn": "arm", "about": "O", "speed": "10 rpm"},
+    }
     path = tmp_path / "m.json"
     path.write_text(json.dumps(data, indent="\t"))
     document = read_document(path)

@@ -7,33 +7,103 @@ from math import atan2, pi
 from typing import Any
 
 import numpy as np
-from tests.reference.adapter import link_points
+from numpy.typing import NDArray
+from tests.reference.adapter import driver_values, link_points, reference_motion
 from tests.reference.formulas import force_in_link, force_in_space, gravity
-from tests.reference.multibody import Load
+from tests.reference.laws import taylor
+from tests.reference.multibody import Array, Load, Motion
 
 
-def reference_loads(mechanism: Any) -> list[Load]:
-    """Gravity and all loads of the mechanism; raises KeyError for a kind that the reference does not know."""
-    loads = [KINDS[load.kind](mechanism, load) for load in mechanism.loads.values()]
-    return [gravity(mechanism.gravity), *loads] if any(mechanism.gravity) else loads
+def reference_loads(mechanism: Any, motion: Motion, time: Array) -> list[Load]:
+    """Gravity and all loads; raises NotImplementedError for what the reference has no formula for."""
+    loads: list[Load] = [gravity(mechanism.gravity)] if any(mechanism.gravity) else []
+    for load in mechanism.loads.values():
+        if load.kind not in KINDS:
+            raise NotImplementedError(f"loads of kind {load.kind}")
+        loads.append(KINDS[load.kind](mechanism, load, _Course(mechanism, motion, time)))
+    return loads
 
 
-def _constant(value: Any) -> float:
-    if not isinstance(value, float):
-        raise NotImplementedError(f"magnitude {value!r}")
-    return value
+class _Course:
+    """The motion as magnitudes and phases see it: time, input, outputs with their rates."""
+
+    def __init__(self, mechanism: Any, motion: Motion, time: Array) -> None:
+        self.mechanism = mechanism
+        self.motion = motion
+        self.time = time
+        u, ud, _ = driver_values(mechanism, time)
+        self.input, self.rate = (u[:, 0], ud[:, 0]) if u.shape[1] else (0 * time, 0 * time)
+
+    def output(self, output: Any) -> tuple[Array, Array]:
+        if output.kind == "angle":
+            return self.motion.angle(output.owner)[:2]
+        raise NotImplementedError(f"output {output}")
+
+    def magnitude(self, load: Any) -> Array:
+        """Size (n,) of the load: number, expression or ramp, zero outside its phase."""
+        inside, progress = self.phase(load.phase)
+        if load.ramp is not None:
+            size = load.ramp[0] + progress * (load.ramp[1] - load.ramp[0])
+        elif isinstance(load.magnitude, float):
+            size = np.full(len(self.time), load.magnitude)
+        elif load.magnitude is not None:
+            size = self._expression(load.magnitude)
+        else:
+            raise NotImplementedError(f"tables of loads ({load.name})")
+        return np.where(inside, size, 0.0)
+
+    def _expression(self, expression: Any) -> Array:
+        values: dict[str, Any] = {**self.mechanism.parameters, "input": self.input}
+        values |= {name: self.motion.angle(name)[0] for name in self.mechanism.links}
+        return taylor(expression.text, values, self.time).f
+
+    def phase(self, phase: Any) -> tuple[NDArray[np.bool_], Array]:
+        """Where the phase is on, and how much of its input has passed (0 to 1)."""
+        if phase is None:
+            return np.ones(len(self.time), dtype=bool), np.full(len(self.time), np.nan)
+        if hasattr(phase, "direction"):
+            rate = self.output(phase.output)[1]
+            return (rate > 0 if phase.direction == "increasing" else rate < 0), np.full(
+                len(self.time), np.nan
+            )
+        begin, end = (phase.start, phase.end) if not hasattr(phase, "output") else self._limits(phase)
+        way = float(np.sign(self.rate[0])) if hasattr(phase, "output") else float(np.sign(end - begin))
+        progress = ((self.input - begin) * way % (2 * pi)) / ((end - begin) * way % (2 * pi))
+        return progress <= 1.0, progress
+
+    def _limits(self, phase: Any) -> tuple[float, float]:
+        """Inputs at the largest and the smallest angle of a link over one turn of a constant-speed driver."""
+        law = next(iter(self.mechanism.drivers.values())).law
+        time = np.linspace(0.0, 2 * pi / abs(law.speed), 361)
+        turn = reference_motion(self.mechanism, time)
+        angle, _, _ = turn.angle(phase.output.owner)
+        found = {}
+        for word, k in (("max", int(np.argmax(angle[:-1]))), ("min", int(np.argmin(angle[:-1])))):
+            found[word] = law.start + law.speed * self._standstill(phase.output.owner, turn, time, k)
+        return found[phase.start], found[phase.end]
+
+    def _standstill(self, link: str, turn: Motion, time: Array, k: int) -> float:
+        """Time near time[k] at which the link stands still, by bisection of its angular velocity."""
+        step = time[1] - time[0]
+        low, high = time[k] - step, time[k] + step
+        near = turn.q[k]
+        for _ in range(60):
+            middle = (low + high) / 2
+            rates = [self._velocity(link, turn, near, time[k], t) for t in (low, middle)]
+            low, high = (low, middle) if rates[0] * rates[1] <= 0 else (middle, high)
+        return float((low + high) / 2)
+
+    def _velocity(self, link: str, turn: Motion, near: Array, there: float, t: float) -> float:
+        u, ud, udd = driver_values(self.mechanism, np.array([there, t]))
+        return float(turn.system.motion(near, u[0], u[1:], ud[1:], udd[1:]).angle(link)[1][0])
 
 
-def _force(mechanism: Any, load: Any) -> Load:
-    if load.phase is not None or load.magnitude is None:
-        raise NotImplementedError(f"load {load.name}")
-    at, size = link_points(mechanism, load.on)[load.at], _constant(load.magnitude)
+def _force(mechanism: Any, load: Any, course: _Course) -> Load:
+    at, size = link_points(mechanism, load.on)[load.at], course.magnitude(load)
     if load.direction is not None:
-        return force_in_space(
-            load.on, at, (size * float(np.cos(load.direction)), size * float(np.sin(load.direction)))
-        )
+        return force_in_space(load.on, at, np.outer(size, (np.cos(load.direction), np.sin(load.direction))))
     angle = _angle_in_link(mechanism, load)
-    return force_in_link(load.on, at, (size * float(np.cos(angle)), size * float(np.sin(angle))), load.on)
+    return force_in_link(load.on, at, np.outer(size, (np.cos(angle), np.sin(angle))), load.on)
 
 
 def _angle_in_link(mechanism: Any, load: Any) -> float:
@@ -44,4 +114,4 @@ def _angle_in_link(mechanism: Any, load: Any) -> float:
     return atan2(by - ay, bx - ax) + (pi / 2 if load.normal_to else 0.0)
 
 
-KINDS: dict[str, Callable[[Any, Any], Load]] = {"force": _force}
+KINDS: dict[str, Callable[[Any, Any, _Course], Load]] = {"force": _force}

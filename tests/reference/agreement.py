@@ -37,7 +37,7 @@ class Comparison:
 
 
 def motion_comparison(mechanism: Any, motion: Any, reference: Motion, *, derived: bool = True) -> Comparison:
-    """Points and links of the package's motion against the reference's; derived: mass centres and joints too."""
+    """Points and links against the reference's; derived: mass centres and joint coordinates too."""
     found = Comparison()
     for name, link in mechanism.links.items():
         direction, rate, second = reference.direction(name), *reference.angle(name)[1:]

@@ -34,13 +34,14 @@ def force_in_space(body: str, at: Vec, force: ArrayLike) -> Load:
     return lambda motion: [_force(motion, body, motion.point(body, at)[0], force)]
 
 
-def force_in_link(body: str, at: Vec, force: Vec, axes: str) -> Load:
-    """A force with constant components in the axes of the body `axes`."""
+def force_in_link(body: str, at: Vec, force: ArrayLike, axes: str) -> Load:
+    """A force whose components (2,) or (n, 2) are given in the axes of the body `axes`."""
 
     def load(motion: Motion) -> list[Wrench]:
         x = motion.direction(axes)
         y = np.stack([-x[:, 1], x[:, 0]], axis=-1)
-        return [_force(motion, body, motion.point(body, at)[0], force[0] * x + force[1] * y)]
+        parts = np.broadcast_to(np.asarray(force, dtype=float), x.shape)
+        return [_force(motion, body, motion.point(body, at)[0], parts[:, :1] * x + parts[:, 1:] * y)]
 
     return load
 

@@ -18,7 +18,7 @@ from tests.reference.multibody import Array
 
 UNITS = {
     "deg": math.pi / 180, "°": math.pi / 180, "rad": 1.0, "m": 1.0, "mm": 1e-3, "cm": 1e-2, "s": 1.0,
-    "ms": 1e-3, "min": 60.0, "rpm": math.pi / 30, "Hz": 1.0,
+    "ms": 1e-3, "min": 60.0, "rpm": math.pi / 30, "Hz": 1.0, "N": 1.0, "kN": 1e3,
 }  # fmt: skip
 
 
@@ -68,7 +68,7 @@ def _exp(x: Taylor) -> Taylor:
 FUNCTIONS = {"sqrt": _sqrt, "sin": _sin, "cos": _cos, "exp": _exp}
 
 
-def taylor(text: str, values: Mapping[str, float], t: Array) -> Taylor:
+def taylor(text: str, values: Mapping[str, float | Array], t: Array) -> Taylor:
     """The expression `text` of t (s) and named values, with its derivatives at the times t."""
     unit = "|".join(sorted(map(re.escape, UNITS), key=len, reverse=True))
     numbers = r"(?<![\w.])(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)"

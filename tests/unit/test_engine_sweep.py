@@ -158,3 +158,21 @@ def test_a_program_compiled_for_storing_does_not_sweep() -> None:
     assert compiled is not None
     with pytest.raises(ValueError, match="without reductions"):
         compiled.sweep([[1.0]], {"x": np.zeros(3)})
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("n", [3, 40])
+@pytest.mark.parametrize("valid", ["valid", None])
+def test_what_follows_the_positions_is_evaluated_once_per_design(
+    backend: str, n: int, valid: str | None
+) -> None:
+    t = Trace()
+    high, low, count, a = (t.parameter(name) for name in ("y.max", "y.min", VALID_COUNT, "a"))
+    after = Program.of(t, {"span": (high - low) / a, "share": count / float(n)})
+    x = np.random.default_rng(n).uniform(-1.0, 1.0, n)
+    radii = np.array([0.6, 1.2, 1.5])
+    kinds = [Reduction("y", "max"), Reduction("y", "min")]
+    got = sweep(chord(), radii[:, None], {"x": x}, kinds, valid=valid, after=after, backend=backend)
+    np.testing.assert_allclose(got["span"], (got["y.max"] - got["y.min"]) / radii, rtol=1e-14)
+    np.testing.assert_allclose(got["share"] * n, got[VALID_COUNT], rtol=1e-14)
+    assert got[VALID_COUNT][2] == n

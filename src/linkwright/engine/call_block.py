@@ -70,6 +70,7 @@ class Inputs:
         block[Block.DESIGNS], block[Block.LENGTH] = designs, self.stride
         block[Block.FULL_END] = full * self.width
         block[Block.TAIL_START], block[Block.TAIL_LOW], block[Block.TAIL_HIGH] = tail
+        block[Block.COUNT] = self.length
         block[Block.PARAMETERS], block[Block.OUT], block[Block.STARTS] = parameters, out, starts
         sources = [address_of(a) for a in self.positions]
         sources += [address_of(a) + 8 * first * self.stride for a in self.fields]
@@ -120,10 +121,7 @@ class SingleCall:
         """Whether the same arrays are given again."""
         if not self._kept or positions is not self._positions or fields is not self._fields:
             return False
-        for source, name, array in self._given:
-            if source[name] is not array:
-                return False
-        return True
+        return not any(source[name] is not array for source, name, array in self._given)
 
     def set_parameters(self, parameters: ArrayLike) -> None:
         """The design: copied, or read where it lies if the same array is given again and again."""

@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
 
 from linkwright.engine.adjoint import Adjoints
-from linkwright.engine.gradient import GradientProgram, Group
+from linkwright.engine.gradient import VALUE, GradientProgram, derivative_name
+from linkwright.engine.objective import Group, Term, TermKind, groups_of
 from linkwright.engine.program import Program
+from linkwright.engine.reductions import VALID_COUNT
 from linkwright.engine.replay import Replay, depending
 from linkwright.engine.tangent import numeric_outputs, tangents
 from linkwright.engine.trace import Scalar
 
 __all__ = ["GradientProgram", "Term", "forward", "reverse", "value_and_gradient"]
-
-TermKind = Literal["sum", "mean", "rms"]
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """A part of an objective: ``weight`` times the sum, mean or root mean square of an output."""
-
-    output: str
-    kind: TermKind = "sum"
-    weight: float = 1.0
-
 
 def forward(program: Program, wrt: Sequence[str]) -> Program:
     """A program with the outputs of ``program`` and ``output|input`` = d(output)/d(input).
@@ -53,7 +41,7 @@ def reverse(
     ``seeds``: names of outputs; each one's weights are a field ``seed:output`` (designs, n).
     Otherwise as :func:`value_and_gradient`.
     """
-    group = Group(tuple(Term(name) for name in seeds), "sum", seeded=True)
+    group = Group(0, tuple(Term(name) for name in seeds), "sum", seeded=True)
     return _gradient(program, [group], wrt, valid)
 
 
@@ -72,16 +60,7 @@ def value_and_gradient(
     and for programs that carry states (see :func:`~linkwright.engine.states.states_as_fields`).
     """
     terms = [t if isinstance(t, Term) else Term(*t) for t in objective]
-    groups: list[Group] = []
-    for kind in ("sum", "mean"):
-        same = tuple(t for t in terms if t.kind == kind)
-        if same:
-            groups.append(Group(same, kind))
-    groups += [Group((t,), "rms") for t in terms if t.kind == "rms"]
-    unknown = [t.kind for t in terms if t.kind not in ("sum", "mean", "rms")]
-    if unknown or not terms:
-        raise ValueError(f"an objective has terms of the kinds sum, mean and rms, not {unknown}")
-    return _gradient(program, groups, wrt, valid)
+    return _gradient(program, groups_of(terms), wrt, valid)
 
 
 def _check_inputs(program: Program, names: Sequence[str], known: Sequence[str]) -> None:
@@ -105,9 +84,8 @@ def _gradient(
     boundary = _boundary(program, active)
     judged = valid if valid in program.output_names else None
     along = _along_positions(program, groups, active, boundary, judged)
-    return GradientProgram(
-        along, _per_design(program, wanted, active, boundary), wanted, tuple(groups), tuple(boundary), judged
-    )
+    after = _after_positions(program, groups, wanted, active, along)
+    return GradientProgram(along, after, wanted, judged)
 
 
 def _boundary(program: Program, active: set[int]) -> list[int]:
@@ -120,41 +98,48 @@ def _boundary(program: Program, active: set[int]) -> list[int]:
 def _along_positions(
     program: Program, groups: list[Group], active: set[int], boundary: list[int], valid: str | None
 ) -> Program:
+    """Each group's part of the objective and its adjoints of the boundary, at one position."""
     replay = Replay(program)
     places = dict(program.outputs)
     varying = {i for i, node in enumerate(program.nodes) if node.varies}
     outputs: dict[str, Scalar | bool] = {}
     if valid is not None:
         outputs[valid] = replay.values[places[valid]]
-    for number, group in enumerate(groups):
+    for group in groups:
+        values = [replay.values[places[term.output]] for term in group.terms]
+        outputs[group.part] = group.at_position(replay.trace, values)
         adjoints = Adjoints(replay, active)
-        for term in group.terms:
-            value = replay.values[places[term.output]]
-            outputs[term.output] = value
+        for term, value in zip(group.terms, values, strict=True):
             adjoints.add(places[term.output], group.seed(replay.trace, term, value))
         adjoints.sweep_back(varying)
         for index in boundary:
             if index in adjoints.found:
-                outputs[adjoint_name(number, index)] = adjoints.found[index].value
+                outputs[group.adjoint(index)] = adjoints.found[index].value
     return Program.of(replay.trace, outputs)
 
 
-def adjoint_name(group: int, index: int) -> str:
-    """The output of a position's share of a boundary line's adjoint."""
-    return f"adjoint:{group}:{index}"
-
-
-def _per_design(program: Program, wrt: Sequence[str], active: set[int], boundary: list[int]) -> Program:
-    """From the adjoints of the boundary (parameters ``adjoint:i``) to those of the parameters."""
+def _after_positions(
+    program: Program, groups: list[Group], wrt: Sequence[str], active: set[int], along: Program
+) -> Program:
+    """The objective, and from the sums of the boundary's adjoints those of the parameters."""
     fixed = [i for i, node in enumerate(program.nodes) if not node.varies]
     replay = Replay(program, fixed)
+    t = replay.trace
     adjoints = Adjoints(replay, active)
-    for index in boundary:
-        adjoints.add(index, replay.trace.parameter(f"adjoint:{index}"))
+    summed = set(along.output_names)
+    total: Scalar = 0.0
+    for group in groups:
+        count = 1.0 if group.kind == "sum" else t.parameter(VALID_COUNT)
+        value, factor = group.after(t, t.parameter(f"{group.part}.sum"), count)
+        total = t.add(total, value)
+        for index in fixed:
+            if group.adjoint(index) in summed:
+                share = t.parameter(f"{group.adjoint(index)}.sum")
+                adjoints.add(index, t.mul(factor, share))
     adjoints.sweep_back(set(fixed))
     place = {node.name: i for i, node in enumerate(program.nodes) if node.op == "parameter"}
-    outputs: dict[str, Scalar | bool] = {}
+    outputs: dict[str, Scalar | bool] = {VALUE: total}
     for name in wrt:
         adjoint = adjoints.found.get(place[name])
-        outputs[name] = 0.0 if adjoint is None else adjoint.value
-    return Program.of(replay.trace, outputs)
+        outputs[derivative_name(name)] = 0.0 if adjoint is None else adjoint.value
+    return Program.of(t, outputs)

@@ -25,7 +25,7 @@ class AccumulatorWriter:
         self.integers = f"<{writer.width} x i64>"
         self._fresh = fresh
         self._valid = accumulation.valid
-        self._column = {step: k for k, step in enumerate(self.steps)}
+        self._column = accumulation.column
         self._masks: dict[str, str] = {}
 
     def kind(self, step: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
+from linkwright.engine.ir_after import following_lines
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
@@ -16,8 +17,8 @@ ENTRY = "linkwright_run"
 class Block:
     """Places of the call block, an array of 64-bit numbers and addresses."""
 
-    DESIGNS, LENGTH, FULL_END, TAIL_START, TAIL_LOW, TAIL_HIGH, PARAMETERS, OUT, STARTS = range(9)
-    INPUTS = 9
+    DESIGNS, LENGTH, COUNT, FULL_END, TAIL_START, TAIL_LOW, TAIL_HIGH, PARAMETERS, OUT, STARTS = range(10)
+    INPUTS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,7 @@ class PositionKernel:
         self.lines = lines
         self.shape = Shape.of(lines)
         self.width = width
+        self.accumulation = accumulation
         self.writer = LineWriter(lines, width, wide=False)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, "%fresh")
 
@@ -112,9 +114,10 @@ class PositionKernel:
         ]
 
     def _design_inputs(self) -> list[str]:
-        shape = self.shape
+        shape, accumulation = self.shape, self.accumulation
+        parameters = shape.parameters if accumulation is None else len(accumulation.parameters)
         code = [
-            f"%p.at = mul i64 %d, {shape.parameters}",
+            f"%p.at = mul i64 %d, {parameters}",
             "%p.row = getelementptr double, ptr %parameters, i64 %p.at",
         ]
         for index, line in enumerate(self.lines.lines):
@@ -130,9 +133,9 @@ class PositionKernel:
         return code + self._out_rows()
 
     def _out_rows(self) -> list[str]:
-        if self.sums is not None:
-            count = len(self.sums.steps)
-            return [f"%o.at = mul i64 %d, {count}", "%out.row = getelementptr double, ptr %out, i64 %o.at"]
+        if self.accumulation is not None:
+            width = self.accumulation.width
+            return [f"%o.at = mul i64 %d, {width}", "%out.row = getelementptr double, ptr %out, i64 %o.at"]
         code = [f"%o.step = mul i64 %length, {self.shape.outputs}", "%o.at = mul i64 %d, %o.step"]
         code.append("%row0 = getelementptr double, ptr %out, i64 %o.at")
         for row in range(1, self.shape.outputs):
@@ -216,6 +219,8 @@ class PositionKernel:
                 code.append(f"%z{k} = getelementptr double, ptr %out.row, i64 {k}")
             for k in sorted(range(len(steps)), key=lambda k: steps[k][0].startswith("arg")):
                 code += self.sums.finish_lanes(k, f"%z{k}")
+        if self.accumulation is not None and self.accumulation.after is not None:
+            code += following_lines(self.accumulation, self.accumulation.after)
         return [
             *code,
             "%d.next = add i64 %d, 1",
@@ -236,6 +241,7 @@ def load_block(shape: Shape) -> list[str]:
     numbers = [
         ("designs", Block.DESIGNS),
         ("length", Block.LENGTH),
+        ("count", Block.COUNT),
         ("full.end", Block.FULL_END),
         ("tail.start", Block.TAIL_START),
         ("tail.low", Block.TAIL_LOW),

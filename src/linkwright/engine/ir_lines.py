@@ -34,10 +34,15 @@ class LineWriter:
         self.wide = wide
         self.vector = f"<{width} x double>"
         self.mask = f"<{width} x i1>"
+        self.names: dict[int, str] = {}
         self.preamble: list[str] = []
         self.body: list[str] = []
         self._splats: set[int] = set()
         self._as_number: set[int] = set()
+
+    def name(self, index: int) -> str:
+        """The name of a line's value."""
+        return self.names.get(index, f"%v{index}")
 
     def is_vector(self, index: int) -> bool:
         """Whether a line is held in all lanes."""
@@ -55,10 +60,10 @@ class LineWriter:
         if line.op == "constant":
             return self.constant(line.constant, vector)
         if not vector or self.is_vector(index):
-            return f"%v{index}"
+            return self.name(index)
         if index not in self._splats:
             self._splats.add(index)
-            self.preamble += self.spread(f"%v{index}", f"%w{index}", "i1" if line.truth else "double")
+            self.preamble += self.spread(self.name(index), f"%w{index}", "i1" if line.truth else "double")
         return f"%w{index}"
 
     def constant(self, value: float, vector: bool) -> str:
@@ -95,7 +100,7 @@ class LineWriter:
 
     def _instructions(self, index: int, line: Line, vector: bool) -> list[str]:
         kind = self.type_of(index, vector)
-        value = f"%v{index}"
+        value = self.name(index)
         args = [self.operand(a, vector) for a in line.args]
         if line.op in _ARITHMETIC:
             return [f"{value} = {_ARITHMETIC[line.op]} {FAST} {kind} {args[0]}, {args[1]}"]

@@ -93,8 +93,8 @@ class StateKernel:
         ]
 
     def _design_inputs(self) -> list[str]:
-        sums = None if self.sums is None else len(self.sums.steps)
-        row = self._numbers(self.shape.outputs if sums is None else sums)
+        stored = self.sums is None
+        row = self._numbers(self.shape.outputs if self.sums is None else len(self.sums.steps))
         kind = self.integers
         code = [
             *self._splat("%d", "%d.all"),
@@ -106,7 +106,7 @@ class StateKernel:
             f"%field.offset = mul {kind} %lane, %length.all",
             f"%row.offset = mul {kind} %lane, {row}",
         ]
-        factor = "%length.all" if sums is None else self._numbers(1)
+        factor = "%length.all" if stored else self._numbers(1)
         code.append(f"%out.offset = mul {kind} %row.offset, {factor}")
         for index, line in enumerate(self.lines.lines):
             if line.op in ("parameter", "state"):

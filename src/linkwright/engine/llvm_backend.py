@@ -30,25 +30,30 @@ _CHUNK_VALUES = 1 << 18
 
 
 def compile_program(
-    program: Program, reductions: Sequence[Reduction] | None = None, valid: str | None = None
+    program: Program,
+    reductions: Sequence[Reduction] | None = None,
+    valid: str | None = None,
+    after: Program | None = None,
 ) -> CompiledProgram | None:
     """The program as machine code, or None where llvmlite is missing.
 
     Without ``reductions`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
     them they are summed up inside the loop (:meth:`CompiledProgram.sweep`), over the positions
-    where the truth output ``valid`` holds. Machine code is kept in memory and on disk.
-    Raises ValueError for unknown outputs.
+    where the truth output ``valid`` holds; ``after`` is evaluated once per design when they are
+    through (see :class:`~linkwright.engine.reductions.Accumulation`). Machine code is kept in
+    memory and on disk. Raises ValueError for unknown outputs.
     """
     if not available():
         return None
     wanted = None if reductions is None else tuple(reductions)
-    return _compiled.get(program, (wanted, valid), lambda: _compile(program, wanted, valid))
+    key = (wanted, valid, id(after))
+    return _compiled.get(program, key, lambda: _compile(program, wanted, valid, after))
 
 
 def _compile(
-    program: Program, reductions: tuple[Reduction, ...] | None, valid: str | None
+    program: Program, reductions: tuple[Reduction, ...] | None, valid: str | None, after: Program | None
 ) -> CompiledProgram:
-    accumulation = None if reductions is None else Accumulation(program, reductions, valid)
+    accumulation = None if reductions is None else Accumulation(program, reductions, valid, after)
     needed = program if accumulation is None else accumulation.needed
     if needed.states and not needed.next_states:
         names = ", ".join(needed.states)
@@ -162,13 +167,14 @@ class CompiledProgram:
             raise ValueError("this program was compiled without reductions: compile it with them to sweep")
         inputs = Inputs(self.program, self.width, positions, fields, length=length)
         table, starts = self._tables(parameters, start)
-        sums = np.empty((len(table), len(self.accumulation.steps)))
+        sums = np.empty((len(table), self.accumulation.width))
         self._call(inputs, table, starts, sums, threads)
         return self.accumulation.finish(sums, inputs.length)
 
     def _tables(self, parameters: ArrayLike, start: ArrayLike | None) -> tuple[Floats, Floats]:
         table = np.ascontiguousarray(parameters, dtype=np.float64)
-        wanted, states = len(self.program.parameters), self.program.states
+        names = self.program.parameters if self.accumulation is None else self.accumulation.parameters
+        wanted, states = len(names), self.program.states
         if table.ndim != 2 or table.shape[1] != wanted:
             raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
         if not states:

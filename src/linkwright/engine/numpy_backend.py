@@ -14,7 +14,7 @@ from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.registers import Registers
-from linkwright.engine.scalar_backend import LineRunner, ScalarProgram
+from linkwright.engine.scalar_backend import LineRunner, ScalarProgram, start_values
 
 Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
@@ -37,7 +37,7 @@ class NumpyProgram:
         self.program = program
         self.lines = Lines.of(program)
         self.registers = Registers.of(self.lines)
-        self._start = [line.constant for line in self.lines.lines]
+        self._start = start_values(self.lines.lines)
         self._parameter_lines = [i for i, line in enumerate(self.lines.lines) if line.op == "parameter"]
         self._design = LineRunner(self.lines.lines, self.lines.design_lines())
         self._own = threading.local()

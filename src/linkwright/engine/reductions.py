@@ -56,15 +56,20 @@ class Accumulation:
     """The accumulators that a set of reductions of a program needs.
 
     ``steps``: (accumulator, output), each once. ``valid``: the truth output that says which
-    positions enter, or None for all of them.
+    positions enter, or None for all of them. ``after``: a program per design, evaluated after
+    the last position; its parameters are parameters of ``program``, or accumulators as
+    ``output.sum``, ``output.square``, ``output.min``, ``output.max``, or ``valid.count``.
     """
 
     program: Program
     reductions: tuple[Reduction, ...]
     valid: str | None = None
+    after: Program | None = None
 
     def __post_init__(self) -> None:
         names = set(self.program.output_names)
+        if self.after is not None and (self.program.next_states or _has_positions(self.after)):
+            raise ValueError("only a program per design, without states, can follow the positions")
         for reduction in self.reductions:
             if reduction.kind not in KINDS:
                 raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
@@ -78,7 +83,37 @@ class Accumulation:
         wanted = [(step, r.output) for r in self.reductions for step in _NEEDS[r.kind]]
         if self.valid is not None:
             wanted.append(("count", self.valid))
+        for name in self.after.parameters if self.after is not None else ():
+            if name != VALID_COUNT and name not in self.program.parameters:
+                output, _, step = name.rpartition(".")
+                wanted.append((step, output))
         return tuple(dict.fromkeys(wanted))
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that the reduced outputs and what follows depend on."""
+        following = self.after.parameters if self.after is not None else ()
+        own = [name for name in following if name in self.program.parameters]
+        return tuple(dict.fromkeys([*self.needed.parameters, *own]))
+
+    @cached_property
+    def column(self) -> dict[tuple[str, str], int]:
+        """Where the accumulators stand in a row of the table."""
+        return {step: place for place, step in enumerate(self.steps)}
+
+    @property
+    def width(self) -> int:
+        """Numbers of one design: accumulators, then the outputs of what follows."""
+        return len(self.steps) + (len(self.after.outputs) if self.after is not None else 0)
+
+    def source(self, name: str) -> tuple[str, int]:
+        """Where a parameter of ``after`` comes from: ("parameter" or "step", place), or ("count", 0)."""
+        if name in self.program.parameters:
+            return "parameter", self.parameters.index(name)
+        if name == VALID_COUNT:
+            return ("count", 0) if self.valid is None else ("step", self.column["count", self.valid])
+        output, _, step = name.rpartition(".")
+        return "step", self.column[step, output]
 
     @cached_property
     def needed(self) -> Program:
@@ -91,17 +126,17 @@ class Accumulation:
     @property
     def key(self) -> str:
         """What decides the code, apart from the program."""
-        return f"{self.steps} {self.valid}"
+        return f"{self.steps} {self.valid} {'' if self.after is None else self.after.key}"
 
     def start(self, designs: int) -> Floats:
-        """Accumulators before the first position, shape (designs, steps)."""
-        table = np.zeros((designs, len(self.steps)))
+        """Accumulators before the first position, shape (designs, width)."""
+        table = np.zeros((designs, self.width))
         for column, (step, _) in enumerate(self.steps):
             table[:, column] = _START.get(step, 0.0)
         return table
 
     def finish(self, table: Floats, n: int) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:
-        """Results of every design from its accumulators (designs, steps) over ``n`` positions.
+        """Results of every design from its table (designs, width) over ``n`` positions.
 
         Where no position is valid: NaN, position number -1, count 0 and sum 0.
         """
@@ -110,8 +145,14 @@ class Accumulation:
         results: dict[str, NDArray[np.float64] | NDArray[np.int64]] = {}
         for reduction in self.reductions:
             results[reduction.name] = _result(reduction, at, valid)
+        for place, (name, _) in enumerate(self.after.outputs if self.after is not None else ()):
+            results[name] = table[:, len(self.steps) + place].copy()
         results[VALID_COUNT] = valid.astype(np.int64)
         return results
+
+
+def _has_positions(program: Program) -> bool:
+    return bool(program.positions or program.fields or program.states)
 
 
 _START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0}
@@ -139,7 +180,7 @@ def accumulate(
     """Let positions ``first``… of (outputs, designs, positions) enter the accumulators (in place)."""
     rows = dict(zip(names, outputs, strict=True))
     mask = None if accumulation.valid is None else rows[accumulation.valid] != 0.0
-    column = {step: place for place, step in enumerate(accumulation.steps)}
+    column = accumulation.column
     for step, output in accumulation.steps:
         values, into = rows[output], table[:, column[step, output]]
         if step in ("min", "max"):

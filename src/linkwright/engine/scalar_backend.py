@@ -10,8 +10,8 @@ from typing import Any
 from linkwright.engine.lines import Line, Lines
 from linkwright.engine.program import Program
 
-#: (function, line to fill, first, second, third argument); -1 where there is no argument.
-Step = tuple[Callable[..., Any], int, int, int, int]
+#: (function, line to fill, first argument, second argument); one form for all, as a loop likes it.
+Step = tuple[Callable[[Any, Any], Any], int, int, int]
 
 
 def _divide(a: float, b: float) -> float:
@@ -34,10 +34,6 @@ def _cosine(x: float) -> float:
     return math.nan if math.isinf(x) else math.cos(x)
 
 
-def _choose(condition: bool, a: float, b: float) -> float:
-    return a if condition else b
-
-
 def _both(a: bool, b: bool) -> bool:
     return a and b
 
@@ -46,60 +42,87 @@ def _either(a: bool, b: bool) -> bool:
     return a or b
 
 
-_QUICK: dict[str, Callable[..., Any]] = {
+def _pair(a: float, b: float) -> tuple[float, float]:
+    return a, b
+
+
+def _pick(condition: bool, pair: tuple[float, float]) -> float:
+    return pair[0] if condition else pair[1]
+
+
+def _of_one(function: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:
+    return lambda x, _: function(x)
+
+
+_BINARY: dict[str, Callable[[Any, Any], Any]] = {
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
     "div": operator.truediv,
-    "neg": operator.neg,
-    "sqrt": math.sqrt,
-    "abs": abs,
-    "sin": math.sin,
-    "cos": math.cos,
     "less": operator.lt,
     "less_equal": operator.le,
     "and": _both,
     "or": _either,
+}
+_UNARY: dict[str, Callable[[Any], Any]] = {
+    "sqrt": math.sqrt,
+    "abs": abs,
+    "sin": math.sin,
+    "cos": math.cos,
     "not": operator.not_,
-    "select": _choose,
     "number": float,
     "truth": bool,
 }
-_CAREFUL = _QUICK | {"div": _divide, "sqrt": _root, "sin": _sine, "cos": _cosine}
+_QUICK = _BINARY | {op: _of_one(function) for op, function in _UNARY.items()}
+_CAREFUL = _QUICK | {
+    "div": _divide,
+    "sqrt": _of_one(_root),
+    "sin": _of_one(_sine),
+    "cos": _of_one(_cosine),
+}
+
+
+def start_values(lines: Sequence[Line]) -> list[Any]:
+    """Room for the values of the lines, constants filled in, and two places of :class:`LineRunner`."""
+    return [*(line.constant for line in lines), -1.0, None]
 
 
 class LineRunner:
-    """Evaluates chosen lines in place on a list of values.
+    """Evaluates chosen lines in place on a list of values (see :func:`start_values`).
 
     Division by zero gives an infinity or NaN and the root of a negative number NaN, as in
     IEEE 754: where Python would raise, the lines are evaluated again with careful functions.
     """
 
     def __init__(self, lines: Sequence[Line], chosen: Sequence[int]) -> None:
-        self._quick = [_step(_QUICK, lines[i], i) for i in chosen]
-        self._careful = [_step(_CAREFUL, lines[i], i) for i in chosen]
+        self._quick = _steps(_QUICK, lines, chosen)
+        self._careful = _steps(_CAREFUL, lines, chosen)
 
     def run(self, values: list[Any]) -> None:
         """Fill the chosen lines of ``values``."""
         try:
-            _evaluate(self._quick, values)
+            for function, index, a, b in self._quick:
+                values[index] = function(values[a], values[b])
         except (ZeroDivisionError, ValueError):
-            _evaluate(self._careful, values)
+            for function, index, a, b in self._careful:
+                values[index] = function(values[a], values[b])
 
 
-def _step(functions: dict[str, Callable[..., Any]], line: Line, index: int) -> Step:
-    first, second, third = (*line.args, -1, -1)[:3]
-    return functions[line.op], index, first, second, third
-
-
-def _evaluate(steps: list[Step], values: list[Any]) -> None:
-    for function, index, a, b, c in steps:
-        if b < 0:
-            values[index] = function(values[a])
-        elif c < 0:
-            values[index] = function(values[a], values[b])
+def _steps(
+    functions: dict[str, Callable[[Any, Any], Any]], lines: Sequence[Line], chosen: Sequence[int]
+) -> list[Step]:
+    minus_one, pair = len(lines), len(lines) + 1
+    steps: list[Step] = []
+    for index in chosen:
+        line = lines[index]
+        if line.op == "select":
+            steps.append((_pair, pair, line.args[1], line.args[2]))
+            steps.append((_pick, index, line.args[0], pair))
+        elif line.op == "neg":
+            steps.append((operator.mul, index, line.args[0], minus_one))
         else:
-            values[index] = values[b] if values[a] else values[c]
+            steps.append((functions[line.op], index, line.args[0], line.args[-1]))
+    return steps
 
 
 class ScalarProgram:
@@ -113,7 +136,7 @@ class ScalarProgram:
         self.program = program
         self.lines = Lines.of(program)
         lines = self.lines.lines
-        self._start = [line.constant for line in lines]
+        self._start = start_values(lines)
         self._design = LineRunner(lines, self.lines.design_lines())
         self._position = LineRunner(lines, [i for i, x in enumerate(lines) if x.varies and x.is_operation])
         self._inputs = {
@@ -149,7 +172,7 @@ class ScalarProgram:
     def _design_values(self, parameters: Sequence[float]) -> list[Any]:
         given = tuple(float(p) for p in parameters)
         if given != self._parameters:
-            values: list[Any] = list(self._start)
+            values = list(self._start)
             self._put(values, "parameter", given)
             self._design.run(values)
             self._parameters, self._prepared = given, values

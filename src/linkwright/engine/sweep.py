@@ -38,6 +38,7 @@ def sweep(
     fields: Arrays | None = None,
     start: ArrayLike | None = None,
     valid: str | None = "valid",
+    after: Program | None = None,
     threads: int | None = None,
     backend: Backend = "auto",
     progress: Progress | None = None,
@@ -47,30 +48,34 @@ def sweep(
     ``parameters``: (designs, parameters) in the order of ``program.parameters``. ``positions``:
     (n,) per name; ``fields``: (designs, n) per name; ``start``: (designs, states), where the
     program carries states. ``valid``: the truth output that says which positions enter; without
-    an output of this name all do. ``threads``: None for all cores; results do not depend on it.
-    ``progress(done, designs)`` is called now and then; what it raises stops the sweep, as the
-    keyboard's interrupt does. ``backend`` ``auto`` compiles where that pays and llvmlite is there.
+    an output of this name all do. ``after``: a program per design, evaluated once its positions
+    are through (see :class:`~linkwright.engine.reductions.Accumulation`). ``threads``: None for
+    all cores; results do not depend on it. ``progress(done, designs)`` is called now and then;
+    what it raises stops the sweep, as the keyboard's interrupt does. ``backend`` ``auto``
+    compiles where that pays and llvmlite is there.
 
-    Returns ``output.kind`` to an array (designs,), and the number of valid positions as
-    ``valid.count``; for a design without a valid position NaN, position number -1, sum and
-    count 0. Raises ValueError for unknown outputs, kinds or back ends and missing inputs.
+    Returns ``output.kind`` to an array (designs,), the outputs of ``after`` by their names, and
+    the number of valid positions as ``valid.count``; for a design without a valid position NaN,
+    position number -1, sum and count 0. Raises ValueError for unknown outputs, kinds or back
+    ends and missing inputs.
     """
     table = np.ascontiguousarray(parameters, dtype=np.float64)
     wanted = tuple(r if isinstance(r, Reduction) else Reduction(*r) for r in reductions)
     judged = valid if valid in program.output_names else None
-    key = (wanted, judged)
-    accumulation = _accumulations.get(program, key, lambda: Accumulation(program, *key))
+    accumulation = _accumulations.get(
+        program, (wanted, judged, id(after)), lambda: Accumulation(program, wanted, judged, after)
+    )
     given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
     n = _length(positions, given)
     run = _runner(accumulation, backend, len(table) * n)
     count = cores() if threads is None else threads
     parts: list[Results] = []
-    for first, after in chunks(len(table), max(1, _REPORT // max(n, 1))):
-        rows = {name: array[first:after] for name, array in given.items()}
-        begin = None if start is None else _rows(start, len(table))[first:after]
-        parts.append(run(_for_needed(accumulation, table[first:after]), positions, rows, begin, count))
+    for first, end in chunks(len(table), max(1, _REPORT // max(n, 1))):
+        rows = {name: array[first:end] for name, array in given.items()}
+        begin = None if start is None else _rows(start, len(table))[first:end]
+        parts.append(run(_for_needed(accumulation, table[first:end]), positions, rows, begin, count))
         if progress is not None:
-            progress(after, len(table))
+            progress(end, len(table))
     if not parts:
         return accumulation.finish(accumulation.start(0), n)
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -86,26 +91,40 @@ def sweep_numpy(
 ) -> Results:
     """The same as a compiled program's ``sweep``, by NumPy in blocks that fit the cache.
 
-    ``table``: (designs, parameters) in the order of ``accumulation.needed.parameters``.
+    ``table``: (designs, parameters) in the order of ``accumulation.parameters``.
     """
     evaluator = numpy_program(accumulation.needed)
     names = accumulation.needed.output_names
     sums = accumulation.start(len(table))
     n = _length(positions, fields)
     begin = None if start is None else _rows(start, len(table))
+    count = len(accumulation.needed.parameters)
 
-    def work(first: int, after: int) -> None:
-        rows = {name: np.asarray(array)[first:after] for name, array in fields.items()}
-        own = None if begin is None else begin[first:after]
-        part = sums[first:after]
-        for designs, columns, outputs in evaluator.blocks(
-            table[first:after], positions, rows, start=own, length=n
-        ):
+    def work(first: int, end: int) -> None:
+        rows = {name: np.asarray(array)[first:end] for name, array in fields.items()}
+        own = None if begin is None else begin[first:end]
+        part, numbers = sums[first:end], table[first:end, :count]
+        for designs, columns, outputs in evaluator.blocks(numbers, positions, rows, start=own, length=n):
             with np.errstate(all="ignore"):
                 accumulate(accumulation, part[designs], outputs, names, columns.start)
 
     spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), threads, work)
+    if accumulation.after is not None:
+        _follow(accumulation, accumulation.after, table, sums, n)
     return accumulation.finish(sums, n)
+
+
+def _follow(accumulation: Accumulation, after: Program, table: Floats, sums: Floats, n: int) -> None:
+    """Evaluate what follows the positions into its columns of ``sums``."""
+    inputs = np.empty((len(table), len(after.parameters)))
+    for column, name in enumerate(after.parameters):
+        origin, place = accumulation.source(name)
+        if origin == "count":
+            inputs[:, column] = n
+        else:
+            inputs[:, column] = (table if origin == "parameter" else sums)[:, place]
+    outputs = numpy_program(after).run_designs(inputs, {}, length=1)
+    sums[:, len(accumulation.steps) :] = outputs[:, :, 0]
 
 
 _accumulations: Recent[Program, Accumulation] = Recent(64)
@@ -118,7 +137,9 @@ def _runner(accumulation: Accumulation, backend: Backend, configurations: int) -
     if backend == "llvm" or (backend == "auto" and configurations >= _WORTH_COMPILING):
         from linkwright.engine.llvm_backend import compile_program
 
-        compiled = compile_program(accumulation.program, accumulation.reductions, accumulation.valid)
+        compiled = compile_program(
+            accumulation.program, accumulation.reductions, accumulation.valid, accumulation.after
+        )
         if compiled is not None:
             return lambda table, positions, fields, start, threads: compiled.sweep(
                 table, positions, fields, start=start, threads=threads, length=_length(positions, fields)
@@ -130,13 +151,13 @@ def _runner(accumulation: Accumulation, backend: Backend, configurations: int) -
 
 def _for_needed(accumulation: Accumulation, table: Floats) -> Floats:
     """The columns of the parameters that the reduced outputs depend on."""
-    program, needed = accumulation.program, accumulation.needed
+    program, needed = accumulation.program, accumulation.parameters
     if table.ndim != 2 or table.shape[1] != len(program.parameters):
         wanted = len(program.parameters)
         raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
-    if needed.parameters == program.parameters:
+    if needed == program.parameters:
         return table
-    return np.ascontiguousarray(table[:, [program.parameters.index(name) for name in needed.parameters]])
+    return np.ascontiguousarray(table[:, [program.parameters.index(name) for name in needed]])
 
 
 def _length(positions: Arrays, fields: Arrays) -> int:

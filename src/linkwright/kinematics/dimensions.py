@@ -31,11 +31,18 @@ class Dimensions:
     def __call__(self, address: str) -> Scalar:
         """The dimension at an address (``crank.length``)."""
         expression = self.mechanism.expressions.get(address)
-        if expression is not None and self.free:
+        if expression is not None and address not in self.free and self._follows(address):
             return self._from_expression(address)
         if self.nominal[address] == 0.0 and address not in self.free:
             return 0.0
         return self.trace.parameter(address)
+
+    def _follows(self, address: str) -> bool:
+        """Whether a dimension is an expression of something that varies."""
+        expression = self.mechanism.expressions.get(address)
+        if expression is None:
+            return address in self.free
+        return any(self._follows(name) for name in expression.names)
 
     def _from_expression(self, address: str) -> Scalar:
         from linkwright.kinematics.expressions import traced

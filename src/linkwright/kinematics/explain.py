@@ -38,7 +38,7 @@ class _Facts:
             for group in self.groups
             for fact in motion.solver.motion.placed[group.name].facts
         ]
-        values = motion.solver.evaluate(tuple(names), motion.positions, motion.states, motion.modes)
+        values = motion.solver.evaluate(tuple(names), motion.positions, motion.states, motion.modes, motion.design)
         self.values = {name: row[list(failed)] for name, row in zip(names, values, strict=True)}
 
     def outcome(self, place: int, index: int) -> Outcome:

@@ -13,8 +13,10 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
@@ -94,18 +96,18 @@ class Motion:
     """
 
     solver: MotionSolver
+    design: Design
     positions: Positions
     states: Mapping[str, Floats]
     modes: Mapping[str, Floats]
-    outcome_codes: Floats
-    _rows: dict[str, Floats] = field(repr=False)
+    rows: Rows = field(repr=False)
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
 
     @property
     def mechanism(self) -> Mechanism:
         """What was solved."""
-        return self.solver.mechanism
+        return self.design.mechanism
 
     @property
     def structure(self) -> Structure:
@@ -133,6 +135,11 @@ class Motion:
         if not self.inputs:
             raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input")
         return next(iter(self.inputs.values()))
+
+    @property
+    def outcome_codes(self) -> Floats:
+        """0 for a solved position, else the number (from 1) of the failing group, negative if singular, (n,)."""
+        return self.rows.values[self.rows.index["outcome"]]
 
     @cached_property
     def ok(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
@@ -190,12 +197,14 @@ class Motion:
         return self._fetch((f"{prefix}:{key}",))[0]
 
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
-        missing = tuple(name for name in names if name not in self._rows)
-        if missing:
-            values = self.solver.evaluate(missing, self.positions, self.states, self.modes)
+        return self.rows.fetch(names, self.evaluate)
+
+    def evaluate(self, names: tuple[str, ...]) -> Floats:
+        """Outputs of the program by name, (names, n); NaN where the position is not solved."""
+        values = self.solver.evaluate(names, self.positions, self.states, self.modes, self.design)
+        if not self.ok.all():
             values[:, ~self.ok] = np.nan
-            self._rows.update(zip(missing, values, strict=True))
-        return [self._rows[name] for name in names]
+        return values
 
     def _point_key(self, name: str) -> str:
         if name.endswith(".centre") and name.removesuffix(".centre") in self.mechanism.links:

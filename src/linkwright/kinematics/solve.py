@@ -12,6 +12,7 @@ from linkwright.kinematics.change_points import Passage, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
 
@@ -84,19 +85,18 @@ class MotionRun:
     def _evaluate(self, states: Mapping[str, Floats], modes: Mapping[str, Floats], notes: tuple[str, ...]) -> Motion:
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
-        codes = values[-1].copy()
+        codes = values[-1]
         barred = np.zeros(self.positions.count)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
-        values[:, (codes != 0) | (barred != 0)] = np.nan
-        rows = dict(zip(names[:-1], values[:-1], strict=True))
+        values[:-1, (codes != 0) | (barred != 0)] = np.nan
         return Motion(
             solver=self.solver,
+            design=self.solver.nominal,
             positions=self.positions,
             states=states,
             modes=modes,
-            outcome_codes=codes,
-            _rows=rows,
+            rows=Rows(values, {name: i for i, name in enumerate(names)}),
             notes=notes,
             barred=barred,
         )

@@ -12,6 +12,7 @@ from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
@@ -21,10 +22,12 @@ from linkwright.structure import Structure, structure
 class MotionSolver:
     """Programs of one mechanism, traced when first needed."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism: Mechanism, free: frozenset[str] = frozenset()) -> None:
         self.mechanism = mechanism
+        self.free = free
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
         self.flipping: frozenset[str] = frozenset()
+        self.iterations = 1
 
     @cached_property
     def structure(self) -> Structure:
@@ -36,21 +39,22 @@ class MotionSolver:
 
     @cached_property
     def motion(self) -> MotionTrace:
-        return trace_motion(self.mechanism, self.structure, modes_vary=self.flipping)
+        return trace_motion(
+            self.mechanism, self.structure, free=self.free, modes_vary=self.flipping, iterations=self.iterations
+        )
 
     @cached_property
     def outputs(self) -> MotionOutputs:
         return MotionOutputs(self.motion)
 
     @cached_property
-    def parameters(self) -> dict[str, float]:
-        """Values of all parameters: dimensions and signs of the assembly modes."""
-        modes = {f"mode:{name}": sign for name, sign in self.assembly.modes.items()}
-        return {**self.mechanism.dimensions(), **modes}
+    def nominal(self) -> Design:
+        """The mechanism as it is."""
+        return Design(self.mechanism, self.assembly.modes, {})
 
     def with_flips(self, groups: Iterable[str]) -> MotionSolver:
         """The same mechanism, with assembly modes of some groups given per position."""
-        other = MotionSolver(self.mechanism)
+        other = MotionSolver(self.mechanism, self.free)
         other.flipping = frozenset(groups)
         other.__dict__["structure"] = self.structure
         other.__dict__["assembly"] = self.assembly
@@ -63,11 +67,12 @@ class MotionSolver:
             self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
         return self._programs[names]
 
-    def states(self, positions: Positions) -> dict[str, Floats]:
+    def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
         if not self.motion.next_states:
             return {}
-        return Follower(self.mechanism, self.structure, self.assembly, self.parameters).follow(positions)
+        parameters = (design or self.nominal).parameters
+        return Follower(self.mechanism, self.structure, self.assembly, parameters).follow(positions)
 
     def evaluate(
         self,
@@ -75,9 +80,11 @@ class MotionSolver:
         positions: Positions,
         states: Mapping[str, Floats],
         modes: Mapping[str, Floats],
+        design: Design | None = None,
     ) -> Floats:
         """Outputs by name, shape (names, n)."""
         program = self.program(names)
-        values = [self.parameters[name] for name in program.program.parameters]
+        parameters = (design or self.nominal).parameters
+        values = [parameters[name] for name in program.program.parameters]
         arrays = {**positions.arrays, **modes}
         return np.asarray(program.run(values, arrays, None, states or None, length=positions.count))

@@ -13,6 +13,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
@@ -51,7 +52,7 @@ class Forces:
     solver: ForceSolver
     fields: Mapping[str, Floats]
     static: bool
-    _rows: dict[str, Floats] = field(repr=False)
+    rows: Rows = field(repr=False)
     notes: tuple[str, ...] = ()
 
     @property
@@ -205,13 +206,14 @@ class Forces:
         return next(iter(self.mechanism.drivers))
 
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
-        missing = tuple(name for name in names if name not in self._rows)
-        if missing:
-            m = self.motion
-            values = self.solver.evaluate(missing, m.positions, m.states, m.modes, self.fields)
-            values[:, ~m.ok] = np.nan
-            self._rows.update(zip(missing, values, strict=True))
-        return [self._rows[name] for name in names]
+        return self.rows.fetch(names, self.evaluate)
+
+    def evaluate(self, names: tuple[str, ...]) -> Floats:
+        """Outputs of the program by name, (names, n); NaN where the position is not solved."""
+        values = self.solver.evaluate(names, self.motion, self.fields)
+        if not self.motion.ok.all():
+            values[:, ~self.motion.ok] = np.nan
+        return values
 
     def __repr__(self) -> str:
         joints = ", ".join(self.mechanism.joints)

@@ -7,6 +7,7 @@ import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rows import Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.solver import ForceSolver
@@ -31,10 +32,10 @@ def run_forces(motion: Motion, static: bool) -> Forces:
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
     names = tuple(solver.outputs.standard())
-    values = solver.evaluate(names, motion.positions, motion.states, motion.modes, fields)
+    values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
-    return Forces(motion, solver, fields, static, dict(zip(names, values, strict=True)))
+    return Forces(motion, solver, fields, static, Rows(values, {name: i for i, name in enumerate(names)}))
 
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:

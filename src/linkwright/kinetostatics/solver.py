@@ -9,7 +9,8 @@ import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.outputs import ForceOutputs
@@ -60,14 +61,13 @@ class ForceSolver:
     def evaluate(
         self,
         names: tuple[str, ...],
-        positions: Positions,
-        states: Mapping[str, Floats],
-        modes: Mapping[str, Floats],
+        motion: Motion,
         fields: Mapping[str, Floats],
     ) -> Floats:
         """Outputs by name, shape (names, n)."""
         program = self.program(names)
-        values = [self.motion.parameters[name] for name in program.program.parameters]
-        arrays = {**positions.arrays, **modes}
+        values = [motion.design.parameters[name] for name in program.program.parameters]
+        positions, states = motion.positions, motion.states
+        arrays = {**positions.arrays, **motion.modes}
         given = {name: fields[name] for name in program.program.fields}
         return np.asarray(program.run(values, arrays, given, states or None, length=positions.count))

@@ -17,6 +17,7 @@ from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinematics.closure import Cut
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.pairs import Guide, pair_of
+from linkwright.kinematics.pose import Pose
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import TracedSite
 from linkwright.loads.site import Wrench
@@ -113,16 +114,22 @@ def _own_demand(motion: MotionTrace, link: str, forces: ForceTrace, inertia: boo
     mass = dimensions(f"{link}.mass")
     gravity = Vec(dimensions("gravity.x"), dimensions("gravity.y"))
     centre = dimensions.centre(link)
-    arm = state.arm(centre)
     acceleration = state.acceleration_of(centre) if inertia else ZERO
     force = (acceleration - gravity) * mass
-    moment: Scalar = arm.cross(force)
+    moment = _lever(state.pose, centre, force)
     if inertia:
         moment = moment + dimensions(f"{link}.inertia") * state.alpha
     for wrench in (w for group in forces.wrenches.values() for w in group if w.link == link):
         force = force - wrench.force
         moment = moment - (wrench.place - state.pose.place).cross(wrench.force) - wrench.torque
     return Demand(force, moment)
+
+
+def _lever(pose: Pose, local: Vec, force: Vec) -> Scalar:
+    """Moment about the anchor of a force at a point of the link."""
+    share = (local - pose.anchor).over(pose.rotor.local)
+    now = pose.rotor.now
+    return now.cross(force) * share.x + now.dot(force) * share.y
 
 
 class _Reverse:

@@ -34,6 +34,8 @@ from linkwright.model.signal_fields import Magnitude, Output, OutputName, Phase,
 from linkwright.registry import Registry
 
 if TYPE_CHECKING:
+    from linkwright.loads.signals import Array, Signals
+    from linkwright.loads.site import Site, Wrench
     from linkwright.model.nodes import Node
     from linkwright.model.plain_reader import Place
     from linkwright.model.reader import Reader
@@ -47,6 +49,7 @@ __all__ = [
     "Table",
     "joint",
     "link",
+    "links",
     "magnitude",
     "output",
     "phase",
@@ -86,6 +89,20 @@ class Load:
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
         """Checks across fields; ``report(key, message, remedy)`` adds a finding. A kind may replace this."""
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        """The load's forces and torques on the links, those on the frame included.
+
+        One formula for numbers and for traced values: ``+ - * /``, ``sqrt`` and ``select`` only.
+        """
+        raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
+
+    def from_cycle(self, signals: Signals) -> Array | None:
+        """What ``site.magnitude()`` gives at each position, (n,), where the kind finds it in a way of its own.
+
+        None for kinds whose magnitude is a number, an expression, a ramp or a table.
+        """
+        return None
 
     @classmethod
     def schema(cls) -> Schema:
@@ -222,6 +239,13 @@ def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: 
     return _declare(LinkName(moving=moving, doc=doc, key=key), default)
 
 
+def links(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """The names of two different links ``[a, b]``."""
+    from linkwright.model.read_joints import LinkNames
+
+    return _declare(LinkNames(doc=doc, key=key), default)
+
+
 def point_of(of: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
     """The name of a point of the link that the earlier field ``of`` names."""
     return _declare(PointName(of, doc=doc, key=key), default)
@@ -270,3 +294,24 @@ def table(dimension: str, *, default: Any = _REQUIRED, doc: str = "", key: str =
 def phase(*, default: Any = None, doc: str = "when the load acts (default: always)", key: str = "") -> Any:
     """A Phase of the cycle: InputPhase, MovingPhase or SwingPhase; None for the whole cycle."""
     return _declare(PhaseField(doc=doc, key=key), default)
+
+
+def check_ramp(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
+    """For ``Load.check``: a ramp needs a phase."""
+    if values.get("ramp") is not None and values.get("phase") is None:
+        report(
+            "ramp",
+            "a ramp runs over a phase, and none is given",
+            "add phase: {input: [from, to]} or another",
+        )
+
+
+def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
+    """For ``Load.check``: the two points of ``between`` are on different links."""
+    ends = values.get("between")
+    if ends is not None and ends[0].link == ends[1].link:
+        report(
+            "between",
+            f'both points are on the link "{ends[0].link}", so the load does nothing',
+            "name points of two links",
+        )

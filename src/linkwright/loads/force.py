@@ -6,29 +6,34 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from linkwright.engine.trace import sqrt
+from linkwright.engine.vector import Vec
+from linkwright.errors import LinkwrightError
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Phase, Table
+from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
 
 
 @LOADS.register("force")
 @dataclass(frozen=True, kw_only=True)
 class Force(Load):
-    """A force on the link ``on`` at its point ``at``, in N.
+    """A force on the link ``on`` at its point ``at``, in N: F = magnitude · unit vector of its direction.
 
-    Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of
-    ``on``;
-    ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q], along
-    that ray.
-    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [q0, q1], linear in the input
-    over the
-    phase; ``table``. A negative magnitude reverses the force. Outside ``phase`` the force is zero.
+    Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of ``on``;
+    ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q], along that ray.
+    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [q0, q1], linear in the input over the
+    phase; ``table``. A negative magnitude reverses the force. Instead of both: ``components`` [Fx, Fy] in frame
+    axes. Outside ``phase`` the force is zero. The frame takes no part: whatever presses is outside the machine.
+
+    Raises LinkwrightError where P and Q of a ray coincide, which then has no direction.
+    Source: the statics of a rigid body, any textbook of mechanics.
     """
 
     kind: ClassVar[str] = "force"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (
-        ("direction", "in_link", "normal_to", "along"),
-        ("magnitude", "ramp", "table"),
+        ("direction", "in_link", "normal_to", "along", "components"),
+        ("magnitude", "ramp", "table", "components"),
     )
     on: str = base.link(moving=True, doc="the link on which the force acts")
     at: str = base.point_of("on", doc="the point of the link at which it acts")
@@ -38,20 +43,39 @@ class Force(Load):
         "on", default=None, doc="[P, Q]: along the left normal of the ray P→Q"
     )
     along: tuple[str, str] | None = base.ray("on", default=None, doc="[P, Q]: along the ray P→Q")
+    components: tuple[float, float] | None = base.values(
+        "force", names=("x", "y"), default=None, doc="[Fx, Fy] in frame axes, instead of direction and magnitude"
+    )
     magnitude: float | Expression | None = base.magnitude("force", default=None, doc="magnitude")
-    ramp: tuple[float, float] | None = base.values(
-        "force", count=2, default=None, doc="from, to over the phase"
-    )
-    table: Table | None = base.table(
-        "force", default=None, doc="magnitude over the input, the time or an output"
-    )
+    ramp: tuple[float, float] | None = base.values("force", count=2, default=None, doc="from, to over the phase")
+    table: Table | None = base.table("force", default=None, doc="magnitude over the input, the time or an output")
     phase: Phase | None = base.phase()
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
-        if values.get("ramp") is not None and values.get("phase") is None:
-            report(
-                "ramp",
-                "a ramp runs over a phase, and none is given",
-                "add phase: {input: [from, to]} or another",
+        base.check_ramp(values, report)
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        return [Wrench(self.on, self._force(site), site.place(self.on, self.at))]
+
+    def _force(self, site: Site) -> Vec:
+        if self.components is None:
+            return self._unit(site) * site.magnitude()
+        given = Vec(site.dimension("components.x"), site.dimension("components.y"))
+        return given if self.phase is None else given * site.magnitude()
+
+    def _unit(self, site: Site) -> Vec:
+        if self.direction is not None:
+            return site.direction(site.dimension("direction"))
+        if self.in_link is not None:
+            return site.axis(self.on).turn(site.direction(site.dimension("in_link")))
+        p, q = self.normal_to or self.along or (self.at, self.at)
+        points = site.motion.mechanism.link(self.on).points
+        if points[p] == points[q]:
+            raise LinkwrightError(
+                f"loads.{self.name}: the points {p} and {q} of {self.on} coincide, so the ray {p}→{q} has no direction; "
+                "name two points that are apart"
             )
+        ray = site.place(self.on, q) - site.place(self.on, p)
+        unit = ray * (1.0 / sqrt(ray.square))
+        return unit.perp if self.normal_to else unit

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
+from linkwright.joints.prismatic import PrismaticJoint
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -19,8 +23,22 @@ class Wrench:
     torque: Scalar = 0.0
 
 
+class Described(Protocol):
+    """Something that knows its mechanism."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism as the file gives it."""
+        ...
+
+
 class Site(Protocol):
     """The mechanism at one position, as traced values. The frame is at rest."""
+
+    @property
+    def motion(self) -> Described:
+        """What moves."""
+        ...
 
     def place(self, link: str, point: str) -> Vec:
         """A point of a link in frame axes, m."""
@@ -57,3 +75,10 @@ class Site(Protocol):
     def direction(self, angle: Scalar) -> Vec:
         """Unit vector at an angle given as a dimension."""
         ...
+
+
+def guide_and_block(site: Site, joint: str) -> tuple[str, str]:
+    """The links of a prismatic joint: the one that carries the guide, the one that slides."""
+    found = site.motion.mechanism.joints[joint]
+    assert isinstance(found, PrismaticJoint)
+    return found.guide, found.block

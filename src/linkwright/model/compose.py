@@ -195,6 +195,8 @@ class _Composer:
         return found
 
     def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Scalar]) -> None:
+        if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and _nothing(value):
+            key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
             self.remark(key, "a key must be a single word", "write key: value", "key")
         elif key.text in seen:
@@ -225,3 +227,7 @@ def _whole(text: str) -> str:
     if any("\ud800" <= char <= "\udfff" for char in text):
         return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
     return text
+
+
+def _nothing(value: Node) -> bool:
+    return isinstance(value, Scalar) and value.empty

@@ -115,7 +115,7 @@ def _refuse_free(
 def _connections(
     mechanism: Mechanism, links: list[str], solved: list[str], driven: dict[str, object]
 ) -> Iterable[Connection]:
-    """The joints of a group as pairs of links; a pin of many links is hung on the first one solved."""
+    """The joints of a group as pairs of links; a pin of many links hangs on the frame, or on a link next to it, if one is solved."""
     for joint in mechanism.joints.values():
         if isinstance(joint, RevoluteJoint):
             yield from _pin_connections(mechanism, joint, links, solved)
@@ -138,7 +138,9 @@ def _pin_connections(
         for driver in mechanism.drivers.values()
         if driver.joint == joint.name
     }
-    present = sorted((link for link in joint.links if link in solved), key=solved.index) + mine
+    grounded = {link for other in mechanism.joints.values() if FRAME in other.joined for link in other.joined}
+    before = sorted((link for link in joint.links if link in solved), key=solved.index)
+    present = sorted(before, key=lambda link: (link != FRAME, link not in grounded)) + mine
     ends = [*mine, *(link for link in present if link in solved)]
     used: list[str] = []
     for pair, driver in pairs.items():

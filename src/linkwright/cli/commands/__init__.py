@@ -1,0 +1,36 @@
+"""The commands, one module each, imported only when the command is called.
+
+A module ``NAME`` has ``arguments(parser, say)``, which adds its options, and ``run(options, session)``, which
+returns the exit code. Its words are the area ``NAME`` of the catalogue, at least ``summary`` (one line for the
+list of commands), ``description`` and ``examples``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import pkgutil
+from typing import Protocol, cast
+
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+class Command(Protocol):
+    """What a command's module has."""
+
+    def arguments(self, parser: argparse.ArgumentParser, say: Say) -> None:
+        """Adds the command's own options."""
+
+    def run(self, options: argparse.Namespace, session: Session) -> int:
+        """Does the work and returns the exit code."""
+
+
+def names() -> tuple[str, ...]:
+    """Names of all commands, without importing any."""
+    return tuple(sorted(module.name for module in pkgutil.iter_modules(__path__)))
+
+
+def command(name: str) -> Command:
+    """The module of a command."""
+    return cast(Command, importlib.import_module(f"{__name__}.{name}"))

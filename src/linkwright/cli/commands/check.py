@@ -1,0 +1,82 @@
+"""``linkwright check``: everything that is wrong with model files, at once."""
+
+from __future__ import annotations
+
+import argparse
+
+from linkwright.cli.session import Session
+from linkwright.errors import Finding, LinkwrightError
+from linkwright.words import Say
+
+#: Positions of the cycle that are tried.
+TRIED = 72
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("files", metavar="FILE", nargs="+", help=say("check.files_help"))
+    parser.add_argument("--strict", action="store_true", help=say("check.strict_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Reads, analyses and turns each model once; 1 if any has an error, 2 if a file is not there."""
+    results = [(name, *findings_of(name)) for name in options.files]
+    if session.json:
+        _show_data(results, session)
+    else:
+        for name, found, fact in results:
+            _show(name, found, fact, session)
+    everything = [finding for _, found, _ in results for finding in found]
+    if any(finding.code in ("no-file", "not-a-file") for finding in everything):
+        return 2
+    grave = {"error", "warning"} if options.strict else {"error"}
+    return int(any(finding.severity in grave for finding in everything))
+
+
+def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
+    """What there is to say about a model file, and its structure in short where it has one."""
+    from linkwright.kinematics import solve_motion
+    from linkwright.model.file import check, load
+    from linkwright.structure import structure
+
+    found = check(name)
+    if any(finding.severity == "error" for finding in found):
+        return found, {}
+    try:
+        mechanism = load(name)
+        built = structure(mechanism)
+        fact = {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+        motion = solve_motion(mechanism, steps=TRIED, failures="mark")
+    except LinkwrightError as error:
+        return [*found, Finding("error", name, "", str(error), code="motion")], {}
+    if not motion.ok.all():
+        from linkwright.kinematics.explain import refusal
+
+        found = [*found, Finding("error", name, "", str(refusal(motion)), code="position")]
+    notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
+    return [*found, *notes], fact
+
+
+def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:
+    for finding in found:
+        session.show(str(finding))
+    errors = sum(finding.severity == "error" for finding in found)
+    if errors:
+        session.show(session.say("check.faulty", name=name, count=errors))
+    else:
+        session.show(session.say("check.fine", name=name, links=fact["links"], mobility=fact["mobility"]))
+
+
+def _show_data(results: list[tuple[str, list[Finding], dict[str, object]]], session: Session) -> None:
+    from linkwright.cli.data import finding_data, json_text
+
+    files = [
+        {
+            "file": name,
+            "ok": all(finding.severity != "error" for finding in found),
+            **fact,
+            "findings": [finding_data(finding) for finding in found],
+        }
+        for name, found, fact in results
+    ]
+    session.show(json_text({"ok": all(entry["ok"] for entry in files), "files": files}))

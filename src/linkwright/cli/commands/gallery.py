@@ -1,0 +1,103 @@
+"""``linkwright gallery``: the model files that come with Linkwright."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.files import write_whole
+from linkwright.cli.parser import nearest_of
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("action", metavar="list|show|copy", nargs="?", default="list", help=say("gallery.action_help"))
+    parser.add_argument("name", metavar="NAME", nargs="?", help=say("gallery.name_help"))
+    parser.add_argument("folder", metavar="DIR", nargs="?", default=".", help=say("gallery.folder_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Lists the gallery, prints one of its files or copies it."""
+    actions = {"list": _list, "show": _show, "copy": _copy}
+    if options.action not in actions:
+        say = session.say
+        offer = nearest_of(options.action, list(actions))
+        hint = say("cli.did_you_mean", name=f"gallery {offer}") if offer else ""
+        choices = ", ".join(actions)
+        raise UsageError(say("cli.bad_choice", name="gallery", value=options.action, choices=choices) + hint)
+    return actions[options.action](options, session)
+
+
+def _list(options: argparse.Namespace, session: Session) -> int:
+    from linkwright import gallery
+
+    entries = [_heading(name) for name in gallery.names() if options.name is None or options.name in name]
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text(entries))
+        return 0
+    wide = max((len(entry["name"]) for entry in entries), default=0)
+    for entry in entries:
+        session.show(f"{session.strong(entry['name'])}{' ' * (wide - len(entry['name']))}  {entry['title']}")
+    session.show()
+    session.show(session.say("gallery.hint"))
+    return 0
+
+
+def _show(options: argparse.Namespace, session: Session) -> int:
+    name, text = _text(options, session.say)
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text({**_heading(name), "text": text}))
+    else:
+        session.show(text.rstrip("\n"))
+    return 0
+
+
+def _copy(options: argparse.Namespace, session: Session) -> int:
+    name, text = _text(options, session.say)
+    path = Path(options.folder) / f"{name}.yaml"
+    write_whole(path, text, session.say, force=options.force)
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text({"written": str(path)}))
+    else:
+        session.show(session.say("cli.written", path=path))
+    return 0
+
+
+def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
+    """Name and text of the model that is asked for; raises UsageError with the nearest name."""
+    from linkwright import gallery
+
+    if options.name is None:
+        raise UsageError(say("gallery.which", action=options.action))
+    name = options.name.removeprefix("gallery:").removesuffix(".yaml")
+    known = gallery.names()
+    if name not in known:
+        offer = nearest_of(name, known)
+        hint = say("cli.did_you_mean", name=offer) if offer else say("cli.see_help", command="linkwright gallery")
+        raise UsageError(say("gallery.unknown", name=name) + hint)
+    return name, gallery.file(name).read_text(encoding="utf-8")
+
+
+def _heading(name: str) -> dict[str, str]:
+    """Title and purpose from the first lines of a gallery file, without reading the model."""
+    from linkwright import gallery
+
+    found = {"name": name, "title": "", "purpose": ""}
+    keys = {"name": "title", "purpose": "purpose"}
+    for line in gallery.file(name).read_text(encoding="utf-8").splitlines():
+        key, _, value = line.partition(": ")
+        if key in keys and not found[keys[key]]:
+            found[keys[key]] = value.strip().strip("\"'")
+        if all(found.values()):
+            break
+    return found

@@ -1,0 +1,74 @@
+"""``linkwright structure``: mobility and Assur groups; the traced program."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.engine.program import Program
+    from linkwright.model.mechanism import Mechanism
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument("--program", action="store_true", help=say("structure.program_help"))
+    parser.add_argument("--forces", action="store_true", help=say("structure.forces_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Prints the structure analysis; with ``--program`` the straight-line program as well."""
+    from linkwright.model.file import load
+    from linkwright.structure import structure
+
+    mechanism = load(options.file)
+    built = structure(mechanism)
+    program = _program(mechanism, options.forces) if options.program or options.forces else None
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        data: dict[str, object] = {"name": mechanism.name, **built.data()}
+        if program is not None:
+            data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
+        session.show(json_text(data))
+        return 0
+    session.show(session.strong(mechanism.name))
+    session.show()
+    session.show(built.text())
+    if program is not None:
+        session.show()
+        session.show(_counts(program, session.say))
+        session.show()
+        session.show(program.text())
+    return 0
+
+
+def _program(mechanism: Mechanism, forces: bool) -> Program:
+    """The program of everything that a result holds."""
+    from linkwright.kinematics.solver import MotionSolver
+
+    solver = MotionSolver(mechanism)
+    names = tuple(solver.outputs.standard())
+    if not forces:
+        return solver.program(names).program
+    from linkwright.kinetostatics.solver import ForceSolver
+
+    whole = ForceSolver(solver)
+    return whole.program((*names[:-1], *whole.outputs.standard())).program
+
+
+def _counts(program: Program, say: Say) -> str:
+    """Operations in a table: once per design, once per position."""
+    from linkwright.cli.text_table import aligned
+
+    counts = program.counts()
+    design, position = counts["design"], counts["position"]
+    kinds = sorted({*design, *position})
+    rows = [(say("structure.operation"), say("structure.per_design"), say("structure.per_position"))]
+    rows += [(kind, str(design.get(kind, 0)), str(position.get(kind, 0))) for kind in kinds]
+    rows.append((say("structure.total"), str(sum(design.values())), str(sum(position.values()))))
+    return "\n".join(aligned(rows, "<>>"))

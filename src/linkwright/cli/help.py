@@ -1,0 +1,84 @@
+"""The list of commands, the help of one command, and the versions."""
+
+from __future__ import annotations
+
+import textwrap
+from importlib.util import find_spec
+
+from linkwright.cli import commands
+from linkwright.cli.parser import CommandParser, add_common
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def overview(session: Session) -> None:
+    """All commands in one line each."""
+    say = session.say
+    names = commands.names()
+    wide = max(map(len, names)) + 2
+    rows = [f"{name:<{wide}}{say(f'{name}.summary')}" for name in names]
+    options = [
+        ("-h, --help", "help_help"),
+        ("--version", "version_help"),
+        ("--lang en|zh", "lang_help"),
+        ("--json", "json_help"),
+        ("--debug", "debug_help"),
+    ]
+    wide = max(len(option) for option, _ in options) + 2
+    session.show(
+        "\n".join(
+            [
+                f"{say('cli.usage')}{say('cli.usage_line')}\n",
+                f"{say('cli.tagline')}\n",
+                _section(say("cli.commands"), "\n".join(rows)),
+                _section(say("cli.options"), "\n".join(f"{o:<{wide}}{say(f'cli.{key}')}" for o, key in options)),
+                _section(say("cli.exit_title"), say("cli.exit_codes")),
+                say("cli.more"),
+            ]
+        )
+    )
+
+
+def command_parser(name: str, say: Say) -> CommandParser:
+    """The parser of a command with its help text."""
+    epilog = "\n".join(
+        [
+            _section(say("cli.examples"), say(f"{name}.examples")),
+            _section(say("cli.exit_title"), say("cli.exit_codes")),
+        ]
+    )
+    parser = CommandParser(f"linkwright {name}", say, description=say(f"{name}.description"), epilog=epilog)
+    commands.command(name).arguments(parser, say)
+    add_common(parser, say)
+    return parser
+
+
+def version(session: Session) -> None:
+    """Prints the versions, and whether compiled evaluation is there."""
+    import sys
+    from importlib.metadata import PackageNotFoundError
+    from importlib.metadata import version as version_of
+
+    from linkwright import __version__
+
+    found = {}
+    for package in ("numpy", "llvmlite"):
+        try:
+            found[package] = version_of(package) if find_spec(package) else None
+        except PackageNotFoundError:
+            found[package] = None
+    python = ".".join(map(str, sys.version_info[:3]))
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text({"linkwright": __version__, "python": python, **found}))
+        return
+    say = session.say
+    numpy = found["numpy"] or say("cli.not_installed")
+    session.show(say("cli.version", version=__version__, python=python, numpy=numpy))
+    compiled = found["llvmlite"]
+    session.show(say("cli.llvmlite_there", version=compiled) if compiled else say("cli.llvmlite_missing"))
+
+
+def _section(title: str, body: str) -> str:
+    return f"{title}:\n{textwrap.indent(body, '  ')}\n"

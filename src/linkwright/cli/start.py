@@ -1,0 +1,151 @@
+"""From the arguments of the process to a command and its exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+from linkwright.cli import commands
+from linkwright.cli.errors import UsageError
+from linkwright.cli.help import command_parser, overview, version
+from linkwright.cli.parser import nearest_of
+from linkwright.cli.session import Session
+from linkwright.errors import LinkwrightError, ModelError
+from linkwright.words import LANGUAGES, Say, speaker
+
+FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
+#: Codes of findings that say that there is no such file: a slip in the command, not in a model.
+_NO_FILE = frozenset({"no-file", "not-a-file"})
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs one command and returns its exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    session = Session(speaker("en"))
+    try:
+        language = _language(arguments)
+        session = Session(speaker(language), language, json="--json" in arguments, debug="--debug" in arguments)
+        code = _dispatch(arguments, session)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        return _quiet_end()
+    except KeyboardInterrupt:
+        session.tell(session.say("cli.interrupted"))
+        return INTERRUPTED
+    except LinkwrightError as error:
+        return _refused(error, session)
+    except MemoryError:
+        session.tell(_headed(session.say("cli.out_of_memory"), session))
+        return FAULTY
+    except Exception as error:
+        return _unexpected(error, session)
+
+
+def _dispatch(arguments: list[str], session: Session) -> int:
+    head, name, rest = _split(arguments)
+    if name == "help":
+        name, rest = (rest[0], [*rest[1:], "--help"]) if rest else (None, ["--help"])
+        head = [*head, *([] if name else rest)]
+    if name is not None:
+        return _command(name, [*head, *rest], session)
+    if "--version" in head or "-V" in head:
+        version(session)
+    elif "--help" in head or "-h" in head:
+        overview(session)
+    elif unknown := [word for word in head if word not in ("--json", "--debug") and not word.startswith("--lang")]:
+        raise UsageError(_unknown(session.say, "cli.unknown_option", unknown[0], ["--help", "--version", "--lang"]))
+    else:
+        session.show(session.say("cli.start"))
+    return FINE
+
+
+def _command(name: str, arguments: list[str], session: Session) -> int:
+    known = commands.names()
+    if name not in known:
+        raise UsageError(_unknown(session.say, "cli.unknown_command", name, known))
+    parser = command_parser(name, session.say)
+    if "--help" in arguments or "-h" in arguments:
+        session.show(parser.format_help().rstrip())
+        return FINE
+    return commands.command(name).run(parser.read(arguments), session)
+
+
+def _split(arguments: Sequence[str]) -> tuple[list[str], str | None, list[str]]:
+    """Options before the command, the command, what follows it."""
+    head: list[str] = []
+    waiting = iter(range(len(arguments)))
+    for index in waiting:
+        word = arguments[index]
+        if not word.startswith("-"):
+            return head, word, list(arguments[index + 1 :])
+        if word == "--lang":
+            head.append(f"--lang={arguments[index + 1]}")
+            next(waiting)
+        else:
+            head.append(word)
+    return head, None, []
+
+
+def _language(arguments: Sequence[str]) -> str:
+    """The language of ``--lang``, else of the environment, else English; taken out of no list."""
+    chosen = os.environ.get("LINKWRIGHT_LANG") or "en"
+    if chosen not in LANGUAGES:
+        chosen = "en"
+    for index, word in enumerate(arguments):
+        if word == "--lang":
+            if index + 1 == len(arguments):
+                raise UsageError(f"linkwright: {speaker(chosen)('cli.needs_value', name='--lang')}")
+            asked = arguments[index + 1]
+        elif word.startswith("--lang="):
+            asked = word.removeprefix("--lang=")
+        else:
+            continue
+        if asked not in LANGUAGES:
+            raise UsageError(f"linkwright: {speaker(chosen)('cli.bad_language', name=asked)}")
+        chosen = asked
+    return chosen
+
+
+def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
+    offer = nearest_of(word, known)
+    hint = say("cli.did_you_mean", name=offer) if offer else say("cli.see_help", command="linkwright")
+    return f"linkwright: {say(key, name=word)}{hint}"
+
+
+def _refused(error: LinkwrightError, session: Session) -> int:
+    """Tells what is wrong; with ``--json`` as data as well."""
+    usage = isinstance(error, UsageError)
+    missing = isinstance(error, ModelError) and all(found.code in _NO_FILE for found in error.findings)
+    session.tell(str(error) if usage or isinstance(error, ModelError) else _headed(str(error), session))
+    if session.json:
+        from linkwright.cli.data import finding_data, json_text
+
+        findings = [finding_data(found) for found in getattr(error, "findings", ())]
+        session.show(json_text({"ok": False, "error": str(error), "findings": findings}))
+    return MISUSED if usage or missing else FAULTY
+
+
+def _unexpected(error: Exception, session: Session) -> int:
+    if session.debug:
+        import traceback
+
+        traceback.print_exception(error)
+    message = " ".join(str(error).split())
+    sentence = session.say("cli.unexpected", kind=type(error).__name__, message=message)
+    session.tell(_headed(sentence, session))
+    return FAULTY
+
+
+def _headed(sentence: str, session: Session) -> str:
+    return f"{session.alarm(session.say('cli.error'))}: {sentence}"
+
+
+def _quiet_end() -> int:
+    """Nobody reads any more: the rest goes nowhere, without a complaint at the end of the process."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):
+        pass
+    return FINE

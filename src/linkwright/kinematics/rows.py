@@ -1,0 +1,28 @@
+"""Stored outputs by name, and further ones evaluated when somebody asks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Rows:
+    """``values`` (outputs, n) with the row number of every name in ``index``; ``extra`` rows by name."""
+
+    __slots__ = ("extra", "index", "values")
+
+    def __init__(self, values: Floats, index: Mapping[str, int]) -> None:
+        self.values = values
+        self.index = index
+        self.extra: dict[str, Floats] = {}
+
+    def fetch(self, names: tuple[str, ...], evaluate: Callable[[tuple[str, ...]], Floats]) -> list[Floats]:
+        """The rows of some outputs, (n,) each; ``evaluate`` supplies those that are not stored."""
+        missing = tuple(name for name in names if name not in self.index and name not in self.extra)
+        if missing:
+            self.extra.update(zip(missing, evaluate(missing), strict=True))
+        return [self.values[self.index[name]] if name in self.index else self.extra[name] for name in names]

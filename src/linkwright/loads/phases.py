@@ -1,0 +1,163 @@
+"""When a load acts, and how far its phase has gone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
+from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, Phase, SwingPhase
+
+TURN = 2 * np.pi
+#: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Activity:
+    """``where`` (n,) a load acts; ``share`` (n,) of its phase that is passed, 0 to 1, linear in the input."""
+
+    where: Mask
+    share: Array | None = None
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """One way of an output from a limit to another; the times and inputs grow through the end of the cycle."""
+
+    begin: tuple[float, float]
+    end: tuple[float, float]
+
+
+def activity(phase: Phase | None, signals: Signals, *, ramp: bool = False) -> Activity:
+    """When a phase is on, and its share where a ``ramp`` asks for it.
+
+    Raises LinkwrightError where the phase does not exist in the cycle.
+    """
+    match phase:
+        case None:
+            return Activity(np.ones(len(signals.time), dtype=bool))
+        case InputPhase():
+            return _input(phase, signals)
+        case MovingPhase():
+            return _moving(phase, signals, ramp)
+    return _along(_swings(phase, signals), signals, phase.output, ramp)
+
+
+def _input(phase: InputPhase, signals: Signals) -> Activity:
+    """Closed interval of the input; of angles modulo one turn.
+
+    With ``start`` above ``end`` a turning input goes from start to end in its own direction of motion.
+    """
+    start, end, q = phase.start, phase.end, signals.input
+    if not signals.rotary:
+        inside = (q >= min(start, end) - NEAR) & (q <= max(start, end) + NEAR)
+        return Activity(inside, np.clip((q - start) / (end - start), 0.0, 1.0))
+    length = end - start
+    if length < 0 and signals.heading == 0:
+        raise LinkwrightError(
+            f"the phase goes from {shown(start, 'angle')} down to {shown(end, 'angle')}, but the input turns to and fro; "
+            "write the smaller angle first"
+        )
+    if length < 0 and signals.heading > 0:
+        length = length % TURN or TURN
+    if abs(length) > TURN + NEAR:
+        raise LinkwrightError(
+            f"the phase from {shown(start, 'angle')} to {shown(end, 'angle')} is longer than one turn of the input; "
+            "use a table over the time instead"
+        )
+    gone = (q - min(start, start + length)) % TURN
+    gone = np.where(gone > TURN - NEAR, gone - TURN, gone)
+    share = np.clip(gone / abs(length), 0.0, 1.0)
+    return Activity(gone <= abs(length) + NEAR, share if length > 0 else 1.0 - share)
+
+
+def _moving(phase: MovingPhase, signals: Signals, ramp: bool) -> Activity:
+    """While the exact rate has the asked sign; a ramp goes from each reversal to the next."""
+    rate = signals.output(phase.output)[1]
+    rising = phase.direction == "increasing"
+    where = rate > 0 if rising else rate < 0
+    if not ramp:
+        return Activity(where)
+    limits = _some(signals.limits(phase.output), phase.output)
+    ends = ("min", "max") if rising else ("max", "min")
+    found = _along(stretches(limits, *ends, signals.whole), signals, phase.output, ramp)
+    return Activity(where & found.where, found.share)
+
+
+def _swings(phase: SwingPhase, signals: Signals) -> list[Stretch]:
+    limits = _some(signals.limits(phase.output), phase.output)
+    extreme = outermost(limits)
+    found = stretches(extreme, phase.start, phase.end, signals.whole)
+    if found:
+        return found
+    places = ", ".join(f"{each.kind} at input {shown(each.input, input_dimension(signals))}" for each in extreme)
+    raise LinkwrightError(
+        f"the output '{phase.output}' does not go from its {phase.start} to its {phase.end} within the cycle "
+        f"(it has its {places}); let the cycle hold both, or exchange from and to"
+    )
+
+
+def _some(limits: Sequence[Limit], output: Output) -> Sequence[Limit]:
+    if limits:
+        return limits
+    raise LinkwrightError(
+        f"the output '{output}' never reverses within the cycle, so it has no limit positions; choose an output that "
+        "swings, or give the phase by the input: {input: [a, b]}"
+    )
+
+
+def outermost(limits: Sequence[Limit]) -> list[Limit]:
+    """Of all reversals those with the largest and the smallest value of the output."""
+    values = [each.value for each in limits]
+    slack = NEAR * (max(values) - min(values))
+    best = {
+        "max": max((each.value for each in limits if each.kind == "max"), default=np.inf) - slack,
+        "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
+    }
+    return [each for each in limits if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])]
+
+
+def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> list[Stretch]:
+    """From each limit of one kind to the other kind's next one, across the end of a cycle that closes."""
+    found = []
+    for index, last in enumerate(limits):
+        first = limits[index - 1]
+        if (first.kind, last.kind) != (start, end) or (index == 0 and whole.period is None):
+            continue
+        wrap = index == 0
+        period, drift = (whole.period or 0.0, whole.drift) if wrap else (0.0, 0.0)
+        found.append(Stretch((first.time - period, first.input - drift), (last.time, last.input)))
+    return found
+
+
+def _along(found: Sequence[Stretch], signals: Signals, output: Output, ramp: bool) -> Activity:
+    where = np.zeros(len(signals.time), dtype=bool)
+    share = np.zeros(len(signals.time))
+    for stretch in found:
+        inside, gained = _within(stretch, signals)
+        rise = stretch.end[1] - stretch.begin[1]
+        if ramp and abs(rise) < NEAR * (1.0 + abs(stretch.end[1])):
+            raise LinkwrightError(
+                f"the input is the same at both limit positions of '{output}', so a ramp over the input has no length; "
+                f"give a table over {output} instead"
+            )
+        where |= inside
+        if ramp:
+            share = np.where(inside, np.clip(gained / rise, 0.0, 1.0), share)
+    return Activity(where, share if ramp else None)
+
+
+def _within(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
+    """Where the positions lie in a stretch, and what the input has gained since its beginning."""
+    length = stretch.end[0] - stretch.begin[0]
+    since, gained = signals.time - stretch.begin[0], signals.input - stretch.begin[1]
+    whole = signals.whole
+    slack = NEAR * (whole.period or length)
+    if whole.period is not None:
+        laps = np.floor((since + slack) / whole.period)
+        since, gained = since - laps * whole.period, gained - laps * whole.drift
+    return (since >= -slack) & (since <= length + slack), gained

@@ -1,0 +1,116 @@
+"""What the magnitude of a load may follow: the input, the time, outputs of the mechanism, and their limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.model.signal_fields import Output
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A position in which an output reverses: ``input`` (rad or m) and ``time`` (s) there, ``value`` of the output."""
+
+    input: float
+    time: float
+    value: float
+    kind: Literal["max", "min"]
+
+
+@dataclass(frozen=True)
+class Whole:
+    """The cycle over which limits are found: ``period`` s and gain ``drift`` of the input in it, if it closes."""
+
+    period: float | None
+    drift: float = 0.0
+
+
+class Signals(Protocol):
+    """The n positions at which magnitudes are wanted; arrays are (n,)."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """Whose loads they are."""
+        ...
+
+    @property
+    def time(self) -> Array:
+        """Times, s."""
+        ...
+
+    @property
+    def input(self) -> Array:
+        """Coordinate of the first driver, rad or m; raises LinkwrightError where there is no driver."""
+        ...
+
+    @property
+    def rotary(self) -> bool:
+        """Whether the first driver turns."""
+        ...
+
+    @property
+    def heading(self) -> int:
+        """1 where the input only grows over the cycle, -1 where it only falls, else 0."""
+        ...
+
+    @property
+    def ok(self) -> Mask:
+        """Which positions are solved."""
+        ...
+
+    @property
+    def closes(self) -> tuple[float, float] | None:
+        """Period (s) and gain of the input in it, where the first position follows the last one; else None."""
+        ...
+
+    @property
+    def whole(self) -> Whole:
+        """The cycle over which ``limits`` are found."""
+        ...
+
+    def output(self, output: Output) -> tuple[Array, Array]:
+        """Value and rate of an output; an angle is continuous over the cycle, a rate of rounding size is zero."""
+        ...
+
+    def limits(self, output: Output) -> Sequence[Limit]:
+        """Where an output reverses within the whole cycle, by increasing time, to machine precision."""
+        ...
+
+    def angle_between(self, a: str, b: str, near: float) -> Array:
+        """Angle of link b against link a, rad, within half a turn of ``near`` where the cycle begins, and continuous."""
+        ...
+
+
+def shown(value: float, dimension: str) -> str:
+    """A value for a message: angles in degrees, times in s, lengths in m."""
+    if dimension == "angle":
+        return f"{round(float(np.degrees(value)), 9):.6g}°"
+    return f"{value:.6g} {'s' if dimension == 'time' else 'm'}"
+
+
+def input_dimension(signals: Signals) -> str:
+    """Name of the dimension of the input."""
+    return "angle" if signals.rotary else "length"
+
+
+def spot(signals: Signals, index: int) -> str:
+    """Where a position is, for a message."""
+    if not signals.mechanism.drivers:
+        return "in the only position"
+    return f"at input = {shown(float(signals.input[index]), input_dimension(signals))}"
+
+
+def column(value: Any, count: int) -> Array:
+    """A number or an array as an array (n,)."""
+    return np.array(np.broadcast_to(np.asarray(value, dtype=float), (count,)))

@@ -1,0 +1,43 @@
+"""A torque between two links."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from linkwright.loads import base
+from linkwright.loads.base import LOADS, Load, Phase, Table
+from linkwright.loads.site import Site, Wrench
+from linkwright.model.expressions import Expression
+
+
+@LOADS.register("torque")
+@dataclass(frozen=True, kw_only=True)
+class Torque(Load):
+    """A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.
+
+    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over the
+    phase; ``table``. Outside ``phase`` it is zero.
+
+    Source: the statics of a rigid body, any textbook of mechanics.
+    """
+
+    kind: ClassVar[str] = "torque"
+    exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("magnitude", "ramp", "table"),)
+    on: str = base.link(moving=True, doc="the link on which the torque acts")
+    against: str = base.link(default="frame", doc="the link that takes the opposite torque (default: frame)")
+    magnitude: float | Expression | None = base.magnitude("torque", default=None, doc="magnitude")
+    ramp: tuple[float, float] | None = base.values("torque", count=2, default=None, doc="from, to over the phase")
+    table: Table | None = base.table("torque", default=None, doc="magnitude over the input, the time or an output")
+    phase: Phase | None = base.phase()
+
+    @classmethod
+    def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
+        base.check_ramp(values, report)
+        if values.get("on") is not None and values.get("on") == values.get("against"):
+            report("against", f'the torque acts on and against the same link "{values["on"]}"', "name another link")
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        moment = site.magnitude()
+        return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]

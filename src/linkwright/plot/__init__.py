@@ -1,0 +1,1 @@
+"""Drawings, diagrams and animations of mechanisms and their results."""

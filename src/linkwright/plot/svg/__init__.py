@@ -1,0 +1,1 @@
+"""SVG text, and pictures made of it."""

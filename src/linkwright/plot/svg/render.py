@@ -1,0 +1,72 @@
+"""PNG by resvg and PDF by Typst, both from the same SVG."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.plot.svg.files import write_whole
+from linkwright.plot.svg.fonts import check_fonts
+
+Paths = Sequence[str | Path]
+
+
+def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths = ()) -> bytes:
+    """The picture in pixels: ``width`` of them across, or ``zoom`` for each unit of the SVG.
+
+    ``fonts`` are files used beside the system's. Raises LinkwrightError where resvg-py is not installed, or
+    where the text has Chinese characters and no font for them is found.
+    """
+    try:
+        import resvg_py
+    except ImportError:
+        raise LinkwrightError("PNG pictures need resvg-py; install linkwright[plot]") from None
+    files = _font_files(fonts)
+    check_fonts(svg, files)
+    size: dict[str, Any] = {"width": int(width)} if width is not None else {"zoom": float(zoom)}
+    try:
+        return bytes(
+            resvg_py.svg_to_bytes(
+                svg_string=svg, font_files=[str(file) for file in files], sans_serif_family="DejaVu Sans", **size
+            )
+        )
+    except ValueError as problem:
+        raise LinkwrightError(f"the picture cannot be made: {problem}; give a smaller size") from None
+
+
+def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
+    """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package."""
+    try:
+        import typst
+    except ImportError:
+        raise LinkwrightError("PDF pictures need typst; install linkwright[plot]") from None
+    files = _font_files(fonts)
+    check_fonts(svg, files)
+    source = "#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: \"svg\")\n"
+    made = typst.compile(
+        source.encode(), sys_inputs={"svg": svg}, font_paths=[str(file.parent) for file in files], format="pdf"
+    )
+    assert isinstance(made, bytes)
+    return made
+
+
+def save_picture(svg: str, path: str | Path, **options: Any) -> Path:
+    """Write a picture; the suffix of ``path`` says which kind: svg, png or pdf."""
+    suffix = Path(path).suffix.lower()
+    if suffix == ".svg":
+        return write_whole(path, svg.encode())
+    if suffix == ".png":
+        return write_whole(path, png(svg, **options))
+    if suffix == ".pdf":
+        return write_whole(path, pdf(svg, **options))
+    raise LinkwrightError(f'{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf')
+
+
+def _font_files(fonts: Paths) -> list[Path]:
+    files = [Path(font) for font in fonts]
+    for file in files:
+        if not file.is_file():
+            raise LinkwrightError(f"the font file {file} does not exist; give the path of a TTF or OTF file")
+    return files

@@ -1,0 +1,49 @@
+"""Widths of text without a font at hand, and names with indices."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from linkwright.plot.svg.element import Element, element
+
+NARROW = frozenset("iljtfrI.,:;'|![]() ")
+WIDE = frozenset("mwMW@%")
+_INDEX = re.compile(r"^(?P<stem>[^\W\d_]{1,2}'*)_?(?P<index>\d+'*)$")
+
+
+def width(text: str, size: float) -> float:
+    """Width of a line of text at a font size, estimated a little too large rather than too small."""
+    return size * sum(_share(character) for character in text)
+
+
+def _share(character: str) -> float:
+    if unicodedata.east_asian_width(character) in "WF":
+        return 1.02
+    if character in NARROW:
+        return 0.36
+    if character in WIDE:
+        return 0.95
+    return 0.7 if character.isupper() else 0.6
+
+
+def split_index(name: str) -> tuple[str, str]:
+    """``O1`` is O with the index 1; other names have no index."""
+    found = _INDEX.match(name)
+    return (found["stem"], found["index"]) if found else (name, "")
+
+
+def name_width(name: str, size: float) -> float:
+    """Width of a name whose index is set small."""
+    stem, index = split_index(name)
+    return width(stem, size) + width(index, 0.7 * size)
+
+
+def text_element(x: float, y: float, name: str, style: str, size: float, anchor: str = "start") -> Element:
+    """A line of text with its baseline at (x, y); a trailing number of a short name is set as an index."""
+    stem, index = split_index(name)
+    content: list[Element | str] = [stem]
+    if index:
+        content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.7 * size}, index))
+    place = {"class": style, "x": x, "y": y, "font-size": size}
+    return element("text", place | ({} if anchor == "start" else {"text-anchor": anchor}), *content)

@@ -1,0 +1,1 @@
+"""Symbols of kinematic drawings: one file per symbol."""

@@ -1,0 +1,136 @@
+"""A mechanism prepared to be solved again and again with other dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Literal
+
+import numpy as np
+
+from linkwright.engine.numpy_backend import numpy_program
+from linkwright.engine.program import Program
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats, Positions, over_cycle
+from linkwright.kinematics.design import Design
+from linkwright.kinematics.explain import refusal
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rows import Rows
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import run_forces
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+
+Backend = Literal["auto", "numpy", "llvm"]
+
+
+def prepare(
+    mechanism: Mechanism, *, vary: Iterable[str] = (), steps: int = 360, backend: Backend = "auto"
+) -> Prepared:
+    """Traces and compiles a mechanism once, so that every further design costs little more than its numbers.
+
+    Args:
+        mechanism: the design to start from.
+        vary: addresses of dimensions that will change (``pitman.length``), or names of parameters.
+        steps: positions over the cycle.
+        backend: ``llvm`` compiled code, ``numpy``, or ``auto``: compiled code where llvmlite is there.
+
+    Raises:
+        LinkwrightError: an unknown address (nearest ones offered), or ``llvm`` without llvmlite.
+    """
+    return Prepared(mechanism, tuple(vary), over_cycle(mechanism, steps), backend)
+
+
+class Prepared:
+    """Solves designs of one mechanism; made by :func:`prepare`.
+
+    The assembly modes are those of the starting design; positions are those of its input.
+    """
+
+    def __init__(self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend) -> None:
+        known = mechanism.dimensions()
+        for address in vary:
+            if address not in known:
+                offer = nearest(address, known)
+                hint = f"; did you mean {offer!r}?" if offer else ""
+                raise LinkwrightError(f"there is no dimension {address!r} in {mechanism.name!r}{hint}")
+        self.mechanism = mechanism
+        self.vary = vary
+        self.positions = positions
+        self.solver = MotionSolver(mechanism, frozenset(vary))
+        self.force_solver = ForceSolver(self.solver)
+        self._names = tuple([*self.solver.outputs.standard()[:-1], *self.force_solver.outputs.standard(), "outcome"])
+        self._index = {name: i for i, name in enumerate(self._names)}
+        self.program = self._trace()
+        self._evaluate = self._evaluator(backend)
+        nominal = self.solver.nominal.parameters
+        self._base = np.array([nominal[name] for name in self.program.parameters])
+        self._places = {name: i for i, name in enumerate(self.program.parameters)}
+        self._plain = not (self.program.fields or self.program.states)
+
+    def _trace(self) -> Program:
+        motion, forces = self.solver.outputs, self.force_solver.outputs
+        stored = set(motion.standard())
+        values = {name: (motion if name in stored else forces).value(name) for name in self._names}
+        return Program.of(self.solver.motion.trace, values)
+
+    def _evaluator(self, backend: Backend):  # type: ignore[no-untyped-def]
+        arrays = {name: self.positions.arrays[name] for name in self.program.positions}
+        if backend != "numpy":
+            from linkwright.engine.llvm_backend import compile_program
+
+            compiled = compile_program(self.program) if self.program.positions else None
+            if compiled is not None and not self.program.states:
+                return lambda table: compiled.run(table, arrays)
+            if backend == "llvm":
+                raise LinkwrightError("this mechanism cannot be compiled here: llvmlite is missing, or a group iterates")
+        evaluator = numpy_program(self.program)
+        return lambda table: evaluator.run(table, arrays, length=self.positions.count)
+
+    def solve(self, changes: Mapping[str, float], *, failures: Literal["raise", "mark"] = "raise") -> Forces:
+        """Motion and forces of the design with some dimensions changed (SI values by address).
+
+        Raises:
+            LinkwrightError: a dimension that was not named in ``vary``.
+            PositionError: a position cannot be reached, and ``failures`` is ``raise``.
+        """
+        design = Design(self.mechanism, self.solver.assembly.modes, changes)
+        if not self._plain:
+            return self._solve_in_turn(design, failures)
+        values = self._evaluate(self._table(changes))
+        motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
+        if values[-1].any():
+            if failures == "raise":
+                raise refusal(motion)
+            values[:-1, values[-1] != 0.0] = np.nan
+        return Forces(motion, self.force_solver, {}, False, motion.rows)
+
+    def _table(self, changes: Mapping[str, float]) -> Floats:
+        table = self._base.copy()
+        for address, value in changes.items():
+            place = self._places.get(address)
+            if place is not None:
+                table[place] = value
+            elif address not in self.vary:
+                raise LinkwrightError(
+                    f"{address!r} was not named when the mechanism was prepared; "
+                    f"write prepare(mechanism, vary=[{address!r}, …])"
+                )
+        return table
+
+    def _solve_in_turn(self, design: Design, failures: str) -> Forces:
+        """Motion first, as loads or iterations need it."""
+        states = self.solver.states(self.positions, design)
+        names = tuple(self.solver.outputs.standard())
+        values = self.solver.evaluate(names, self.positions, states, {}, design)
+        index = {name: i for i, name in enumerate(names)}
+        barred = np.zeros(self.positions.count)
+        for row in states.values():
+            barred = np.where(np.isfinite(row), barred, 1.0)
+        motion = Motion(self.solver, design, self.positions, states, {}, Rows(values, index), (), barred)
+        if not motion.ok.all():
+            if failures == "raise":
+                raise refusal(motion)
+            values[:-1, ~motion.ok] = np.nan
+        return run_forces(motion, False)

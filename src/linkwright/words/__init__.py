@@ -1,0 +1,52 @@
+"""Every word that a user reads, by key and language.
+
+A key begins with its area: ``solve.summary`` is in ``words/en/solve.py`` and ``words/zh/solve.py``, each
+with one mapping ``WORDS`` of keys without the area. A new area is one more file per language; both
+languages have the same keys and the same ``{names}`` in their texts.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
+
+LANGUAGES = ("en", "zh")
+Say = Callable[..., str]
+
+
+def say(key: str, language: str = "en", **values: object) -> str:
+    """The text of a key in a language, with ``{names}`` replaced by ``values``; raises KeyError for an unknown key."""
+    area, _, name = key.partition(".")
+    text = catalogue(area, language)[name]
+    return text.format(**values) if values else text
+
+
+def speaker(language: str) -> Say:
+    """``say`` for one language: ``speaker("zh")("cli.error")``."""
+    if language not in LANGUAGES:
+        raise KeyError(language)
+    return partial(say, language=language)
+
+
+@lru_cache(maxsize=None)
+def catalogue(area: str, language: str) -> Mapping[str, str]:
+    """All texts of an area; raises KeyError for an area or a language that does not exist."""
+    if language not in LANGUAGES:
+        raise KeyError(language)
+    name = f"{__name__}.{language}.{area}"
+    try:
+        module = importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name != name:
+            raise
+        raise KeyError(area) from None
+    words: Mapping[str, str] = module.WORDS
+    return words
+
+
+def areas(language: str) -> tuple[str, ...]:
+    """Names of all areas of a language."""
+    package = importlib.import_module(f"{__name__}.{language}")
+    return tuple(sorted(module.name for module in pkgutil.iter_modules(package.__path__)))

@@ -1,0 +1,18 @@
+"""The command ``check``."""
+
+WORDS = {
+    "summary": "find everything that is wrong with a model file",
+    "description": """\
+Reads model files and reports every finding at once, each with its place
+(file:line:column), the cause and what to do about it. A file that reads well is
+then analysed and turned through its cycle, so that a mechanism that cannot
+move, or cannot reach a position, is found as well.""",
+    "examples": """\
+linkwright check crusher.yaml
+linkwright check *.yaml --strict      warnings count as errors
+linkwright check crusher.yaml --json  findings for an editor or a script""",
+    "files_help": "model files, or gallery:NAME",
+    "strict_help": "warnings count as errors",
+    "fine": "{name}: fine ({links} moving links, mobility {mobility})",
+    "faulty": "{name}: errors: {count}",
+}
