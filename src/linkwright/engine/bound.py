@@ -54,7 +54,12 @@ class BoundPlan:
         self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *full))
         numbers = np.empty((registers.numbers, *full))
         truths = np.empty((registers.truths, *full), dtype=np.bool_)
-        pools: dict[str, NDArray[Any]] = {ROW: self.outputs, NUMBER: numbers, TRUTH: truths}
+        # One object per buffer: NumPy then sees at once where an operation is in place.
+        pools: dict[str, list[NDArray[Any]]] = {
+            ROW: list(self.outputs),
+            NUMBER: list(numbers),
+            TRUTH: list(truths),
+        }
         self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
         self._design_numbers = np.empty(len(self._numbers_at))

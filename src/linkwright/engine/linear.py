@@ -29,9 +29,7 @@ def inverse(matrix: Sequence[Sequence[Scalar]], inverse_determinant: Scalar | No
 
 def _gauss_jordan(matrix: Sequence[Sequence[Scalar]]) -> Matrix:
     size = len(matrix)
-    rows: Matrix = [
-        [*row, *(1.0 if i == j else 0.0 for j in range(size))] for i, row in enumerate(matrix)
-    ]
+    rows: Matrix = [[*row, *(1.0 if i == j else 0.0 for j in range(size))] for i, row in enumerate(matrix)]
     for column in range(size):
         _bring_largest_up(rows, column)
         factor = 1.0 / rows[column][column]

@@ -10,7 +10,16 @@ from functools import cached_property
 
 from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace
 
-SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "div": "/", "less": "<", "less_equal": "<=", "and": "&", "or": "|"}
+SYMBOLS = {
+    "add": "+",
+    "sub": "-",
+    "mul": "*",
+    "div": "/",
+    "less": "<",
+    "less_equal": "<=",
+    "and": "&",
+    "or": "|",
+}
 
 
 @dataclass(frozen=True)
@@ -27,7 +36,10 @@ class Program:
 
     @classmethod
     def of(
-        cls, trace: Trace, outputs: Mapping[str, Scalar | bool], next_states: Mapping[str, Scalar] | None = None
+        cls,
+        trace: Trace,
+        outputs: Mapping[str, Scalar | bool],
+        next_states: Mapping[str, Scalar] | None = None,
     ) -> Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}

@@ -49,6 +49,10 @@ class RRR:
         said = f"the outer pins are {shown_length(distance)} apart"
         lengths = f"links of {shown_length(r1)} and {shown_length(r2)}"
         if distance > r1 + r2:
-            return f"{said}, {lengths} reach {shown_length(r1 + r2)}: {shown_length(distance - r1 - r2)} missing"
+            return (
+                f"{said}, {lengths} reach {shown_length(r1 + r2)}: {shown_length(distance - r1 - r2)} missing"
+            )
         near = abs(r1 - r2)
-        return f"{said}, {lengths} need at least {shown_length(near)}: {shown_length(near - distance)} too close"
+        return (
+            f"{said}, {lengths} need at least {shown_length(near)}: {shown_length(near - distance)} too close"
+        )

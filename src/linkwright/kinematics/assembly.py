@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.drawing import Drawing
 from linkwright.kinematics.groups import dyad_shape, state_name
@@ -42,16 +45,10 @@ def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
     inputs = {}
     for name, driver in mechanism.drivers.items():
         drawn = drawing.driver(name) if drawing else None
-        start = driver.law.coordinate(_zero())[0][0]
+        start = driver.law.coordinate(np.zeros(1))[0][0]
         inputs[name] = float(start) if drawn is None else drawn
     _from_drawing(mechanism, structure, drawing, modes, states, inputs)
     return Assembly(modes, states, inputs)
-
-
-def _zero():  # type: ignore[no-untyped-def]
-    import numpy as np
-
-    return np.zeros(1)
 
 
 def modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str]]]:
@@ -135,7 +132,9 @@ def _from_drawing(
     for group in open_groups:
         probe = _Probe(motion, group, drawing)
         if probe.names:
-            distances = {sign: probe.distance({**modes, group.name: sign}, states, inputs) for sign in (1.0, -1.0)}
+            distances = {
+                sign: probe.distance({**modes, group.name: sign}, states, inputs) for sign in (1.0, -1.0)
+            }
             modes[group.name] = min(distances, key=distances.__getitem__)
 
 
@@ -146,7 +145,7 @@ class _Probe:
         self.motion = motion
         self.goal: list[float] = []
         self.names: list[str] = []
-        outputs = {}
+        outputs: dict[str, Scalar] = {}
         for link in group.links:
             for point, local in motion.mechanism.links[link].points.items():
                 drawn = drawing.points.get(f"{link}.{point}", drawing.points.get(point))

@@ -49,7 +49,9 @@ def passages(solver: MotionSolver, positions: Positions, states: Mapping[str, Fl
     if positions.count < 3 or not groups:
         return []
     names = tuple(f"quality:{group}" for group in groups)
-    ones = {f"mode:{group}": np.full(positions.count, solver.assembly.modes[group]) for group in solver.flipping}
+    ones = {
+        f"mode:{group}": np.full(positions.count, solver.assembly.modes[group]) for group in solver.flipping
+    }
     quality = solver.evaluate(names, positions, states, ones)
     found = []
     for group, row in zip(groups, quality, strict=True):
@@ -111,7 +113,7 @@ def signs(passing: list[Passage], modes: Mapping[str, float], count: int) -> dic
     for group in dict.fromkeys(p.group for p in passing if p.touches):
         row = np.full(count, modes[group])
         for p in passing:
-            if p.group == group and p.touches and p.after > p.before and 0.0 < p.share:
+            if p.group == group and p.touches and p.after > p.before and p.share > 0.0:
                 row[p.after :] *= -1.0
         found[f"mode:{group}"] = row
     return found

@@ -82,7 +82,9 @@ class Follower:
             state, done, share = moved, done + share, share * 2
         return state
 
-    def _newton(self, inputs: Mapping[str, float], state: list[float], limit: float = LARGEST_CHANGE) -> list[float] | None:
+    def _newton(
+        self, inputs: Mapping[str, float], state: list[float], limit: float = LARGEST_CHANGE
+    ) -> list[float] | None:
         outputs, new = self._evaluate(inputs, state)
         if outputs[0] >= CONVERGED:
             outputs, new = self._evaluate(inputs, new)
@@ -90,7 +92,9 @@ class Follower:
             return None
         return new
 
-    def _evaluate(self, inputs: Mapping[str, float], state: Sequence[float]) -> tuple[list[float], list[float]]:
+    def _evaluate(
+        self, inputs: Mapping[str, float], state: Sequence[float]
+    ) -> tuple[list[float], list[float]]:
         return self.scalar.step(self.values, [inputs[name] for name in self.program.positions], state)
 
     def _change(self, old: Sequence[float], new: Sequence[float]) -> float:
@@ -119,7 +123,8 @@ class Follower:
             )
         start = {name: rows[0][:1] for name, rows in positions.coordinates.items()}
         both = {
-            name: (np.array([inputs[name], first[0]]), np.zeros(2), np.zeros(2)) for name, first in start.items()
+            name: (np.array([inputs[name], first[0]]), np.zeros(2), np.zeros(2))
+            for name, first in start.items()
         }
         way = Positions(np.zeros(2), both, positions.rotary, False, None)
         return self._step(way, 0, 1, state)

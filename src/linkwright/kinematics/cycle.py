@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -63,7 +63,9 @@ class Positions:
         return Positions(time, mixed, self.rotary, False, None)  # type: ignore[arg-type]
 
 
-def at_times(mechanism: Mechanism, time: ArrayLike, closed: bool = False, period: float | None = None) -> Positions:
+def at_times(
+    mechanism: Mechanism, time: ArrayLike, closed: bool = False, period: float | None = None
+) -> Positions:
     """The positions at given times, s."""
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.isfinite(t).all():
@@ -79,7 +81,9 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinate is given, since then the time would not be known.
     """
     if not mechanism.drivers:
-        raise CycleError(f"{mechanism.name!r} has no driver, so there is no input to set; leave the input out")
+        raise CycleError(
+            f"{mechanism.name!r} has no driver, so there is no input to set; leave the input out"
+        )
     given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
     rows = {}
     for name, values in given.items():
@@ -141,15 +145,19 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
             "write cycle: {duration: …} instead"
         )
     if cycle.turns is not None:
-        return 0.0, cycle.turns * 2 * np.pi / abs(first.law.speed), repeats and float(cycle.turns).is_integer()
+        return (
+            0.0,
+            cycle.turns * 2 * np.pi / abs(first.law.speed),
+            repeats and float(cycle.turns).is_integer(),
+        )
     begin, end = cycle.start if cycle.start is not None else first.law.start, cycle.end
     assert end is not None
     return (begin - first.law.start) / first.law.speed, (end - begin) / first.law.speed, False
 
 
-def _repeats(drivers: Sequence[Driver] | object, known: Sequence[float]) -> bool:
+def _repeats(drivers: Iterable[Driver], known: Sequence[float]) -> bool:
     """Whether all drivers are back after the longest natural duration."""
-    laws = [driver.law for driver in drivers]  # type: ignore[attr-defined]
+    laws = [driver.law for driver in drivers]
     if len(known) < len(laws):
         return False
     longest = max(known)
@@ -177,6 +185,8 @@ def _rotary(mechanism: Mechanism) -> dict[str, bool]:
 def _driver(mechanism: Mechanism, name: str) -> Driver:
     if name not in mechanism.drivers:
         offer = nearest(name, list(mechanism.drivers))
-        hint = f"; did you mean {offer!r}?" if offer else f"; there is {', '.join(map(repr, mechanism.drivers))}"
+        hint = (
+            f"; did you mean {offer!r}?" if offer else f"; there is {', '.join(map(repr, mechanism.drivers))}"
+        )
         raise CycleError(f"there is no driver {name!r}{hint}")
     return mechanism.drivers[name]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kinematics.outcome import Outcome, PositionError
 
@@ -30,7 +30,7 @@ def explain(motion: Motion) -> list[Outcome]:
 class _Facts:
     """Numbers of the failing groups at the failed positions."""
 
-    def __init__(self, motion: Motion, failed: Sequence[int]) -> None:
+    def __init__(self, motion: Motion, failed: NDArray[np.intp]) -> None:
         self.motion = motion
         self.groups = motion.structure.groups
         names = [
@@ -38,8 +38,10 @@ class _Facts:
             for group in self.groups
             for fact in motion.solver.motion.placed[group.name].facts
         ]
-        values = motion.solver.evaluate(tuple(names), motion.positions, motion.states, motion.modes, motion.design)
-        self.values = {name: row[list(failed)] for name, row in zip(names, values, strict=True)}
+        values = motion.solver.evaluate(
+            tuple(names), motion.positions, motion.states, motion.modes, motion.design
+        )
+        self.values = {name: row[failed] for name, row in zip(names, values, strict=True)}
 
     def outcome(self, place: int, index: int) -> Outcome:
         code = self.motion.outcome_codes[index]
@@ -61,7 +63,9 @@ class _Facts:
                 "determined by the driver"
             )
             return Outcome(False, sentence, group.name, "singular")
-        return Outcome(False, f"{who} cannot be assembled: {placed.dyad.explain(facts)}", group.name, "unreachable")
+        return Outcome(
+            False, f"{who} cannot be assembled: {placed.dyad.explain(facts)}", group.name, "unreachable"
+        )
 
 
 def refusal(motion: Motion) -> PositionError:

@@ -44,7 +44,9 @@ def _power(expression: Expression, base: Scalar, exponent: Scalar) -> Scalar:
         )
     whole = round(2 * exponent)
     if abs(2 * exponent - whole) > 1e-12:
-        raise LinkwrightError(f'"{expression.text}" has the power {exponent:g}; only whole and half ones can be swept')
+        raise LinkwrightError(
+            f'"{expression.text}" has the power {exponent:g}; only whole and half ones can be swept'
+        )
     factor = sqrt(base) if whole % 2 else base
     result: Scalar = 1.0
     for _ in range(abs(whole) if whole % 2 else abs(whole) // 2):

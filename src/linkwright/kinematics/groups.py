@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from linkwright.engine.linear import Matrix, inverse, product
 from linkwright.engine.trace import Mask, Scalar, stop
 from linkwright.engine.vector import Vec
-from linkwright.groups.base import DYADS, Chain, Dyad, Rotor, Solved
+from linkwright.groups.base import DYADS, Chain, Dyad, Rotor
 from linkwright.kinematics.closure import Cut, PinCut, cut_of, jacobian
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
@@ -135,9 +135,7 @@ class GroupTracer:
     # Newton -------------------------------------------------------------------------------
     def _newton(self, placed: Placed) -> None:
         group = placed.group
-        coordinates: dict[TreeJoint, Coordinate] = {
-            step: self._start(group, step) for step in group.unknowns
-        }
+        coordinates: dict[TreeJoint, Coordinate] = {step: self._start(group, step) for step in group.unknowns}
         correction: list[Scalar] = []
         for remaining in reversed(range(self.iterations)):
             if remaining == 0:

@@ -139,12 +139,12 @@ class Motion:
     @property
     def outcome_codes(self) -> Floats:
         """0 for a solved position, else the number (from 1) of the failing group, negative if singular, (n,)."""
-        return self.rows.values[self.rows.index["outcome"]]
+        return self.rows.row("outcome")
 
     @cached_property
     def ok(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
         """Which positions are solved, (n,)."""
-        good = self.outcome_codes == 0
+        good: np.ndarray[Any, np.dtype[np.bool_]] = self.outcome_codes == 0
         return good if self.barred is None else good & (self.barred == 0)
 
     @cached_property
@@ -207,9 +207,9 @@ class Motion:
         return values
 
     def _point_key(self, name: str) -> str:
-        if name.endswith(".centre") and name.removesuffix(".centre") in self.mechanism.links:
-            if "centre" not in self.mechanism.links[name.removesuffix(".centre")].points:
-                return name.removesuffix("centre") + "@centre"
+        link = self.mechanism.links.get(name.removesuffix(".centre"))
+        if name.endswith(".centre") and link is not None and "centre" not in link.points:
+            return name.removesuffix("centre") + "@centre"
         return canonical(self.mechanism, *find_point(self.mechanism, name))
 
     def point_names(self) -> Iterable[str]:

@@ -68,7 +68,11 @@ class MotionOutputs:
         if "frame" in joint.links:
             return "frame"
         for name in joint.links:
-            if self.motion.states and self.motion.states.get(name) and self.motion.states[name].velocity == ZERO:
+            if (
+                self.motion.states
+                and self.motion.states.get(name)
+                and self.motion.states[name].velocity == ZERO
+            ):
                 return name
         order = list(self.motion.states)
         return min(joint.links, key=order.index) if set(joint.links) <= set(order) else link
@@ -99,7 +103,7 @@ class MotionOutputs:
 
     def point_keys(self) -> Iterable[str]:
         """Canonical names of all points of the moving links that the frame does not carry."""
-        keys = {}
+        keys: dict[str, None] = {}
         for name, link in self.mechanism.links.items():
             for point in link.points:
                 key = canonical(self.mechanism, name, point)

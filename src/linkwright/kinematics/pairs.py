@@ -126,9 +126,7 @@ def pair_of(step: TreeJoint, dimensions: Dimensions) -> Pin | Guide | Fixed:
     if isinstance(joint, WeldJoint):
         turn = dimensions.weld_direction(joint)
         turned = turn.conjugate if step.child == joint.links[1] else turn
-        return Fixed(
-            dimensions.point(step.parent, joint.at), dimensions.point(step.child, joint.at), turned
-        )
+        return Fixed(dimensions.point(step.parent, joint.at), dimensions.point(step.child, joint.at), turned)
     assert isinstance(joint, PrismaticJoint)
     on_guide, on_block = dimensions.guide_direction(joint), dimensions.block_direction(joint)
     through = dimensions.point(joint.guide, joint.through)
@@ -137,4 +135,3 @@ def pair_of(step: TreeJoint, dimensions: Dimensions) -> Pin | Guide | Fixed:
     if step.child == joint.block:
         return Guide(through, at, on_guide, on_guide.conjugate.turn(on_block), offset, 1.0)
     return Guide(at, through, on_block, on_block.conjugate.turn(on_guide), offset, -1.0)
-

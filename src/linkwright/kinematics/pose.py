@@ -53,7 +53,9 @@ class State:
     def velocity_of(self, local: Vec) -> Vec:
         """Velocity of a point given in the link's axes."""
         rotor = self.pose.rotor
-        return self.velocity + (rotor.now.perp * self.omega).turn((local - self.pose.anchor).over(rotor.local))
+        return self.velocity + (rotor.now.perp * self.omega).turn(
+            (local - self.pose.anchor).over(rotor.local)
+        )
 
     def acceleration_of(self, local: Vec) -> Vec:
         """Acceleration of a point given in the link's axes."""

@@ -20,9 +20,14 @@ class Rows:
         self.index = index
         self.extra: dict[str, Floats] = {}
 
+    def row(self, name: str) -> Floats:
+        """A stored row, (n,)."""
+        found: Floats = self.values[self.index[name]]
+        return found
+
     def fetch(self, names: tuple[str, ...], evaluate: Callable[[tuple[str, ...]], Floats]) -> list[Floats]:
         """The rows of some outputs, (n,) each; ``evaluate`` supplies those that are not stored."""
         missing = tuple(name for name in names if name not in self.index and name not in self.extra)
         if missing:
             self.extra.update(zip(missing, evaluate(missing), strict=True))
-        return [self.values[self.index[name]] if name in self.index else self.extra[name] for name in names]
+        return [self.row(name) if name in self.index else self.extra[name] for name in names]

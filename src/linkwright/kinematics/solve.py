@@ -45,7 +45,9 @@ def solve_motion(
         StructureError, AssemblyError, CycleError: the model is not determined, cannot be put together, or has no
             cycle.
     """
-    return MotionRun(MotionSolver(mechanism), _positions(mechanism, steps, at, times, endpoint)).solve(failures)
+    return MotionRun(MotionSolver(mechanism), _positions(mechanism, steps, at, times, endpoint)).solve(
+        failures
+    )
 
 
 def _positions(
@@ -82,7 +84,9 @@ class MotionRun:
             raise refusal(motion)
         return motion
 
-    def _evaluate(self, states: Mapping[str, Floats], modes: Mapping[str, Floats], notes: tuple[str, ...]) -> Motion:
+    def _evaluate(
+        self, states: Mapping[str, Floats], modes: Mapping[str, Floats], notes: tuple[str, ...]
+    ) -> Motion:
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
@@ -111,7 +115,9 @@ def _notes(found: list[Passage], positions: Positions) -> tuple[str, ...]:
         place = q[p.before] + p.share * (q[p.after] - q[p.before]) if p.after > p.before else q[p.before]
         where = f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m"
         if p.touches:
-            notes.append(f"change point of group ({p.group}) at {name} = {where}: the motion goes on smoothly")
+            notes.append(
+                f"change point of group ({p.group}) at {name} = {where}: the motion goes on smoothly"
+            )
         else:
             notes.append(
                 f"group ({p.group}) cannot be assembled in a short stretch at {name} = {where}, between two "

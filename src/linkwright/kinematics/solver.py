@@ -40,7 +40,11 @@ class MotionSolver:
     @cached_property
     def motion(self) -> MotionTrace:
         return trace_motion(
-            self.mechanism, self.structure, free=self.free, modes_vary=self.flipping, iterations=self.iterations
+            self.mechanism,
+            self.structure,
+            free=self.free,
+            modes_vary=self.flipping,
+            iterations=self.iterations,
         )
 
     @cached_property

@@ -100,5 +100,5 @@ def _judge(motion: MotionTrace) -> None:
             continue
         failed = select(placed.reached, -float(number), float(number))
         outcome = select(placed.valid, outcome, failed)
-        valid = placed.valid & valid
+        valid = motion.trace.logic("and", placed.valid, valid)
     motion.valid, motion.outcome = valid, outcome

@@ -101,7 +101,9 @@ class Forces:
         """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
         if name not in self.mechanism.drivers:
             offer = nearest(name, list(self.mechanism.drivers))
-            raise LinkwrightError(f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+            raise LinkwrightError(
+                f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
+            )
         return self._fetch((f"effort:{name}",))[0]
 
     @property
@@ -113,7 +115,9 @@ class Forces:
     def input_torque_from_power(self) -> Floats:
         """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
         if len(self.mechanism.drivers) != 1:
-            raise LinkwrightError("with several drivers the powers give one sum, not the effort of one driver")
+            raise LinkwrightError(
+                "with several drivers the powers give one sum, not the effort of one driver"
+            )
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
             return np.where(rate == 0.0, np.nan, self.power / rate)
@@ -149,7 +153,9 @@ class Forces:
         """What one of the file's loads did."""
         if name not in self.mechanism.loads:
             offer = nearest(name, list(self.mechanism.loads))
-            raise LinkwrightError(f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+            raise LinkwrightError(
+                f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
+            )
         names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
         fx, fy, moment, px, py = self._fetch(names)
         return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
@@ -170,18 +176,25 @@ class Forces:
         links = self.mechanism.joints[joint].joined
         if link != links[0]:
             return np.stack(self._fetch((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y")), axis=1)
-        return -np.sum([self._reaction(joint, other) for other in links[1:]], axis=0)
+        total = np.zeros((self.steps, 2))
+        for other in links[1:]:
+            total -= self._reaction(joint, other)
+        return total
 
     def _link_at(self, joint: str, on: str | None) -> str:
         joints = self.mechanism.joints
         if joint not in joints:
             offer = nearest(joint, list(joints))
-            raise LinkwrightError(f"there is no joint {joint!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+            raise LinkwrightError(
+                f"there is no joint {joint!r}" + (f"; did you mean {offer!r}?" if offer else "")
+            )
         links = joints[joint].joined
         if on is None:
             others = [link for link in links if link != "frame"]
             if len(others) != 1:
-                raise LinkwrightError(f"joint {joint!r} joins {', '.join(links)}; say on which link: on={others[0]!r}")
+                raise LinkwrightError(
+                    f"joint {joint!r} joins {', '.join(links)}; say on which link: on={others[0]!r}"
+                )
             return others[0]
         if on not in links:
             raise LinkwrightError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")

@@ -62,7 +62,9 @@ class FrictionTerms:
                     raise LinkwrightError(
                         f"joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: 20 mm"
                     )
-                pairs = [(c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name]
+                pairs = [
+                    (c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name
+                ]
                 terms += [FrictionTerm(name, a, b, coefficient * joint.pin_radius, False) for a, b in pairs]
             elif isinstance(joint, PrismaticJoint):
                 terms.append(FrictionTerm(name, joint.guide, joint.block, coefficient, True))

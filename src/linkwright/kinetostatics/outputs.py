@@ -70,7 +70,9 @@ class ForceOutputs:
             arm = state.arm(centre)
             push = state.acceleration_of(centre) * dimensions(f"{name}.mass")
             force = force - push
-            moment = moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
+            moment = (
+                moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
+            )
         return force, moment
 
     def demand(self, link: str) -> Demand:
@@ -91,5 +93,5 @@ class ForceOutputs:
         found = []
         for name, joint in self.mechanism.joints.items():
             pin = isinstance(joint, RevoluteJoint)
-            found += [(name, link, not pin) for link in (joint.links[1:] if pin else joint.joined[1:])]
+            found += [(name, link, not pin) for link in (joint.joined[1:])]
         return found

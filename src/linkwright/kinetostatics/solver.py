@@ -45,7 +45,7 @@ class ForceSolver:
         return self._programs[names]
 
     def _value(self, name: str):  # type: ignore[no-untyped-def]
-        if name.split(":")[0] in {"p", "v", "a", "e", "w", "g", "s", "sv", "sa"}:
+        if name.split(":", maxsplit=1)[0] in {"p", "v", "a", "e", "w", "g", "s", "sv", "sa"}:
             return self.motion.outputs.value(name)
         if name.startswith("own:"):
             link, part = name[4:].rsplit("|", 1)

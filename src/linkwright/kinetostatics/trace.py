@@ -90,7 +90,9 @@ class ForceTrace:
         return total
 
 
-def trace_forces(motion: MotionTrace, *, inertia: bool = True, extra: Mapping[str, list[Wrench]] | None = None) -> ForceTrace:
+def trace_forces(
+    motion: MotionTrace, *, inertia: bool = True, extra: Mapping[str, list[Wrench]] | None = None
+) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 
     ``inertia`` False leaves the inertia forces out (static analysis); ``extra``: further wrenches by name, such

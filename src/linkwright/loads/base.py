@@ -98,7 +98,8 @@ class Load:
         raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
 
     def from_cycle(self, signals: Signals) -> Array | None:
-        """What ``site.magnitude()`` gives at each position, (n,), where the kind finds it in a way of its own.
+        """What ``site.magnitude()`` gives at each position, (n,), where the kind finds it in a way of its
+        own.
 
         None for kinds whose magnitude is a number, an expression, a ramp or a table.
         """

@@ -16,10 +16,11 @@ from linkwright.loads.site import Site, Wrench
 @LOADS.register("damper")
 @dataclass(frozen=True, kw_only=True)
 class Damper(Load):
-    """A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.
+    """A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends
+    together.
 
-    ``damping`` c (N·s/m); L (m) is the distance of the ends. Both ends feel it, on the frame as well. It never
-    gives power back.
+    ``damping`` c (N·s/m); L (m) is the distance of the ends. Both ends feel it, on the frame as well. It
+    never gives power back.
 
     At L = 0 the direction is that of the relative velocity, the limit as the ends pass through each other.
     Source: Norton, Design of Machinery, chapter on dynamics of dampers.

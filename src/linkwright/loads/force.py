@@ -20,11 +20,12 @@ from linkwright.model.expressions import Expression
 class Force(Load):
     """A force on the link ``on`` at its point ``at``, in N: F = magnitude · unit vector of its direction.
 
-    Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of ``on``;
-    ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q], along that ray.
-    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [q0, q1], linear in the input over the
-    phase; ``table``. A negative magnitude reverses the force. Instead of both: ``components`` [Fx, Fy] in frame
-    axes. Outside ``phase`` the force is zero. The frame takes no part: whatever presses is outside the machine.
+    Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of
+    ``on``; ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q],
+    along that ray. Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [q0, q1], linear
+    in the input over the phase; ``table``. A negative magnitude reverses the force. Instead of both:
+    ``components`` [Fx, Fy] in frame axes. Outside ``phase`` the force is zero. The frame takes no part:
+    whatever presses is outside the machine.
 
     Raises LinkwrightError where P and Q of a ray coincide, which then has no direction.
     Source: the statics of a rigid body, any textbook of mechanics.
@@ -44,11 +45,18 @@ class Force(Load):
     )
     along: tuple[str, str] | None = base.ray("on", default=None, doc="[P, Q]: along the ray P→Q")
     components: tuple[float, float] | None = base.values(
-        "force", names=("x", "y"), default=None, doc="[Fx, Fy] in frame axes, instead of direction and magnitude"
+        "force",
+        names=("x", "y"),
+        default=None,
+        doc="[Fx, Fy] in frame axes, instead of direction and magnitude",
     )
     magnitude: float | Expression | None = base.magnitude("force", default=None, doc="magnitude")
-    ramp: tuple[float, float] | None = base.values("force", count=2, default=None, doc="from, to over the phase")
-    table: Table | None = base.table("force", default=None, doc="magnitude over the input, the time or an output")
+    ramp: tuple[float, float] | None = base.values(
+        "force", count=2, default=None, doc="from, to over the phase"
+    )
+    table: Table | None = base.table(
+        "force", default=None, doc="magnitude over the input, the time or an output"
+    )
     phase: Phase | None = base.phase()
 
     @classmethod

@@ -118,7 +118,9 @@ def denominators(node: Node) -> Iterator[Node]:
         case Binary(sign, left, right):
             if sign == "/":
                 yield right
-            if sign == "^" and (isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)):
+            if sign == "^" and (
+                isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)
+            ):
                 yield left
             yield from denominators(left)
             yield from denominators(right)

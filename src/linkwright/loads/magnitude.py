@@ -49,7 +49,9 @@ def _evaluated(load: Load, signals: Signals) -> Array:
     if ramp is None:
         return np.where(where, _values(load, signals, where), 0.0)
     if active.share is None:
-        raise LinkwrightError("a ramp runs over a phase, and none is given; add phase: {input: [from, to]} or another")
+        raise LinkwrightError(
+            "a ramp runs over a phase, and none is given; add phase: {input: [from, to]} or another"
+        )
     return np.where(where, ramp[0] + (ramp[1] - ramp[0]) * active.share, 0.0)
 
 

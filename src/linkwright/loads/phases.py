@@ -94,7 +94,9 @@ def _swings(phase: SwingPhase, signals: Signals) -> list[Stretch]:
     found = stretches(extreme, phase.start, phase.end, signals.whole)
     if found:
         return found
-    places = ", ".join(f"{each.kind} at input {shown(each.input, input_dimension(signals))}" for each in extreme)
+    places = ", ".join(
+        f"{each.kind} at input {shown(each.input, input_dimension(signals))}" for each in extreme
+    )
     raise LinkwrightError(
         f"the output '{phase.output}' does not go from its {phase.start} to its {phase.end} within the cycle "
         f"(it has its {places}); let the cycle hold both, or exchange from and to"
@@ -118,7 +120,11 @@ def outermost(limits: Sequence[Limit]) -> list[Limit]:
         "max": max((each.value for each in limits if each.kind == "max"), default=np.inf) - slack,
         "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
     }
-    return [each for each in limits if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])]
+    return [
+        each
+        for each in limits
+        if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])
+    ]
 
 
 def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> list[Stretch]:

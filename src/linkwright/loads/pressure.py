@@ -17,13 +17,14 @@ from linkwright.model.expressions import Expression
 @LOADS.register("pressure")
 @dataclass(frozen=True, kw_only=True)
 class Pressure(Load):
-    """Pressure p on the block of a prismatic joint: force F = p·A along the guide, in N, and -F on the guide's link.
+    """Pressure p on the block of a prismatic joint: force F = p·A along the guide, in N, and -F on the
+    guide's link.
 
     p (Pa) is the pressure above that on the other side of the piston. Positive pressure pushes the block
     ``forward``, in the direction of the guide (the default), or ``backward``, against it: ``pushes``.
-    ``area`` A (m²), or ``bore`` d (m), A = π·d²/4. Both forces act at the block's point.
-    Pressure, one of: ``magnitude``, a number or an expression; ``ramp`` [p0, p1], linear in the input over the
-    phase; ``table`` (an indicator diagram) over the input, the time or an output such as the joint's displacement.
+    ``area`` A (m²), or ``bore`` d (m), A = π·d²/4. Both forces act at the block's point. Pressure, one of:
+    ``magnitude``, a number or an expression; ``ramp`` [p0, p1], linear in the input over the phase;
+    ``table`` (an indicator diagram) over the input, the time or an output such as the joint's displacement.
     Outside ``phase`` it is zero; one load for each stroke gives a diagram over the displacement.
 
     Source: Shigley and Uicker, Theory of Machines and Mechanisms, dynamics of reciprocating engines.
@@ -34,10 +35,16 @@ class Pressure(Load):
     joint: str = base.joint("prismatic", doc="the prismatic joint whose block is the piston")
     area: float | None = base.quantity("area", above=0, default=None, doc="area of the piston")
     bore: float | None = base.quantity("length", above=0, default=None, doc="diameter of the piston")
-    pushes: str = base.word("forward", "backward", default="forward", doc="where it pushes the block (default: forward)")
+    pushes: str = base.word(
+        "forward", "backward", default="forward", doc="where it pushes the block (default: forward)"
+    )
     magnitude: float | Expression | None = base.magnitude("pressure", default=None, doc="pressure")
-    ramp: tuple[float, float] | None = base.values("pressure", count=2, default=None, doc="from, to over the phase")
-    table: Table | None = base.table("pressure", default=None, doc="pressure over the input, the time or an output")
+    ramp: tuple[float, float] | None = base.values(
+        "pressure", count=2, default=None, doc="from, to over the phase"
+    )
+    table: Table | None = base.table(
+        "pressure", default=None, doc="pressure over the input, the time or an output"
+    )
     phase: Phase | None = base.phase()
 
     @classmethod

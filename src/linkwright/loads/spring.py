@@ -15,10 +15,12 @@ from linkwright.loads.site import Site, Wrench
 @LOADS.register("spring")
 @dataclass(frozen=True, kw_only=True)
 class Spring(Load):
-    """A linear spring between two points: tension F = F0 + k·(L - L0), in N, positive where it pulls its ends together.
+    """A linear spring between two points: tension F = F0 + k·(L - L0), in N, positive where it pulls its
+    ends together.
 
-    ``stiffness`` k (N/m); ``free_length`` L0 (m, default 0); ``preload`` F0 (N, default 0), the tension at the free
-    length; L (m) is the distance of the ends. It pulls and pushes. Both ends feel it, on the frame as well.
+    ``stiffness`` k (N/m); ``free_length`` L0 (m, default 0); ``preload`` F0 (N, default 0), the tension at
+    the free length; L (m) is the distance of the ends. It pulls and pushes. Both ends feel it, on the frame
+    as well.
 
     At L = 0 the spring has no direction: the part k·(vector between the ends) vanishes, and the rest,
     F0 - k·L0, is taken as zero there, the mean over all directions.
@@ -28,7 +30,9 @@ class Spring(Load):
     kind: ClassVar[str] = "spring"
     between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends, [link.point, link.point]")
     stiffness: float = base.quantity("stiffness", minimum=0, doc="force per elongation")
-    free_length: float = base.quantity("length", minimum=0, default=0.0, doc="length without elongation (default 0)")
+    free_length: float = base.quantity(
+        "length", minimum=0, default=0.0, doc="length without elongation (default 0)"
+    )
     preload: float = base.quantity("force", default=0.0, doc="tension at the free length (default 0)")
 
     @classmethod

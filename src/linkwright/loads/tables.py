@@ -13,8 +13,8 @@ from linkwright.model.signal_fields import Output, Table
 def interpolated(table: Table, signals: Signals, where: Mask) -> Array:
     """Values of a table, (n,); it must cover the positions ``where``.
 
-    Angles count modulo one turn; a table over several whole turns repeats after them. Raises LinkwrightError with
-    the range that is missing.
+    Angles count modulo one turn; a table over several whole turns repeats after them. Raises
+    LinkwrightError with the range that is missing.
     """
     across, dimension = _across(table, signals)
     x, first, last = across, table.x[0], table.x[-1]

@@ -17,8 +17,8 @@ from linkwright.model.expressions import Expression
 class Torque(Load):
     """A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.
 
-    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over the
-    phase; ``table``. Outside ``phase`` it is zero.
+    Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over
+    the phase; ``table``. Outside ``phase`` it is zero.
 
     Source: the statics of a rigid body, any textbook of mechanics.
     """
@@ -28,15 +28,23 @@ class Torque(Load):
     on: str = base.link(moving=True, doc="the link on which the torque acts")
     against: str = base.link(default="frame", doc="the link that takes the opposite torque (default: frame)")
     magnitude: float | Expression | None = base.magnitude("torque", default=None, doc="magnitude")
-    ramp: tuple[float, float] | None = base.values("torque", count=2, default=None, doc="from, to over the phase")
-    table: Table | None = base.table("torque", default=None, doc="magnitude over the input, the time or an output")
+    ramp: tuple[float, float] | None = base.values(
+        "torque", count=2, default=None, doc="from, to over the phase"
+    )
+    table: Table | None = base.table(
+        "torque", default=None, doc="magnitude over the input, the time or an output"
+    )
     phase: Phase | None = base.phase()
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
         base.check_ramp(values, report)
         if values.get("on") is not None and values.get("on") == values.get("against"):
-            report("against", f'the torque acts on and against the same link "{values["on"]}"', "name another link")
+            report(
+                "against",
+                f'the torque acts on and against the same link "{values["on"]}"',
+                "name another link",
+            )
 
     def wrenches(self, site: Site) -> list[Wrench]:
         moment = site.magnitude()

@@ -17,9 +17,9 @@ class TorsionSpring(Load):
     """A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.
 
     φ is the angle of b's x axis against a's, counter-clockwise positive (rad). ``stiffness`` k (N·m/rad);
-    ``free_angle`` φ0 (rad, default 0); ``preload`` M0 (N·m, default 0), the torque at the free angle.
-    Where the cycle begins φ is within half a turn of φ0; from there it is continuous, so that the spring winds up.
-    The frame's x axis is that of the drawing.
+    ``free_angle`` φ0 (rad, default 0); ``preload`` M0 (N·m, default 0), the torque at the free angle. Where
+    the cycle begins φ is within half a turn of φ0; from there it is continuous, so that the spring winds
+    up. The frame's x axis is that of the drawing.
 
     Energy k·(φ - φ0)²/2 + M0·(φ - φ0). Source: Norton, Design of Machinery, chapter on dynamics of springs.
     """
@@ -27,7 +27,9 @@ class TorsionSpring(Load):
     kind: ClassVar[str] = "torsion_spring"
     links: tuple[str, str] = base.links(doc="[a, b]: the two links between which it acts")
     stiffness: float = base.quantity("torsional_stiffness", minimum=0, doc="torque per angle")
-    free_angle: float = base.quantity("angle", default=0.0, doc="angle of b against a without twist (default 0)")
+    free_angle: float = base.quantity(
+        "angle", default=0.0, doc="angle of b against a without twist (default 0)"
+    )
     preload: float = base.quantity("torque", default=0.0, doc="torque at the free angle (default 0)")
 
     def from_cycle(self, signals: Signals) -> Array:

@@ -37,7 +37,7 @@ class ConstraintGraph:
     @classmethod
     def of(cls, mechanism: Mechanism) -> ConstraintGraph:
         """The graph of a mechanism with its drivers."""
-        graph = cls({name: 3 for name in mechanism.links}, [])
+        graph = cls(dict.fromkeys(mechanism.links, 3), [])
         rotations = _Classes()
         for joint in sorted(mechanism.joints.values(), key=lambda j: isinstance(j, RevoluteJoint)):
             graph._add_joint(joint, rotations)

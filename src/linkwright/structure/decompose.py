@@ -7,14 +7,15 @@ order (Dulmage and Mendelsohn 1958; Assur 1913; Galletti, Mech. Mach. Theory 21,
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
+from linkwright.drivers.base import Driver
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.chains import make_group
 from linkwright.structure.constraints import FRAME, ConstraintGraph
-from linkwright.structure.group import Connection, Group, Structure
+from linkwright.structure.group import Connection, Group, Kind, Structure
 from linkwright.structure.matching import components, maximum_matching
 from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler
 
@@ -113,18 +114,21 @@ def _refuse_free(
 
 
 def _connections(
-    mechanism: Mechanism, links: list[str], solved: list[str], driven: dict[str, object]
+    mechanism: Mechanism, links: list[str], solved: list[str], driven: Mapping[str, Driver]
 ) -> Iterable[Connection]:
-    """The joints of a group as pairs of links; a pin of many links hangs on the frame, or on a link next to it, if one is solved."""
+    """The joints of a group as pairs of links.
+
+    A pin of many links hangs on the frame, or on a link next to it, if one of them is solved.
+    """
     for joint in mechanism.joints.values():
         if isinstance(joint, RevoluteJoint):
             yield from _pin_connections(mechanism, joint, links, solved)
             continue
-        a, b = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.links
+        a, b = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.joined
         if _touches(a, b, links, solved):
-            kind = "prismatic" if isinstance(joint, PrismaticJoint) else "weld"
+            kind: Kind = "prismatic" if isinstance(joint, PrismaticJoint) else "weld"
             driver = driven.get(joint.name)
-            yield Connection(joint.name, kind, a, b, getattr(driver, "name", None))
+            yield Connection(joint.name, kind, a, b, driver.name if driver else None)
 
 
 def _pin_connections(

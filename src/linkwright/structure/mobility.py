@@ -71,7 +71,9 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
     return StructureError(f"{said}; nothing determines the motion of {links}; {hint}")
 
 
-def explain_excess(mechanism: Mechanism, sources: Sequence[str], bodies: Sequence[str], mobility: int) -> StructureError:
+def explain_excess(
+    mechanism: Mechanism, sources: Sequence[str], bodies: Sequence[str], mobility: int
+) -> StructureError:
     """The sentence for demands that exceed the freedoms."""
     links = ", ".join(repr(name) for name in bodies)
     extra = ", ".join(repr(name) for name in sources)

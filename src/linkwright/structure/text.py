@@ -12,9 +12,15 @@ def describe(structure: Structure) -> str:
     lines = [*_mobility(structure), "", "Assur groups in solving order:"]
     rows = [_row(number, group) for number, group in enumerate(structure.groups, 1)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))] if rows else []
-    lines += ["  " + "  ".join(f"{cell:<{w}}" for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines += [
+        "  " + "  ".join(f"{cell:<{w}}" for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows
+    ]
     chain = " + ".join(f"{group.signature}({', '.join(group.links)})" for group in structure.groups)
-    lines += ["", f"Mechanism = frame + {chain}", f"It is a class {roman(structure.mechanism_class)} mechanism."]
+    lines += [
+        "",
+        f"Mechanism = frame + {chain}",
+        f"It is a class {roman(structure.mechanism_class)} mechanism.",
+    ]
     if structure.drivers:
         lines.append("Another choice of driver leads to other groups, and may change the class.")
     return "\n".join(lines)
@@ -42,7 +48,9 @@ def _mobility(structure: Structure) -> list[str]:
         lines.append("Mobility 0 and no driver: a structure at rest, which carries loads.")
     elif structure.mobility == len(structure.drivers):
         noun = "driver" if len(structure.drivers) == 1 else "drivers"
-        lines.append(f"Mobility equals the number of {noun} ({len(structure.drivers)}): the motion is determined.")
+        lines.append(
+            f"Mobility equals the number of {noun} ({len(structure.drivers)}): the motion is determined."
+        )
     return lines
 
 

@@ -48,7 +48,9 @@ class Prepared:
     The assembly modes are those of the starting design; positions are those of its input.
     """
 
-    def __init__(self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend) -> None:
+    def __init__(
+        self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
+    ) -> None:
         known = mechanism.dimensions()
         for address in vary:
             if address not in known:
@@ -60,7 +62,9 @@ class Prepared:
         self.positions = positions
         self.solver = MotionSolver(mechanism, frozenset(vary))
         self.force_solver = ForceSolver(self.solver)
-        self._names = tuple([*self.solver.outputs.standard()[:-1], *self.force_solver.outputs.standard(), "outcome"])
+        self._names = tuple(
+            [*self.solver.outputs.standard()[:-1], *self.force_solver.outputs.standard(), "outcome"]
+        )
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
@@ -84,7 +88,9 @@ class Prepared:
             if compiled is not None and not self.program.states:
                 return lambda table: compiled.run(table, arrays)
             if backend == "llvm":
-                raise LinkwrightError("this mechanism cannot be compiled here: llvmlite is missing, or a group iterates")
+                raise LinkwrightError(
+                    "this mechanism cannot be compiled here: llvmlite is missing, or a group iterates"
+                )
         evaluator = numpy_program(self.program)
         return lambda table: evaluator.run(table, arrays, length=self.positions.count)
 

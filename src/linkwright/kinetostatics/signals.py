@@ -1,0 +1,176 @@
+"""What the magnitudes of loads may follow, read from a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kinematics.cycle import CycleError, Floats, Positions, over_cycle
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import MotionRun
+from linkwright.loads.signals import Limit, Whole
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+
+#: Steps of the cycle that anchors angles and brackets limit positions.
+STEPS = 360
+#: Rates below this share of the largest one in the cycle are zero but for rounding.
+STILL = 1e-12
+TURN = 2 * np.pi
+
+
+class MotionSignals:
+    """Signals over the positions of a motion; see :class:`linkwright.loads.signals.Signals`.
+
+    Angles and limit positions refer to the mechanism's cycle, so they do not depend on which positions are
+    asked.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+        self._limits: dict[Output, Sequence[Limit]] = {}
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """Whose motion it is."""
+        return self.motion.mechanism
+
+    @property
+    def time(self) -> Floats:
+        """Times, (n,) s."""
+        return self.motion.time
+
+    @property
+    def input(self) -> Floats:
+        """Coordinate of the first driver, (n,) rad or m."""
+        return self.motion.input
+
+    @property
+    def ok(self) -> NDArray[np.bool_]:
+        """Which positions are solved, (n,)."""
+        return self.motion.ok
+
+    @cached_property
+    def rotary(self) -> bool:
+        """Whether the first driver turns."""
+        return next(iter(self.motion.positions.rotary.values()), True)
+
+    @cached_property
+    def heading(self) -> int:
+        """1 where the input only grows over the cycle, -1 where it only falls, else 0."""
+        rate = next(iter(self.cycle.positions.coordinates.values()))[1]
+        return int((rate > 0).all()) - int((rate < 0).all())
+
+    @cached_property
+    def closes(self) -> tuple[float, float] | None:
+        """Period and gain of the input in it, where the last position is followed by the first."""
+        positions = self.motion.positions
+        if not positions.closed or positions.period is None:
+            return None
+        begin = float(positions.time[0])
+        if positions.time[-1] - begin > positions.period * (1 - 1e-9):
+            return None
+        return positions.period, self._input_at(begin + positions.period) - self._input_at(begin)
+
+    @cached_property
+    def cycle(self) -> Motion:
+        """The motion over the mechanism's cycle; the motion itself where no cycle is known."""
+        if self.motion.positions.closed and self.motion.steps >= STEPS:
+            return self.motion
+        found = self._over(self.mechanism)
+        return self.motion if found is None else found
+
+    @cached_property
+    def _turned(self) -> Motion:
+        """The motion over a cycle that closes, where there is one that can be passed, else over the model's own."""
+        if self.cycle.positions.closed or self.mechanism.cycle is None:
+            return self.cycle
+        found = self._over(replace(self.mechanism, cycle=None))
+        return found if found is not None and found.positions.closed and found.ok.all() else self.cycle
+
+    @cached_property
+    def whole(self) -> Whole:
+        """The cycle over which limits are found."""
+        positions = self._turned.positions
+        if not positions.closed or positions.period is None:
+            return Whole(None)
+        begin = float(positions.time[0])
+        return Whole(positions.period, self._input_at(begin + positions.period) - self._input_at(begin))
+
+    def output(self, output: Output) -> tuple[Floats, Floats]:
+        """Value and rate of an output, (n,) each."""
+        value, rate = _read(self.motion, output)
+        if self.cycle is self.motion:
+            whole = rate
+        else:
+            on_cycle, whole = _read(self.cycle, output)
+            if output.kind == "angle":
+                value = self._anchored(value, on_cycle)
+        size = np.nanmax(np.abs(np.append(whole, rate)), initial=0.0) if self.ok.any() else 0.0
+        return value, np.where(np.abs(rate) <= STILL * size, 0.0, rate)
+
+    def limits(self, output: Output) -> Sequence[Limit]:
+        """Where an output reverses within the cycle, by increasing time."""
+        if output not in self._limits:
+            from linkwright.kinematics.limits import limit_positions
+
+            found = [
+                Limit(self._input_at(each.time), float(each.time), float(each.value), each.kind)
+                for each in limit_positions(self._turned, output)
+            ]
+            self._limits[output] = sorted(found, key=lambda each: each.time)
+        return self._limits[output]
+
+    def angle_between(self, a: str, b: str, near: float) -> Floats:
+        """Angle of link b against link a, (n,) rad, within half a turn of ``near`` where the cycle begins."""
+        first = _between(self.cycle, a, b)
+        first = first + TURN * np.round((near - first[np.isfinite(first)][:1]) / TURN)
+        return first if self.cycle is self.motion else self._anchored(_between(self.motion, a, b), first)
+
+    def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
+        """The same angle, moved by whole turns next to what it is at that time of the cycle."""
+        positions = self.cycle.positions
+        time, values, laps, gain = positions.time, on_cycle, np.zeros(len(angle)), 0.0
+        if positions.period is not None:
+            gain = TURN * float(np.round((values[-1] - values[0]) / TURN))
+            time, values = np.append(time, time[0] + positions.period), np.append(values, values[0] + gain)
+            laps = np.floor((self.time - time[0]) / positions.period)
+        order = np.argsort(time)
+        near = (
+            np.interp(self.time - laps * (positions.period or 0.0), time[order], values[order]) + laps * gain
+        )
+        near = np.where(np.isfinite(near), near, angle)
+        return np.asarray(angle + TURN * np.round((near - angle) / TURN))
+
+    def _input_at(self, time: float) -> float:
+        law = next(iter(self.mechanism.drivers.values())).law
+        return float(law.coordinate(np.array([time]))[0][0])
+
+    def _over(self, mechanism: Mechanism) -> Motion | None:
+        try:
+            positions: Positions = over_cycle(mechanism, STEPS)
+        except CycleError:
+            return None
+        return MotionRun(self.motion.solver.with_flips(()), positions).solve("mark")
+
+
+def _between(motion: Motion, a: str, b: str) -> Floats:
+    return motion.link(b).angle - motion.link(a).angle
+
+
+def _read(motion: Motion, output: Output) -> tuple[Floats, Floats]:
+    readers: dict[str, Callable[[], tuple[Any, Any]]] = {
+        "angle": lambda: (motion.link(output.owner).angle, motion.link(output.owner).angular_velocity),
+        "x": lambda: (motion.point(output.owner).position[:, 0], motion.point(output.owner).velocity[:, 0]),
+        "y": lambda: (motion.point(output.owner).position[:, 1], motion.point(output.owner).velocity[:, 1]),
+        "displacement": lambda: (
+            motion.joint(output.owner).displacement,
+            motion.joint(output.owner).velocity,
+        ),
+    }
+    return readers[output.kind]()
