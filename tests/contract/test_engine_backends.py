@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkwright.engine import machine_code
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.reductions import KINDS, Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.sweep import sweep
 from linkwright.engine.trace import Trace, absolute, cos, select, sin, sqrt
 
 PARAMETERS = ("a", "b", "c")
@@ -135,7 +138,22 @@ def test_numpy_and_scalar_agree_with_direct_evaluation(seed: int) -> None:
             agree(np.array(outputs), want[:, i])
 
 
+@pytest.fixture(params=["own", "x86-64-v3", "x86-64"])
+def vectors(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Code for this machine, and for older ones with narrower vectors."""
+    if request.param == "own" or not available():
+        return
+    here = machine_code.host()
+    if not here.features or "+avx2" not in here.features:
+        pytest.skip("this machine cannot run code for other vector widths")
+    features = "+avx,+avx2,+fma" if request.param == "x86-64-v3" else ""
+    width = 4 if features else 2
+    older = machine_code.Host(request.param, features, width, f"{request.param} {width}")
+    monkeypatch.setattr(machine_code, "host", lambda: older)
+
+
 @needs_compiler
+@pytest.mark.usefixtures("vectors")
 @pytest.mark.parametrize("n", [*range(1, 18), 100])
 def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) -> None:
     program, formulas = random_program(n)
@@ -151,6 +169,7 @@ def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) ->
         np.testing.assert_array_equal(compiled.run(table[d], positions, {"f": f[d]}), stored[d])
 
 
+@pytest.mark.usefixtures("vectors")
 @pytest.mark.parametrize("designs", [1, 7, 8, 19])
 @pytest.mark.parametrize("seed", range(3))
 def test_states_are_carried_alike(seed: int, designs: int) -> None:
@@ -171,6 +190,7 @@ def test_states_are_carried_alike(seed: int, designs: int) -> None:
 
 
 @needs_compiler
+@pytest.mark.usefixtures("vectors")
 def test_not_a_number_stays_where_it_arises() -> None:
     t = Trace()
     x, a = t.position("x"), t.parameter("a")
@@ -186,3 +206,33 @@ def test_not_a_number_stays_where_it_arises() -> None:
         [0.0, 1.0, 1.0, 0.0, 0.0],
     ]
     np.testing.assert_array_equal(got, want)
+
+
+@needs_compiler
+@pytest.mark.usefixtures("vectors")
+@pytest.mark.parametrize("n", [1, 3, 5, 9, 22])
+def test_reductions_of_random_programs_agree_with_numpy(n: int) -> None:
+    program, _ = random_program(50 + n)
+    p, x, f = case(50 + n, n, designs=9)
+    table = np.array([ordered(program, row) for row in p])
+    positions = dict(zip(POSITIONS, x, strict=True))
+    kinds = [Reduction(output, kind) for output in ("v0", "v3", "design", "low") for kind in KINDS]
+    stored = NumpyProgram(program).run_designs(table, positions, {"f": f})
+    rows = dict(zip(program.output_names, stored.transpose(1, 0, 2), strict=True))
+    got = sweep(program, table, positions, kinds, fields={"f": f}, backend="llvm")
+    holds = rows["valid"] == 1.0
+    np.testing.assert_array_equal(got["valid.count"], holds.sum(axis=1))
+    for d in range(9):
+        for output in ("v0", "v3", "design", "low"):
+            values = rows[output][d][holds[d]]
+            want = {"sum": values.sum(), "count": np.count_nonzero(values), "min": math.nan, "max": math.nan}
+            want |= {"mean": math.nan, "rms": math.nan}
+            if len(values):
+                want |= {"min": values.min(), "max": values.max(), "mean": values.mean()}
+                want["rms"] = np.sqrt((values**2).mean())
+            for kind, number in want.items():
+                np.testing.assert_allclose(got[f"{output}.{kind}"][d], number, rtol=1e-10, atol=1e-12)
+            for kind in ("argmin", "argmax") if len(values) else ():
+                at = int(got[f"{output}.{kind}"][d])
+                assert holds[d][at]
+                np.testing.assert_allclose(rows[output][d][at], want[kind[3:]], rtol=1e-10, atol=1e-12)

@@ -8,10 +8,20 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.reference.adapter import driver_values, link_points, reference_motion
-from tests.reference.formulas import force_in_link, force_in_space, gravity
+from tests.reference.adapter import driver_values, guide_direction, link_points, reference_motion
+from tests.reference.formulas import (
+    damper,
+    force_in_link,
+    force_in_space,
+    gravity,
+    push_along_guide,
+    spring,
+    torque,
+    torsion_damper,
+    torsion_spring,
+)
 from tests.reference.laws import taylor
-from tests.reference.multibody import Array, Load, Motion
+from tests.reference.multibody import Array, Load, Motion, Vec
 
 
 def reference_loads(mechanism: Any, motion: Motion, time: Array) -> list[Load]:
@@ -114,4 +124,48 @@ def _angle_in_link(mechanism: Any, load: Any) -> float:
     return atan2(by - ay, bx - ax) + (pi / 2 if load.normal_to else 0.0)
 
 
-KINDS: dict[str, Callable[[Any, Any, _Course], Load]] = {"force": _force}
+def _torque(mechanism: Any, load: Any, course: _Course) -> Load:
+    return torque(load.on, course.magnitude(load), load.against)
+
+
+def _ends(mechanism: Any, load: Any) -> list[tuple[str, Vec]]:
+    return [(end.link, link_points(mechanism, end.link)[end.point]) for end in load.between]
+
+
+def _spring(mechanism: Any, load: Any, course: _Course) -> Load:
+    a, b = _ends(mechanism, load)
+    return spring(a, b, load.stiffness, load.free_length, load.preload)
+
+
+def _damper(mechanism: Any, load: Any, course: _Course) -> Load:
+    a, b = _ends(mechanism, load)
+    return damper(a, b, load.damping)
+
+
+def _torsion_spring(mechanism: Any, load: Any, course: _Course) -> Load:
+    a, b = load.links
+    return torsion_spring(a, b, load.stiffness, load.free_angle, load.preload)
+
+
+def _torsion_damper(mechanism: Any, load: Any, course: _Course) -> Load:
+    a, b = load.links
+    return torsion_damper(a, b, load.damping)
+
+
+def _pressure(mechanism: Any, load: Any, course: _Course) -> Load:
+    joint = mechanism.joints[load.joint]
+    area = load.area if load.area is not None else pi * load.bore**2 / 4
+    size = course.magnitude(load) * area * (-1.0 if load.pushes == "backward" else 1.0)
+    block = joint.block, link_points(mechanism, joint.block)[joint.at]
+    return push_along_guide((joint.guide, guide_direction(mechanism, joint)), block, size)
+
+
+KINDS: dict[str, Callable[[Any, Any, _Course], Load]] = {
+    "force": _force,
+    "torque": _torque,
+    "spring": _spring,
+    "damper": _damper,
+    "torsion_spring": _torsion_spring,
+    "torsion_damper": _torsion_damper,
+    "pressure": _pressure,
+}

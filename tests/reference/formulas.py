@@ -55,27 +55,63 @@ def torque(body: str, value: ArrayLike, reaction_on: str = FRAME) -> Load:
 
 
 def spring(
-    a: tuple[str, Vec], b: tuple[str, Vec], stiffness: float, free_length: float, damping: float = 0.0
+    a: tuple[str, Vec], b: tuple[str, Vec], stiffness: float, free_length: float, preload: float = 0.0
 ) -> Load:
-    """Spring and damper between two points: tension k (l - l0) + c dl/dt along the line."""
+    """Spring between two points: tension preload + k (l - l0) along the line."""
 
     def load(motion: Motion) -> list[Wrench]:
-        (pa, va, _), (pb, vb, _) = motion.point(*a), motion.point(*b)
-        length = np.hypot(*(pb - pa).T)
-        along = (pb - pa) / length[:, None]
-        tension = stiffness * (length - free_length) + damping * ((vb - va) * along).sum(1)
-        pull = tension[:, None] * along
-        return [_force(motion, a[0], pa, pull), _force(motion, b[0], pb, -pull)]
+        length, _ = _distance(motion, a, b)
+        return _pull(motion, a, b, preload + stiffness * (length - free_length))
 
     return load
 
 
-def torsion_spring(a: str, b: str, stiffness: float, free_angle: float, damping: float = 0.0) -> Load:
-    """Torque on b: -k (phi_b - phi_a - free angle) - c (phi_b - phi_a)'; the opposite on a."""
+def damper(a: tuple[str, Vec], b: tuple[str, Vec], damping: float) -> Load:
+    """Damper between two points: tension c dl/dt along the line."""
+    return lambda motion: _pull(motion, a, b, damping * _distance(motion, a, b)[1])
+
+
+def _distance(motion: Motion, a: tuple[str, Vec], b: tuple[str, Vec]) -> tuple[Array, Array]:
+    """Distance of two points and its rate."""
+    (pa, va, _), (pb, vb, _) = motion.point(*a), motion.point(*b)
+    length = np.hypot(*(pb - pa).T)
+    return length, ((vb - va) * (pb - pa)).sum(1) / length
+
+
+def _pull(motion: Motion, a: tuple[str, Vec], b: tuple[str, Vec], tension: Array) -> list[Wrench]:
+    pa, pb = motion.point(*a)[0], motion.point(*b)[0]
+    pull = (tension / np.hypot(*(pb - pa).T))[:, None] * (pb - pa)
+    return [_force(motion, a[0], pa, pull), _force(motion, b[0], pb, -pull)]
+
+
+def torsion_spring(a: str, b: str, stiffness: float, free_angle: float, preload: float = 0.0) -> Load:
+    """Torque on b: -(preload + k (phi - phi0)); the opposite on a; phi within half a turn of phi0 at first."""
 
     def load(motion: Motion) -> list[Wrench]:
-        (pa, wa, _), (pb, wb, _) = motion.angle(a), motion.angle(b)
-        on_b = -stiffness * (pb - pa - free_angle) - damping * (wb - wa)
-        return [_torque(motion, b, on_b), _torque(motion, a, -on_b)]
+        twist = motion.angle(b)[0] - motion.angle(a)[0] - free_angle
+        twist = twist - 2 * np.pi * np.round(twist[0] / (2 * np.pi))
+        on_a = preload + stiffness * twist
+        return [_torque(motion, a, on_a), _torque(motion, b, -on_a)]
+
+    return load
+
+
+def torsion_damper(a: str, b: str, damping: float) -> Load:
+    """Torque on b: -c (omega_b - omega_a); the opposite on a."""
+
+    def load(motion: Motion) -> list[Wrench]:
+        on_a = damping * (motion.angle(b)[1] - motion.angle(a)[1])
+        return [_torque(motion, a, on_a), _torque(motion, b, -on_a)]
+
+    return load
+
+
+def push_along_guide(guide: tuple[str, float], block: tuple[str, Vec], force: ArrayLike) -> Load:
+    """A force on the block's point along the guide's direction, and the opposite on the guide there."""
+
+    def load(motion: Motion) -> list[Wrench]:
+        place = motion.point(*block)[0]
+        push = np.asarray(force, dtype=float)[..., None] * motion.direction(*guide)
+        return [_force(motion, block[0], place, push), _force(motion, guide[0], place, -push)]
 
     return load

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from tests.reference.draft import Draft
-from tests.reference.multibody import FRAME
-from tests.reference.random_mechanisms import PlacedLink
+import numpy as np
+from tests.reference.draft import Awkward, Draft
+from tests.reference.random_mechanisms import PlacedLink, world
 
 
 def random_loads(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> dict[str, str]:
-    kinds = [_force]
+    """One to three loads of random kinds."""
+    kinds = [_force, _force, _torque, _spring, _damper, _torsion_spring, _torsion_damper]
+    kinds += [_pressure] if d.slides else []
     chosen = [kinds[int(d.rng.integers(len(kinds)))] for _ in range(int(d.rng.integers(1, 4)))]
     return {f"load{k}": make(d, links, order) for k, make in enumerate(chosen)}
 
@@ -28,8 +30,51 @@ def _force(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
     return f"{{kind: force, on: {on}, at: {d.pick(points)}, {d.pick(ways)}, magnitude: {size} N}}"
 
 
-def any_point(d: Draft, links: dict[str, PlacedLink], link: str) -> str:
-    """A point of a link in the way that loads refer to it."""
-    return (
-        f"{link}.{d.pick(list(links[link].points))}" if link != FRAME else d.pick(list(links[FRAME].points))
+def _torque(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    on = d.pick(order)
+    against = d.pick([name for name in links if name != on])
+    return f"{{kind: torque, on: {on}, against: {against}, magnitude: {_rounded(d, -80, 80)} N·m}}"
+
+
+def _between(d: Draft, links: dict[str, PlacedLink]) -> str:
+    """Two points, at least 0.2 m from each other at the start, of two links."""
+    for _ in range(30):
+        a, b = (d.pick(list(links)) for _ in range(2))
+        p, q = d.pick(list(links[a].points)), d.pick(list(links[b].points))
+        (px, py), (qx, qy) = world(links[a], p), world(links[b], q)
+        if a != b and np.hypot(px - qx, py - qy) > 0.2:
+            return f"between: [{a}.{p}, {b}.{q}]"
+    raise Awkward
+
+
+def _spring(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    free, stiffness, preload = _rounded(d, 0, 0.6), _rounded(d, 10, 900), _rounded(d, -40, 40)
+    numbers = f"stiffness: {stiffness} N/m, free_length: {free} m, preload: {preload} N"
+    return f"{{kind: spring, {_between(d, links)}, {numbers}}}"
+
+
+def _damper(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    return f"{{kind: damper, {_between(d, links)}, damping: {_rounded(d, 1, 60)} N·s/m}}"
+
+
+def _two_links(d: Draft, links: dict[str, PlacedLink]) -> str:
+    a, b = d.rng.permutation(list(links))[:2]
+    return f"links: [{a}, {b}]"
+
+
+def _torsion_spring(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    stiffness, preload = _rounded(d, 1, 50), _rounded(d, -20, 20)
+    numbers = (
+        f"stiffness: {stiffness} N·m/rad, free_angle: {_rounded(d, -170, 170)} deg, preload: {preload} N·m"
     )
+    return f"{{kind: torsion_spring, {_two_links(d, links)}, {numbers}}}"
+
+
+def _torsion_damper(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    return f"{{kind: torsion_damper, {_two_links(d, links)}, damping: {_rounded(d, 0.1, 9)} N·m·s/rad}}"
+
+
+def _pressure(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
+    joint = d.pick([slide.name for slide in d.slides])
+    size = d.pick(["bore: 40 mm", "area: 0.002 m²", "bore: 60 mm, pushes: backward"])
+    return f"{{kind: pressure, joint: {joint}, {size}, magnitude: {_rounded(d, -90, 90)} kPa}}"

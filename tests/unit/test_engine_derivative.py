@@ -103,6 +103,8 @@ def objective_exactly(program: Program, terms: list[Term], inputs: Mapping[str, 
             result = result / len(values)
         elif term.kind == "rms":
             result = mpmath.sqrt(sum(v * v for v in values) / len(values))
+        elif term.kind != "sum":
+            result = max(values) if term.kind == "max" else min(values)
         total += mpf(term.weight) * result
     return total
 
@@ -114,6 +116,8 @@ def objective_exactly(program: Program, terms: list[Term], inputs: Mapping[str, 
         [Term("w")],
         [Term("r", "mean", 2.0), Term("q", "mean")],
         [Term("d", "rms")],
+        [Term("w", "max"), Term("d", "min", -2.0)],
+        [Term("k", "max"), Term("q", "min"), Term("r", "mean")],
         [Term("k", "sum"), Term("w", "mean", -0.5), Term("q", "rms", 3.0), Term("r", "rms")],
     ],
 )
@@ -216,5 +220,19 @@ def test_what_cannot_be_differentiated_is_refused() -> None:
         forward(mixture(), ["z"])
     with pytest.raises(ValueError, match="no output valid"):
         value_and_gradient(mixture(), [("valid", "sum")])
-    with pytest.raises(ValueError, match="sum, mean and rms"):
-        value_and_gradient(mixture(), [("r", "max")])  # type: ignore[list-item]
+    with pytest.raises(ValueError, match="kinds sum, mean, rms, max, min, not"):
+        value_and_gradient(mixture(), [("r", "median")])  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_extremes_of_designs_without_a_valid_position_are_not_numbers(backend: str) -> None:
+    t = Trace()
+    a, b, x = t.parameter("a"), t.parameter("b"), t.position("x")
+    square = a * a - x * x
+    program = Program.of(t, {"y": sqrt(square), "valid": square > 0.0, "other": b * x})
+    gradient = value_and_gradient(program, [("y", "max")])
+    value, slope = gradient({"a": [1.0, 0.1], "b": 1.0}, {"x": np.array([0.5, 0.8])}, backend=backend)  # type: ignore[arg-type]
+    assert value[0] == pytest.approx(math.sqrt(0.75), rel=1e-15)
+    assert slope[0].tolist() == pytest.approx([1.0 / math.sqrt(0.75), 0.0], rel=1e-15)
+    assert np.isnan(value[1])
+    assert np.isnan(slope[1]).all()

@@ -37,17 +37,18 @@ _lock = threading.RLock()
 
 def loaded_code(key: str, text: Callable[[], str], entry: str) -> machine_code.Loaded:
     """Code for ``key``: from memory, from the folder, or compiled from ``text()``."""
+    place = f"{machine_code.host().description} {key}"
     with _lock:
-        if key in _memory:
-            _memory.move_to_end(key)
-            return _memory[key]
+        if place in _memory:
+            _memory.move_to_end(place)
+            return _memory[place]
         loaded = _from_folder(key, entry)
         if loaded is None:
             code = machine_code.object_code(text())
             loaded = machine_code.Loaded(code, entry)
             with suppress(OSError):
                 _write(key, code)
-        _memory[key] = loaded
+        _memory[place] = loaded
         while len(_memory) > _KEPT_IN_MEMORY:
             _memory.popitem(last=False)
         return loaded

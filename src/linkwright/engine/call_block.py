@@ -107,11 +107,11 @@ class SingleCall:
         self._own: Floats = np.empty(len(program.parameters))
         self._seen: object = None
         self._bound: object = None
-        self._given = [(positions, name, positions[name]) for name in program.positions]
-        self._given += [(fields, name, fields[name]) for name in program.fields]
+        self._positions = [(name, positions[name]) for name in program.positions]
+        self._fields = [(name, fields[name]) for name in program.fields]
+        given = [array for _, array in (*self._positions, *self._fields)]
         used = [*self.inputs.positions, *self.inputs.fields]
-        self._kept = all(own is given for own, (_, _, given) in zip(used, self._given, strict=True))
-        self._positions, self._fields = positions, fields
+        self._kept = all(own is array for own, array in zip(used, given, strict=True))
         self._out: Floats | None = None
         self._block = self.inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
@@ -119,9 +119,12 @@ class SingleCall:
 
     def fits(self, positions: Arrays, fields: Arrays) -> bool:
         """Whether the same arrays are given again."""
-        if not self._kept or positions is not self._positions or fields is not self._fields:
+        if not self._kept:
             return False
-        return not any(source[name] is not array for source, name, array in self._given)
+        for name, array in self._positions:
+            if positions.get(name) is not array:
+                return False
+        return not self._fields or all(fields.get(name) is array for name, array in self._fields)
 
     def set_parameters(self, parameters: ArrayLike) -> None:
         """The design: copied, or read where it lies if the same array is given again and again."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from linkwright.engine.adjoint import Adjoints
-from linkwright.engine.gradient import VALUE, GradientProgram, derivative_name
-from linkwright.engine.objective import Group, Term, TermKind, groups_of
+from linkwright.engine.gradient import VALUE, ExtremePart, GradientProgram, Part, SummedPart, derivative_name
+from linkwright.engine.objective import EXTREMES, Group, Term, TermKind, groups_of
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT
 from linkwright.engine.replay import Replay, depending
@@ -42,7 +43,8 @@ def reverse(
     Otherwise as :func:`value_and_gradient`.
     """
     group = Group(0, tuple(Term(name) for name in seeds), "sum", seeded=True)
-    return _gradient(program, [group], wrt, valid)
+    wanted = _wanted(program, seeds, wrt)
+    return GradientProgram((_summed(program, [group], wanted, valid),), wanted)
 
 
 def value_and_gradient(
@@ -51,16 +53,22 @@ def value_and_gradient(
     wrt: Sequence[str] | None = None,
     valid: str | None = "valid",
 ) -> GradientProgram:
-    """Value and gradient of an objective, the sum of its terms, in one pass over the positions.
+    """Value and gradient of an objective, the sum of its terms.
 
     ``wrt``: names of parameters, None for all of them in the order of the program. Only the
     positions where the output ``valid`` holds enter (all, without such an output). ``stop`` and
-    states are constants. Sums and means count as one kind each; every root mean square, and
-    every further kind, needs a reverse sweep of its own. Raises ValueError for unknown names,
+    states are constants. Sums, means and root mean squares are found in one pass over the
+    positions; all sums together, all means together, and every root mean square take a reverse
+    sweep each. An extreme takes a pass of its own; its gradient is that at its first position,
+    which is exact wherever the extreme changes smoothly. Raises ValueError for unknown names,
     and for programs that carry states (see :func:`~linkwright.engine.states.states_as_fields`).
     """
     terms = [t if isinstance(t, Term) else Term(*t) for t in objective]
-    return _gradient(program, groups_of(terms), wrt, valid)
+    groups = groups_of(terms)
+    wanted = _wanted(program, [t.output for t in terms], wrt)
+    parts: list[Part] = [_summed(program, groups, wanted, valid)] if groups else []
+    parts += [_extreme(program, t, wanted, valid) for t in terms if t.kind in EXTREMES]
+    return GradientProgram(tuple(parts), wanted)
 
 
 def _check_inputs(program: Program, names: Sequence[str], known: Sequence[str]) -> None:
@@ -69,23 +77,45 @@ def _check_inputs(program: Program, names: Sequence[str], known: Sequence[str]) 
         raise ValueError(f"the program has no input {', '.join(unknown)} to differentiate by")
 
 
-def _gradient(
-    program: Program, groups: list[Group], wrt: Sequence[str] | None, valid: str | None
-) -> GradientProgram:
+def _wanted(program: Program, outputs: Sequence[str], wrt: Sequence[str] | None) -> tuple[str, ...]:
+    """The parameters to differentiate by, after a look at what is asked."""
     if program.next_states:
         raise ValueError("a program that carries states has no gradient: take its states as fields first")
     wanted = program.parameters if wrt is None else tuple(wrt)
     _check_inputs(program, wanted, program.parameters)
-    outputs = dict(numeric_outputs(program))
-    unknown = [t.output for group in groups for t in group.terms if t.output not in outputs]
+    known = dict(numeric_outputs(program))
+    unknown = [name for name in outputs if name not in known]
     if unknown:
         raise ValueError(f"the program has no output {', '.join(unknown)} to differentiate")
-    active = depending(program, wanted)
+    return wanted
+
+
+def _summed(program: Program, groups: list[Group], wrt: tuple[str, ...], valid: str | None) -> SummedPart:
+    active = depending(program, wrt)
     boundary = _boundary(program, active)
     judged = valid if valid in program.output_names else None
     along = _along_positions(program, groups, active, boundary, judged)
-    after = _after_positions(program, groups, wanted, active, along)
-    return GradientProgram(along, after, wanted, judged)
+    return SummedPart(along, _after_positions(program, groups, wrt, active, along), wrt, judged)
+
+
+def _extreme(program: Program, term: Term, wrt: tuple[str, ...], valid: str | None) -> ExtremePart:
+    judged = valid if valid in program.output_names else None
+    kept = [term.output] if judged is None or judged == term.output else [term.output, judged]
+    needed = program.only(kept)
+    nodes = tuple(replace(node, op="field") if node.op == "position" else node for node in needed.nodes)
+    group = Group(0, (Term(term.output, "sum", term.weight),), "sum")
+    there = Program(nodes, needed.outputs).only([term.output])
+    own = tuple(name for name in wrt if name in there.parameters)
+    summed = _summed(there, [group], own, None)
+    return ExtremePart(needed, term.output, term.kind, judged, _spread(summed, wrt))
+
+
+def _spread(part: SummedPart, wrt: tuple[str, ...]) -> SummedPart:
+    """The same part with zeros as derivatives by parameters that it does not have."""
+    replay = Replay(part.after)
+    outputs: dict[str, Scalar | bool] = {name: replay.values[i] for name, i in part.after.outputs}
+    missing = {derivative_name(name): 0.0 for name in wrt if derivative_name(name) not in outputs}
+    return SummedPart(part.along, Program.of(replay.trace, {**outputs, **missing}), wrt, part.valid)
 
 
 def _boundary(program: Program, active: set[int]) -> list[int]:

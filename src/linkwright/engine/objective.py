@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from linkwright.engine.trace import Scalar, Trace
 
-TermKind = Literal["sum", "mean", "rms"]
+TermKind = Literal["sum", "mean", "rms", "max", "min"]
+EXTREMES = ("max", "min")
 
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A part of an objective: ``weight`` times the sum, mean or root mean square of an output."""
+    """A part of an objective: ``weight`` times a summary of an output over the valid positions.
+
+    ``rms``: root of the mean square; ``max``, ``min``: extremes.
+    """
 
     output: str
     kind: TermKind = "sum"
@@ -68,16 +72,17 @@ class Group:
 
 
 def groups_of(terms: Sequence[Term]) -> list[Group]:
-    """Sums together, means together, every root mean square for itself.
+    """Sums together, means together, every root mean square for itself; extremes left out.
 
-    Raises ValueError for other kinds, and where there is no term.
+    Raises ValueError for unknown kinds, and where there is no term.
     """
-    unknown = [t.kind for t in terms if t.kind not in ("sum", "mean", "rms")]
+    kinds = get_args(TermKind)
+    unknown = sorted({t.kind for t in terms} - set(kinds))
     if unknown or not terms:
-        raise ValueError(f"an objective has terms of the kinds sum, mean and rms, not {unknown}")
+        raise ValueError(f"an objective has terms of the kinds {', '.join(kinds)}, not {unknown}")
     parted: list[tuple[tuple[Term, ...], TermKind]] = []
-    kinds: tuple[TermKind, ...] = ("sum", "mean")
-    for kind in kinds:
+    linear: tuple[TermKind, ...] = ("sum", "mean")
+    for kind in linear:
         same = tuple(t for t in terms if t.kind == kind)
         if same:
             parted.append((same, kind))

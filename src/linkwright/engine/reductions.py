@@ -133,6 +133,7 @@ class Accumulation:
         table = np.zeros((designs, self.width))
         for column, (step, _) in enumerate(self.steps):
             table[:, column] = _START.get(step, 0.0)
+        table[:, len(self.steps) :] = np.nan
         return table
 
     def finish(self, table: Floats, n: int) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:

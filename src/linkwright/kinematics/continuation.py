@@ -12,7 +12,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.cycle import Floats, Positions
-from linkwright.kinematics.groups import mechanism_size
+from linkwright.kinematics.groups import mechanism_size, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.group import Structure
@@ -41,6 +41,12 @@ class Follower:
         self.size = mechanism_size(self.motion.dimensions)
         self.values = [self.parameters[name] for name in self.program.parameters]
         self.names = self.program.states
+        self.linear = {
+            f"{state_name(group, step)}.s"
+            for group in self.structure.groups
+            if all(step.kind == "prismatic" for step in group.unknowns)
+            for step in group.unknowns
+        }
 
     def follow(self, positions: Positions) -> dict[str, Floats]:
         """States (n,) by name at every position; NaN where the way to it is barred."""
@@ -100,6 +106,8 @@ class Follower:
     def _change(self, old: Sequence[float], new: Sequence[float]) -> float:
         largest = 0.0
         for name, a, b in zip(self.names, old, new, strict=True):
+            if name in self.linear:
+                continue
             scale = self.size if name.endswith(".s") else 1.0
             change = abs(b - a) / scale
             largest = max(largest, change) if change == change else math.inf

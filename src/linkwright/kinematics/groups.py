@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from linkwright.engine.linear import Matrix, inverse, product
 from linkwright.engine.trace import Mask, Scalar, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Rotor
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.closure import Cut, PinCut, cut_of, jacobian
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
@@ -237,7 +240,14 @@ def _relative_square(group: Group, correction: Sequence[Scalar], dimensions: Dim
 
 
 def mechanism_size(dimensions: Dimensions) -> float:
-    """Largest distance of a point from its link's origin, in metres."""
-    links = [*dimensions.mechanism.links.values(), dimensions.mechanism.frame]
+    """A length that tells the size of the mechanism, in metres: its largest coordinate, offset or stroke."""
+    mechanism = dimensions.mechanism
+    links = [*mechanism.links.values(), mechanism.frame]
     reach = [abs(c) for link in links for point in link.points.values() for c in point]
-    return max([*reach, 1e-12])
+    reach += [abs(c) for point in mechanism.drawing.values() for c in point]
+    reach += [abs(getattr(joint, "offset", 0.0)) for joint in mechanism.joints.values()]
+    for driver in mechanism.drivers.values():
+        if isinstance(mechanism.joints[driver.joint], PrismaticJoint):
+            reach.append(abs(float(driver.law.coordinate(np.zeros(1))[0][0])))
+    largest = max([*reach, 0.0])
+    return largest if largest > 0.0 else 1.0

@@ -1,4 +1,6 @@
 """Kinetostatics: joint reactions, driver effort, shaking force, and the checks that belong to them."""
 
+from linkwright.kinetostatics.balancing import Balancing as Balancing
+from linkwright.kinetostatics.balancing import balance as balance
 from linkwright.kinetostatics.forces import Forces as Forces
 from linkwright.kinetostatics.forces import solve_forces as solve_forces

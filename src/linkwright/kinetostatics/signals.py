@@ -87,7 +87,7 @@ class MotionSignals:
 
     @cached_property
     def _turned(self) -> Motion:
-        """The motion over a cycle that closes, where there is one that can be passed, else over the model's own."""
+        """The motion over a cycle that closes, if one can be passed, else over the model's own."""
         if self.cycle.positions.closed or self.mechanism.cycle is None:
             return self.cycle
         found = self._over(replace(self.mechanism, cycle=None))
@@ -156,7 +156,8 @@ class MotionSignals:
             positions: Positions = over_cycle(mechanism, STEPS)
         except CycleError:
             return None
-        return MotionRun(self.motion.solver.with_flips(()), positions).solve("mark")
+        solver = self.motion.solver
+        return MotionRun(solver.with_flips(()) if solver.flipping else solver, positions).solve("mark")
 
 
 def _between(motion: Motion, a: str, b: str) -> Floats:

@@ -23,7 +23,7 @@ class Damper(Load):
     never gives power back.
 
     At L = 0 the direction is that of the relative velocity, the limit as the ends pass through each other.
-    Source: Norton, Design of Machinery, chapter on dynamics of dampers.
+    Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
     kind: ClassVar[str] = "damper"

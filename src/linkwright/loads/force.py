@@ -28,7 +28,7 @@ class Force(Load):
     whatever presses is outside the machine.
 
     Raises LinkwrightError where P and Q of a ray coincide, which then has no direction.
-    Source: the statics of a rigid body, any textbook of mechanics.
+    Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
 
     kind: ClassVar[str] = "force"
@@ -81,8 +81,8 @@ class Force(Load):
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
             raise LinkwrightError(
-                f"loads.{self.name}: the points {p} and {q} of {self.on} coincide, so the ray {p}→{q} has no direction; "
-                "name two points that are apart"
+                f"loads.{self.name}: the points {p} and {q} of {self.on} coincide, so the ray {p}→{q} has no "
+                "direction; name two points that are apart"
             )
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / sqrt(ray.square))

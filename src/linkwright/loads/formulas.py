@@ -63,7 +63,8 @@ def _refusal(expression: Expression, columns: Mapping[str, Array], signals: Sign
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
-        return f"{error.message} {spot(signals, index)}; change the expression, or leave that position out by a phase"
+        where = spot(signals, index)
+        return f"{error.message} {where}; change the expression, or leave that position out by a phase"
     return f'"{expression.text}" is not finite {spot(signals, index)}; change the expression'
 
 
@@ -150,6 +151,6 @@ def _between(expression: Expression, signals: Signals, index: int, share: float)
     q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
     place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
     return (
-        f'"{expression.text}" divides by zero near input = {place}; change the expression, or leave that position out '
-        "by a phase"
+        f'"{expression.text}" divides by zero near input = {place}; change the expression, or leave '
+        "that position out by a phase"
     )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def is_constant(load: Load) -> bool:
-    """Whether the magnitude of a load is one number at all positions, so that the traced formula can hold it."""
+    """Whether the magnitude of a load is one number at all positions, which the traced formula can hold."""
     from linkwright.loads.base import Load as Base
 
     if type(load).from_cycle is not Base.from_cycle:
@@ -32,8 +32,8 @@ def evaluate(load: Load, signals: Signals) -> Array:
     A load with a phase but without any magnitude (a force by its components) gives 1 within the phase.
 
     Raises:
-        LinkwrightError: an expression that has no finite value, a table that does not cover the positions, or a
-            phase whose limit positions do not exist; the sentence names the load.
+        LinkwrightError: an expression that has no finite value, a table that does not cover the positions, or
+            a phase whose limit positions do not exist; the sentence names the load.
     """
     try:
         found = load.from_cycle(signals)

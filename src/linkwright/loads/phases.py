@@ -26,7 +26,7 @@ class Activity:
 
 @dataclass(frozen=True)
 class Stretch:
-    """One way of an output from a limit to another; the times and inputs grow through the end of the cycle."""
+    """One way of an output from a limit to another; times and inputs go on through the cycle's end."""
 
     begin: tuple[float, float]
     end: tuple[float, float]
@@ -59,15 +59,15 @@ def _input(phase: InputPhase, signals: Signals) -> Activity:
     length = end - start
     if length < 0 and signals.heading == 0:
         raise LinkwrightError(
-            f"the phase goes from {shown(start, 'angle')} down to {shown(end, 'angle')}, but the input turns to and fro; "
-            "write the smaller angle first"
+            f"the phase goes from {shown(start, 'angle')} down to {shown(end, 'angle')}, but the input turns to "
+            "and fro; write the smaller angle first"
         )
     if length < 0 and signals.heading > 0:
         length = length % TURN or TURN
     if abs(length) > TURN + NEAR:
         raise LinkwrightError(
-            f"the phase from {shown(start, 'angle')} to {shown(end, 'angle')} is longer than one turn of the input; "
-            "use a table over the time instead"
+            f"the phase from {shown(start, 'angle')} to {shown(end, 'angle')} is longer than one turn of the "
+            "input; use a table over the time instead"
         )
     gone = (q - min(start, start + length)) % TURN
     gone = np.where(gone > TURN - NEAR, gone - TURN, gone)
@@ -107,8 +107,8 @@ def _some(limits: Sequence[Limit], output: Output) -> Sequence[Limit]:
     if limits:
         return limits
     raise LinkwrightError(
-        f"the output '{output}' never reverses within the cycle, so it has no limit positions; choose an output that "
-        "swings, or give the phase by the input: {input: [a, b]}"
+        f"the output '{output}' never reverses within the cycle, so it has no limit positions; choose an "
+        "output that swings, or give the phase by the input: {input: [a, b]}"
     )
 
 
@@ -148,8 +148,8 @@ def _along(found: Sequence[Stretch], signals: Signals, output: Output, ramp: boo
         rise = stretch.end[1] - stretch.begin[1]
         if ramp and abs(rise) < NEAR * (1.0 + abs(stretch.end[1])):
             raise LinkwrightError(
-                f"the input is the same at both limit positions of '{output}', so a ramp over the input has no length; "
-                f"give a table over {output} instead"
+                f"the input is the same at both limit positions of '{output}', so a ramp over the input has "
+                f"no length; give a table over {output} instead"
             )
         where |= inside
         if ramp:

@@ -27,7 +27,7 @@ class Pressure(Load):
     ``table`` (an indicator diagram) over the input, the time or an output such as the joint's displacement.
     Outside ``phase`` it is zero; one load for each stroke gives a diagram over the displacement.
 
-    Source: Shigley and Uicker, Theory of Machines and Mechanisms, dynamics of reciprocating engines.
+    Source: Norton, Design of Machinery, chapter 13 (engine dynamics, gas force).
     """
 
     kind: ClassVar[str] = "pressure"

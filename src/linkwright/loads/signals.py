@@ -1,4 +1,4 @@
-"""What the magnitude of a load may follow: the input, the time, outputs of the mechanism, and their limits."""
+"""What the magnitude of a load may follow: the input, the time, outputs of the mechanism, their limits."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Limit:
-    """A position in which an output reverses: ``input`` (rad or m) and ``time`` (s) there, ``value`` of the output."""
+    """A position in which an output reverses: ``input`` (rad or m), ``time`` (s), ``value`` of the output."""
 
     input: float
     time: float
@@ -30,7 +30,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Whole:
-    """The cycle over which limits are found: ``period`` s and gain ``drift`` of the input in it, if it closes."""
+    """The cycle over which limits are found: if it closes, its ``period`` (s) and the input's ``drift`` in it."""
 
     period: float | None
     drift: float = 0.0
@@ -71,7 +71,7 @@ class Signals(Protocol):
 
     @property
     def closes(self) -> tuple[float, float] | None:
-        """Period (s) and gain of the input in it, where the first position follows the last one; else None."""
+        """Period (s) and gain of the input in it, where the first position follows the last; else None."""
         ...
 
     @property
@@ -80,7 +80,7 @@ class Signals(Protocol):
         ...
 
     def output(self, output: Output) -> tuple[Array, Array]:
-        """Value and rate of an output; an angle is continuous over the cycle, a rate of rounding size is zero."""
+        """Value and rate of an output; angles are continuous over the cycle, rates of rounding size zero."""
         ...
 
     def limits(self, output: Output) -> Sequence[Limit]:
@@ -88,7 +88,7 @@ class Signals(Protocol):
         ...
 
     def angle_between(self, a: str, b: str, near: float) -> Array:
-        """Angle of link b against link a, rad, within half a turn of ``near`` where the cycle begins, and continuous."""
+        """Angle of link b against link a, rad: within half a turn of ``near`` where the cycle begins, continuous."""
         ...
 
 

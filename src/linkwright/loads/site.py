@@ -69,7 +69,7 @@ class Site(Protocol):
         ...
 
     def magnitude(self) -> Scalar:
-        """The load's magnitude at this position: number, expression, ramp or table, zero outside its phase."""
+        """The load's magnitude here: number, expression, ramp or table; zero outside its phase."""
         ...
 
     def direction(self, angle: Scalar) -> Vec:

@@ -24,7 +24,7 @@ class Spring(Load):
 
     At L = 0 the spring has no direction: the part k·(vector between the ends) vanishes, and the rest,
     F0 - k·L0, is taken as zero there, the mean over all directions.
-    Energy k·(L - L0)²/2 + F0·(L - L0). Source: Norton, Design of Machinery, chapter on dynamics of springs.
+    Energy k·(L - L0)²/2 + F0·(L - L0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
     kind: ClassVar[str] = "spring"

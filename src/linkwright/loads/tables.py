@@ -53,6 +53,6 @@ def _missing(table: Table, short: Array, dimension: str) -> str:
     if (short > last).any():
         ranges.append(f"{shown(last, dimension)} to {shown(float(short.max()), dimension)}")
     return (
-        f"its table over {table.over} goes from {shown(first, dimension)} to {shown(last, dimension)} and does not cover "
-        f"what the cycle needs: {' and '.join(ranges)} is missing; add rows, or limit the load by a phase"
+        f"its table over {table.over} goes from {shown(first, dimension)} to {shown(last, dimension)} and does "
+        f"not cover what the cycle needs: {' and '.join(ranges)} is missing; add rows, or limit the load by a phase"
     )

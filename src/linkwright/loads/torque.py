@@ -20,7 +20,7 @@ class Torque(Load):
     Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over
     the phase; ``table``. Outside ``phase`` it is zero.
 
-    Source: the statics of a rigid body, any textbook of mechanics.
+    Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
 
     kind: ClassVar[str] = "torque"

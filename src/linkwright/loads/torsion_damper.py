@@ -16,7 +16,7 @@ class TorsionDamper(Load):
     """A viscous torsion damper between links [a, b]: torque on b is M = -c·(ω_b - ω_a), in N·m, and -M on a.
 
     ``damping`` c (N·m·s/rad); angular velocities in rad/s, counter-clockwise positive. It never gives power
-    back. Source: Norton, Design of Machinery, chapter on dynamics of dampers.
+    back. Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
     kind: ClassVar[str] = "torsion_damper"

@@ -21,7 +21,7 @@ class TorsionSpring(Load):
     the cycle begins φ is within half a turn of φ0; from there it is continuous, so that the spring winds
     up. The frame's x axis is that of the drawing.
 
-    Energy k·(φ - φ0)²/2 + M0·(φ - φ0). Source: Norton, Design of Machinery, chapter on dynamics of springs.
+    Energy k·(φ - φ0)²/2 + M0·(φ - φ0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
     kind: ClassVar[str] = "torsion_spring"

@@ -10,18 +10,13 @@ from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, hatching, placed
 def fixed_pivot(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float = 18.0) -> Shape:
     """Triangle from the pin to the ground, which lies in the direction ``toward``."""
     half, base = 0.62 * size, 0.9 * size
-    along = (toward[1], -toward[0])
     triangle = placed([(0, 0), (size, -half), (size, half)], at, toward)
-    left, right = placed([(size, base), (size, -base)], at, toward)
-    a, b = (float(left[0]), float(left[1])), (float(right[0]), float(right[1]))
-    side = 1 if along[0] * toward[1] - along[1] * toward[0] > 0 else -1
-    if (b[0] - a[0]) * along[0] + (b[1] - a[1]) * along[1] < 0:
-        side = -side
-    strokes = hatching(a, b, side)
+    ground = placed([(size, base), (size, -base)], at, toward)
+    first, last = ((float(x), float(y)) for x, y in ground)
     elements = (
         path(triangle, "lw-support", closed=True),
-        path(placed([(size, base), (size, -base)], at, toward), "lw-ground"),
-        *(path(stroke, "lw-hatch") for stroke in strokes),
+        path(ground, "lw-ground"),
+        *(path(stroke, "lw-hatch") for stroke in hatching(first, last, 1)),
     )
     outline = placed([(0, 0), (size, -half), (size, -base), (size + 7, -base), (size + 7, base), (size, base),
                       (size, half), (0, 0)], at, toward)  # fmt: skip

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from linkwright.plot.svg.element import path
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, hatching, placed, points
 
@@ -28,5 +26,5 @@ def wall(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float = 18.0) 
     line = placed([(0, size), (0, -size)], at, toward)
     a, b = ((float(x), float(y)) for x, y in line)
     strokes = hatching(a, b, 1)
-    ink = placed([(0, size), (0, -size), (math.copysign(7, 1), -size), (7, size)], at, toward)
+    ink = placed([(0, size), (0, -size), (7, -size), (7, size)], at, toward)
     return Shape((path(line, "lw-ground"), *(path(stroke, "lw-hatch") for stroke in strokes)), (ink,))

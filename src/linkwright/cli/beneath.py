@@ -1,0 +1,111 @@
+"""What stands beneath the table of ``solve``: largest values, checks, notes, positions that failed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.cli.columns import Column
+from linkwright.cli.solving import Solved
+from linkwright.cli.text_table import aligned
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.words import Say
+
+
+def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
+    """The largest force in every joint and the range of every driver's effort, over the fine grid."""
+    forces = solved.forces
+    if forces is None or not solved.motion.ok.any():
+        return []
+    lines = [say("solve.joint_forces", count=int(solved.motion.ok.sum()))]
+    head = (say("solve.joint"), say("solve.on"), say("solve.largest_force"), say("solve.x_there"), say("solve.y_there"))
+    rows = [(*head, say("solve.at_input"))] if solved.motion.inputs else [(*head, "")]
+    for joint, link in reaction_pairs(forces.mechanism):
+        force = forces.reaction(joint, on=link)
+        size = np.hypot(force[:, 0], force[:, 1])
+        place = int(np.nanargmax(size))
+        number = Column("", "", "", "N", size[place : place + 1]).text
+        texts = (number(size[place]), number(force[place, 0]), number(force[place, 1]))
+        rows.append((joint, link, *texts, input_text(solved, place, degrees=degrees)))
+    lines += [f"  {line}" for line in aligned(rows, "<<>>>>")]
+    return [*lines, *_efforts(solved, forces, say, degrees=degrees)]
+
+
+def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
+    """Joint and link of every force that is not merely the reverse of another one."""
+    found: list[tuple[str, str]] = []
+    for name, joint in mechanism.joints.items():
+        links = [link for link in joint.joined if link != "frame"]
+        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
+    return found
+
+
+def checks(solved: Solved, say: Say) -> list[str]:
+    """The residuals that belong to the forces."""
+    forces = solved.forces
+    if forces is None or not solved.motion.ok.any():
+        return []
+    power = largest(forces.power_residual)
+    lines = []
+    if forces.mechanism.drivers:
+        lines.append(say("solve.power_check", residual=f"{power:.1e}", size=f"{largest(forces.power):.3g}"))
+    size = max(
+        (largest(forces.reaction(joint, on=link)) for joint, link in reaction_pairs(forces.mechanism)), default=0.0
+    )
+    lines.append(say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}"))
+    return lines
+
+
+def failures(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
+    """Stretches of positions that are not reached, each with the sentence of its first position."""
+    ok = solved.motion.ok
+    failed = np.flatnonzero(~ok)
+    if not len(failed):
+        return []
+    lines = [say("solve.not_reached", count=len(failed), of=len(ok))]
+    outcomes = solved.motion.outcomes
+    for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
+        first, last = (input_text(solved, int(place), degrees=degrees) for place in (run[0], run[-1]))
+        where = first if first == last else f"{first} … {last}"
+        lines.append(f"  {where}: {outcomes[int(run[0])].sentence}")
+    return lines
+
+
+def input_text(solved: Solved, place: int, *, degrees: bool) -> str:
+    """The drivers' coordinates at a position."""
+    motion = solved.motion
+    texts = []
+    for name, values in motion.inputs.items():
+        value, unit = values[place], "m"
+        if motion.positions.rotary[name]:
+            value, unit = (np.degrees(value), "°") if degrees else (value, " rad")
+        else:
+            unit = " m"
+        texts.append(f"{round(float(value), 4) + 0.0:g}{unit}")
+    return ", ".join(texts)
+
+
+def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list[str]:
+    """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
+    rows = []
+    for name, driver in forces.mechanism.drivers.items():
+        values = forces.driver_effort(name)
+        if not np.isfinite(values).any():
+            continue
+        unit = "N·m" if isinstance(forces.mechanism.joints[driver.joint], RevoluteJoint) else "N"
+        number = Column("", "", "", unit, values).text
+        high, low = int(np.nanargmax(values)), int(np.nanargmin(values))
+        places = [say("solve.at", place=input_text(solved, place, degrees=degrees)) for place in (high, low)]
+        mean = float(np.nanmean(values[:-1] if len(values) > 1 else values))
+        rows.append(
+            say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
+                mean=number(mean), high_at=places[0], low_at=places[1])
+        )  # fmt: skip
+    return rows
+
+
+def largest(values: Floats) -> float:
+    """Largest size of an array's numbers, those that are not finite left out."""
+    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

@@ -1,0 +1,76 @@
+"""Which columns the table shows when nobody says which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from linkwright.cli.columns import Column
+from linkwright.cli.solving import Solved
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure import Structure
+
+LINK = ("angle", "angular_velocity", "angular_acceleration")
+GUIDE = ("displacement", "velocity", "acceleration")
+POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleration") for axis in "xy")
+
+
+def leading(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
+    """Time where it matters, and the drivers' coordinates."""
+    drivers = solved.motion.mechanism.drivers
+    steady = all(isinstance(driver.law, ConstantSpeed) for driver in drivers.values())
+    found = [] if drivers and steady else [columns["time"]]
+    return found + [columns[name] for name in drivers]
+
+
+def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
+    """What the drivers must supply."""
+    if solved.forces is None:
+        return []
+    return [columns[f"{name}.effort"] for name in solved.motion.mechanism.drivers]
+
+
+def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str]) -> list[list[Column]]:
+    """Columns that belong together, what matters most first: points asked for, outputs, then the other links."""
+    mechanism, structure = solved.motion.mechanism, solved.motion.structure
+    found = [[columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points]
+    for joint in _output_guides(mechanism):
+        found.append([columns[f"{joint}.{kind}"] for kind in GUIDE])
+    for link in _ranked_links(mechanism, structure):
+        found.append([columns[f"{link}.{kind}"] for kind in LINK])
+    return [block for block in found if block]
+
+
+def _output_guides(mechanism: Mechanism) -> list[str]:
+    """Guides on the frame that no driver moves."""
+    driven = {driver.joint for driver in mechanism.drivers.values()}
+    return [
+        name
+        for name, joint in mechanism.joints.items()
+        if isinstance(joint, PrismaticJoint) and "frame" in joint.joined and name not in driven
+    ]
+
+
+def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
+    """Links joined to the frame by a pin, the last solved first; then the others; driven and sliding ones last."""
+    order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
+    driven = {driver.link for driver in mechanism.drivers.values()}
+    sliding = {
+        link
+        for joint in mechanism.joints.values()
+        if isinstance(joint, PrismaticJoint) and "frame" in joint.joined
+        for link in joint.joined
+    }
+    hinged = {
+        link for joint in mechanism.joints.values() if "frame" in joint.joined for link in joint.joined
+    } - sliding
+
+    def rank(link: str) -> int:
+        if link in sliding:
+            return 3
+        if link in driven:
+            return 2
+        return 0 if link in hinged else 1
+
+    return sorted(order, key=rank)

@@ -1,0 +1,150 @@
+"""Columns of results: their parts, the pick of the user, and the choice that fits a terminal."""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.text_table import GAP, padded, shown_width
+from linkwright.kinematics.cycle import Floats
+from linkwright.registry import nearest
+from linkwright.words import Say
+
+_VECTORS = frozenset({"position", "velocity", "acceleration"})
+#: Digits of a column's largest value.
+DIGITS = 5
+MISSING = "–"
+
+
+@dataclass(frozen=True)
+class Column:
+    """Values (n,) of one quantity of a link, point, joint or driver (``owner``), in ``unit``."""
+
+    name: str
+    owner: str
+    quantity: str
+    unit: str
+    values: Floats
+
+    @classmethod
+    def of(cls, key: str, values: Floats) -> Column:
+        """The column of a result's name such as ``jaw.angle [rad]``."""
+        name, _, unit = key.rpartition(" [")
+        parts = name.split(".")
+        tail = 2 if parts[-1] in ("x", "y") and len(parts) > 2 and parts[-2] in _VECTORS else 1
+        owner, quantity = ".".join(parts[:-tail]), ".".join(parts[-tail:])
+        return cls(name, owner, quantity, unit.rstrip("]"), values)
+
+    def in_degrees(self) -> Column:
+        """The same with angles in degrees."""
+        return replace(self, unit="°", values=np.degrees(self.values)) if self.unit == "rad" else self
+
+    def cells(self) -> list[str]:
+        """Texts of the values, with the same number of decimals."""
+        return [self.text(value) for value in self.values]
+
+    def text(self, value: float) -> str:
+        """Text of one value as this column writes it."""
+        if not math.isfinite(value):
+            return MISSING
+        largest = float(np.max(np.abs(self.values[np.isfinite(self.values)]), initial=0.0))
+        if largest < 1e-12:
+            return "0"
+        place = math.floor(math.log10(largest))
+        if not -4 <= place < 9:
+            return f"{value:.{DIGITS - 1}e}"
+        decimals = min(max(DIGITS - 1 - place, 0), 6)
+        return f"{round(value, decimals) + 0.0:.{decimals}f}"
+
+
+def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> list[Column]:
+    """The columns that any pattern names: a name, the beginning of names up to a dot, or with ``*`` and ``?``."""
+    found: dict[str, Column] = {}
+    for pattern in patterns:
+        hits = [
+            column
+            for name, column in columns.items()
+            if name == pattern or name.startswith(f"{pattern}.") or fnmatch.fnmatchcase(name, pattern)
+        ]
+        if not hits:
+            owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
+            offer = nearest(pattern, [*columns, *owners])
+            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            raise UsageError(say("solve.no_column", pattern=pattern, owners=", ".join(owners)) + hint)
+        found.update((column.name, column) for column in hits)
+    return list(found.values())
+
+
+def fitting(fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say) -> list[list[Column]]:
+    """The first of the blocks (columns that belong together) that fit beside the fixed columns; at least one."""
+    used = sum(column_width(column, say) + len(GAP) for column in fixed) - len(GAP)
+    chosen: list[list[Column]] = []
+    for block in blocks:
+        wide = sum(column_width(column, say) + len(GAP) for column in block)
+        if chosen and used + wide > width:
+            break
+        used += wide
+        chosen.append(list(block))
+    return chosen
+
+
+def column_width(column: Column, say: Say) -> int:
+    """Cells that a column takes in the table."""
+    texts = [*column.cells(), label(column, say), column.unit]
+    if not column.owner.strip():
+        texts.append(column.owner)
+    return max(shown_width(text) for text in texts)
+
+
+def label(column: Column, say: Say) -> str:
+    """What a column is called under its owner's name."""
+    try:
+        return say(f"solve.quantity.{column.quantity}")
+    except KeyError:
+        return column.quantity
+
+
+def table(columns: Sequence[Column], say: Say) -> list[str]:
+    """Lines of the table: owners, quantities, units, values."""
+    labels = [label(column, say) for column in columns]
+    cells = [column.cells() for column in columns]
+    widths = [
+        max(shown_width(text) for text in [*body, name, column.unit])
+        for body, name, column in zip(cells, labels, columns, strict=True)
+    ]
+    owners = _owner_line(columns, widths)
+    lines = [owners] if owners.strip() else []
+    for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
+        lines.append(GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip())
+    return lines
+
+
+def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
+    """Names over the columns that belong to them; a name wider than its columns makes the last one wider."""
+    parts: list[str] = []
+    start = 0
+    while start < len(columns):
+        end = start
+        while end < len(columns) and columns[end].owner == columns[start].owner:
+            end += 1
+        owner = columns[start].owner
+        span = sum(widths[start:end]) + len(GAP) * (end - start - 1)
+        lacking = shown_width(owner) - span
+        if lacking > 0:
+            widths[start] += lacking
+            span += lacking
+        rule = f" {owner} " if owner and span >= shown_width(owner) + 4 else owner
+        parts.append(_ruled(rule, span) if rule != owner else padded(owner, span, ">"))
+        start = end
+    return GAP.join(parts).rstrip()
+
+
+def _ruled(text: str, span: int) -> str:
+    """A name with lines to both sides, over the columns that it heads."""
+    space = span - shown_width(text)
+    return "─" * (space // 2) + text + "─" * (space - space // 2)

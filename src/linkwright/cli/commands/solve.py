@@ -1,0 +1,87 @@
+"""``linkwright solve``: motion and forces over a cycle."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.cli.solving import Solved
+
+ENDINGS = (".csv", ".json")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    where = parser.add_argument_group(say("solve.where_title")).add_mutually_exclusive_group()
+    where.add_argument("--steps", type=whole_number, metavar="N", help=say("solve.steps_help"))
+    where.add_argument("--at", metavar="INPUTS", help=say("solve.at_help"))
+    where.add_argument("--times", metavar="TIMES", help=say("solve.times_help"))
+    what = parser.add_argument_group(say("solve.what_title"))
+    what.add_argument("--columns", nargs="+", metavar="PATTERN", help=say("solve.columns_help"))
+    what.add_argument("--points", nargs="+", metavar="POINT", help=say("solve.points_help"))
+    what.add_argument("--forces", action=argparse.BooleanOptionalAction, default=None, help=say("solve.forces_help"))
+    what.add_argument("--static", action="store_true", help=say("solve.static_help"))
+    what.add_argument("--mark", action="store_true", help=say("solve.mark_help"))
+    form = parser.add_argument_group(say("solve.form_title"))
+    form.add_argument("--si", action="store_true", help=say("solve.si_help"))
+    form.add_argument("--output", metavar="FILE", help=say("solve.output_help"))
+    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Solves a model and prints or writes the results; 1 where a position or the forces failed."""
+    _refuse_contradictions(options, session.say)
+    from linkwright.cli.solving import solve
+    from linkwright.cli.source import read_model
+
+    solved = solve(*read_model(options.file), options, session.say)
+    if options.output is not None:
+        _write(solved, options, session)
+    if session.json:
+        from linkwright.cli.solve_data import data
+        from linkwright.cli.data import json_text
+
+        session.show(json_text(data(solved, options, session.say)))
+    elif options.output is None:
+        from linkwright.cli.solve_text import report
+
+        report(solved, options, session)
+    if solved.trouble is not None:
+        session.tell(f"{session.alarm(session.say('cli.error'))}: {solved.trouble}")
+    return int(solved.trouble is not None or not solved.motion.ok.all())
+
+
+def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
+    if options.static and options.forces is False:
+        raise UsageError(f"linkwright solve: {say('cli.not_together', name='--static', other='--no-forces')}")
+    if options.output is None:
+        return
+    from linkwright.cli.files import refuse_existing
+
+    path = Path(options.output)
+    if path.suffix.lower() not in ENDINGS:
+        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
+    refuse_existing(path, say, force=options.force)
+
+
+def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+    from linkwright.cli.solve_data import csv_text, data
+
+    path = Path(options.output)
+    if path.suffix.lower() == ".csv":
+        text = csv_text(solved, options, session.say)
+    else:
+        text = json_text(data(solved, options, session.say)) + "\n"
+    write_whole(path, text, session.say, force=options.force)
+    if not session.json:
+        session.show(session.say("cli.written", path=path))

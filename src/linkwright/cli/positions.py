@@ -1,0 +1,83 @@
+"""Lists and ranges of quantities on the command line: ``0 deg, 30 deg`` and ``0..90deg:10``."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+from linkwright import units
+from linkwright.cli.errors import UsageError
+from linkwright.errors import QuantityError
+from linkwright.registry import nearest
+from linkwright.words import Say
+
+#: More values than this are taken for a slip.
+MOST = 1_000_000
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+
+
+def quantities(text: str, dimension: str, say: Say, option: str) -> list[float]:
+    """SI values of a list of quantities and ranges, separated by commas; raises UsageError.
+
+    A range is ``FROM..TO:STEP``; bounds and step without a unit take that of ``TO``, a list's values that of
+    the last.
+    """
+    parts = [part.strip() for part in text.split(",")]
+    if not all(parts):
+        raise UsageError(say("solve.empty_value", option=option, text=text))
+    last = _unit(parts[-1].split("..")[-1].split(":")[0])
+    found: list[float] = []
+    for part in parts:
+        if ".." in part:
+            found += _range(part, dimension, say, option)
+        else:
+            found.append(_value(part, last, dimension, option))
+    return found
+
+
+def inputs(text: str, rotary: Mapping[str, bool], say: Say) -> dict[str, list[float]]:
+    """Coordinates by driver of ``--at``: a list for the first driver, or ``NAME=list; NAME=list``."""
+    found: dict[str, list[float]] = {}
+    for part in text.split(";"):
+        name, equals, values = part.rpartition("=")
+        name = name.strip() if equals else next(iter(rotary))
+        if name not in rotary:
+            offer = nearest(name, list(rotary))
+            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            raise UsageError(f"--at: {say('solve.no_driver', name=name)}{hint}")
+        found[name] = quantities(values, "angle" if rotary[name] else "length", say, "--at")
+    counts = {len(values) for values in found.values()} - {1}
+    if len(counts) > 1:
+        raise UsageError(say("solve.uneven", counts=", ".join(map(str, sorted(counts)))))
+    return found
+
+
+def _range(text: str, dimension: str, say: Say, option: str) -> list[float]:
+    bounds, colon, step_text = text.partition(":")
+    first, last = bounds.split("..", 1)
+    if not colon or not step_text.strip():
+        raise UsageError(say("solve.range_step", option=option, text=text))
+    unit = _unit(last)
+    begin, end = _value(first, unit, dimension, option), _value(last, unit, dimension, option)
+    step = abs(_value(step_text, unit, dimension, option))
+    count = abs(end - begin) / step if step else math.inf
+    if count > MOST:
+        raise UsageError(say("solve.range_long", option=option, text=text, most=MOST))
+    sign = math.copysign(step, end - begin)
+    return [begin + sign * i for i in range(math.floor(count * (1 + 1e-12) + 1e-9) + 1)]
+
+
+def _value(text: str, unit: str, dimension: str, option: str) -> float:
+    """SI value of a text, which takes ``unit`` where it has none of its own."""
+    own = text.strip()
+    if unit and _NUMBER.fullmatch(own):
+        own = f"{own} {unit}"
+    try:
+        return units.parse(own, dimension)
+    except QuantityError as error:
+        raise UsageError(f"{option}: {error}") from None
+
+
+def _unit(text: str) -> str:
+    return _NUMBER.sub("", text.strip(), count=1).strip()

@@ -1,0 +1,65 @@
+"""Results of ``solve`` as CSV and as data, in SI units."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+
+from linkwright.cli.beneath import largest, reaction_pairs
+from linkwright.cli.choice import leading
+from linkwright.cli.columns import Column, pick
+from linkwright.cli.data import finding_data
+from linkwright.cli.solving import Solved
+from linkwright.words import Say
+
+
+def csv_text(solved: Solved, options: argparse.Namespace, say: Say) -> str:
+    """A line of names with units, then a line per position; empty where a position was not reached."""
+    columns = chosen(solved, options, say)
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow([f"{column.name} [{column.unit}]" for column in columns])
+    for row in zip(*(column.values.tolist() for column in columns), strict=True):
+        writer.writerow(["" if value != value else repr(value) for value in row])
+    return stream.getvalue()
+
+
+def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, object]:
+    """Everything that the table and what stands beneath it say."""
+    motion, forces = solved.motion, solved.forces
+    failed = [int(row) for row in solved.rows if not motion.ok[row]]
+    found: dict[str, object] = {
+        "ok": bool(motion.ok.all()) and solved.trouble is None,
+        "name": motion.mechanism.name,
+        "mobility": motion.structure.mobility,
+        "positions": len(solved.rows),
+        "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)},
+        "reached": motion.ok[solved.rows],
+        "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
+        "notes": list(solved.notes),
+        "findings": [finding_data(finding) for finding in solved.warnings],
+    }
+    if forces is not None:
+        found["static"] = forces.static
+        found["checks"] = {
+            "power_residual [W]": largest(forces.power_residual),
+            "balance_residual [N]": largest(forces.balance_residual),
+        }
+        found["largest_reactions [N]"] = {
+            f"{joint} on {link}": largest((forces.reaction(joint, on=link) ** 2).sum(axis=1) ** 0.5)
+            for joint, link in reaction_pairs(forces.mechanism)
+        }
+    if solved.trouble is not None:
+        found["error"] = str(solved.trouble)
+    return found
+
+
+def chosen(solved: Solved, options: argparse.Namespace, say: Say) -> list[Column]:
+    """The columns that are asked for behind time and inputs; all of them if none is asked for."""
+    columns = {column.name: column for column in (Column.of(*item) for item in solved.columns().items())}
+    patterns = [*(options.columns or ()), *(options.points or ())]
+    if not patterns:
+        return list(columns.values())
+    first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
+    return list({**first, **{column.name: column for column in pick(columns, patterns, say)}}.values())

@@ -1,0 +1,84 @@
+"""One run of ``solve``: the motion on a fine grid, its forces, and the rows that are shown of it."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.positions import inputs, quantities
+from linkwright.errors import Finding, LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.words import Say
+
+#: Steps of the grid on which largest values are sought, at least.
+FINE = 360
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A motion, its forces where asked for, the indices of the rows that are shown, and what is to be said."""
+
+    motion: Motion
+    forces: Forces | None
+    rows: NDArray[np.intp]
+    warnings: tuple[Finding, ...] = ()
+    trouble: LinkwrightError | None = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes of motion and forces."""
+        return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()))
+
+    def columns(self) -> dict[str, Floats]:
+        """All results at the shown rows, by name with unit, SI."""
+        source = self.motion if self.forces is None else self.forces
+        return {name: values[self.rows] for name, values in source.columns().items()}
+
+
+def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace, say: Say) -> Solved:
+    """Solves as the options say; raises LinkwrightError."""
+    motion, rows = _motion(mechanism, options, say)
+    wanted = options.forces if options.forces is not None else has_loads(mechanism) or options.static
+    forces, trouble = None, None
+    if wanted:
+        try:
+            forces = solve_forces(motion, static=options.static)
+        except LinkwrightError as error:
+            trouble = error
+    return Solved(motion, forces, rows, tuple(warnings), trouble)
+
+
+def has_loads(mechanism: Mechanism) -> bool:
+    """Whether there is anything that joints would have to carry."""
+    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
+
+
+def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, NDArray[np.intp]]:
+    failures = "mark" if options.mark else "raise"
+    if options.at is not None:
+        if not mechanism.drivers:
+            raise UsageError(f"--at: {say('solve.no_input')}")
+        rotary = {
+            name: isinstance(mechanism.joints[driver.joint], RevoluteJoint)
+            for name, driver in mechanism.drivers.items()
+        }
+        given = inputs(options.at, rotary, say)
+        motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
+    elif options.times is not None:
+        times = quantities(options.times, "time", say, "--times")
+        motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
+    else:
+        steps = options.steps or 24
+        share = -(-FINE // steps)
+        motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)  # type: ignore[arg-type]
+        return motion, np.arange(0, motion.steps, share)
+    return motion, np.arange(motion.steps)

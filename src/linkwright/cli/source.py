@@ -1,0 +1,15 @@
+"""The model that a command works on, with the warnings about it."""
+
+from __future__ import annotations
+
+from linkwright.errors import Finding, ModelError
+from linkwright.model.file import _read, read_text
+from linkwright.model.mechanism import Mechanism
+
+
+def read_model(source: str) -> tuple[Mechanism, list[Finding]]:
+    """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError."""
+    mechanism, findings = read_text(*_read(source))
+    if mechanism is None:
+        raise ModelError(findings)
+    return mechanism, findings

@@ -1,0 +1,180 @@
+"""Counterweights that take the shaking force off the frame, and what they cost elsewhere."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.base import Joint
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.model.mechanism import Link, Mechanism
+
+Radius = Mapping[str, float] | float
+
+
+@dataclass(frozen=True)
+class Counterweight:
+    """A mass (kg) fixed to a link at ``place`` (m, link axes)."""
+
+    link: str
+    mass: float
+    place: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Balancing:
+    """A mechanism with counterweights, and the forces without and with them."""
+
+    mechanism: Mechanism
+    counterweights: tuple[Counterweight, ...]
+    before: Forces
+    after: Forces
+
+    def effect(self) -> Mapping[str, tuple[float, float]]:
+        """Peaks without and with: shaking force N, shaking moment N·m, input torque N·m."""
+        return {
+            "shaking force [N]": (_peak(self.before.shaking_force), _peak(self.after.shaking_force)),
+            "shaking moment [N·m]": (_peak(self.before.shaking_moment), _peak(self.after.shaking_moment)),
+            "input torque [N·m]": (_peak(self.before.input_torque), _peak(self.after.input_torque)),
+        }
+
+    def text(self) -> str:
+        """Counterweights and their effect."""
+        lines = [f"Counterweights for {self.mechanism.name!r}:"]
+        for weight in self.counterweights:
+            x, y = weight.place
+            lines.append(f"  {weight.link}: {weight.mass:.6g} kg at ({x:.6g}, {y:.6g}) m of its axes")
+        lines.append(f"  {'peak of':<22}{'without':>14}{'with':>14}")
+        for name, (without, having) in self.effect().items():
+            lines.append(f"  {name:<22}{without:>14.6g}{having:>14.6g}")
+        return "\n".join(lines)
+
+
+def balance(
+    mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = 360
+) -> Balancing:
+    """Counterweights for a four-bar or a slider-crank.
+
+    Four-bar: the coupler's mass is shared between its pins by the complex ratio z of its mass centre, and the
+    two links on the frame carry U = -(m c + share of the coupler); with ``share`` 1 the shaking force vanishes
+    (Berkof & Lowen, J. Eng. Ind. 91, 1969). Slider-crank: with ``share`` below 1 a counterweight on the crank
+    balances the rotating masses and that share of the reciprocating ones; with ``share`` 1 a further one on
+    the rod brings the centre of rod and slider to the crank pin, and the shaking force vanishes.
+
+    Args:
+        mechanism: a four-bar (four pins), or a slider-crank with its guide on the frame.
+        radius: distance (m) of the counterweights from the pins that carry them, one or by link.
+        share: 0 … 1, how much is balanced.
+        steps: positions of the comparison.
+
+    Raises:
+        LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
+    """
+    if not 0.0 <= share <= 1.0:
+        raise LinkwrightError(f"share is {share:g}; give a number from 0 (nothing) to 1 (everything)")
+    moments = _moments(mechanism, radius, share)
+    links = dict(mechanism.links)
+    weights = []
+    for name, pivot, moment in moments:
+        distance = _radius(radius, name)
+        if abs(moment) < 1e-12:
+            continue
+        at = pivot + cmath.rect(distance, cmath.phase(moment))
+        weight = Counterweight(name, abs(moment) / distance, (at.real, at.imag))
+        weights.append(weight)
+        links[name] = with_counterweight(links[name], weight)
+    balanced = replace(mechanism, links=links)
+    return Balancing(
+        balanced, tuple(weights), solve_forces(mechanism, steps=steps), solve_forces(balanced, steps=steps)
+    )
+
+
+def with_counterweight(link: Link, weight: Counterweight) -> Link:
+    """The link with a point mass added: mass, mass centre and moment of inertia together."""
+    mass = link.mass + weight.mass
+    old, new = complex(*link.centre), complex(*weight.place)
+    centre = (link.mass * old + weight.mass * new) / mass
+    inertia = link.inertia + link.mass * abs(old - centre) ** 2 + weight.mass * abs(new - centre) ** 2
+    return replace(link, mass=mass, inertia=inertia, mass_centre=(centre.real, centre.imag))
+
+
+def _radius(radius: Radius, link: str) -> float:
+    distance = radius[link] if isinstance(radius, Mapping) else radius
+    if not distance > 0.0:
+        raise LinkwrightError(f"the radius of the counterweight on {link!r} is {distance:g} m; give a positive one")
+    return distance
+
+
+def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[str, complex, complex]]:
+    """Link, pin that carries the counterweight (link axes), needed mass moment (kg·m, link axes)."""
+    grounded = {
+        joint.joined[1] if joint.joined[0] == "frame" else joint.joined[0]: joint
+        for joint in mechanism.joints.values()
+        if "frame" in joint.joined and len(joint.joined) == 2
+    }
+    floating = [name for name in mechanism.links if name not in grounded]
+    sliders = [name for name, joint in grounded.items() if isinstance(joint, PrismaticJoint)]
+    if len(mechanism.links) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
+        raise LinkwrightError(
+            f"{mechanism.name!r} is neither a four-bar nor a slider-crank; counterweights by formula are for these "
+            "two, other mechanisms are balanced by varying masses and mass centres in a study"
+        )
+    coupler = mechanism.links[floating[0]]
+    pins = {name: _shared_pin(mechanism, name, coupler.name) for name in grounded}
+    if sliders:
+        return _slider_crank(mechanism, coupler, sliders[0], pins, grounded, radius, share)
+    (first, pin_a), (second, pin_b) = pins.items()
+    a, b = _at(coupler, pin_a), _at(coupler, pin_b)
+    z = (complex(*coupler.centre) - a) / (b - a)
+    found = []
+    for name, pin, part in ((first, pin_a, 1.0 - z), (second, pin_b, z)):
+        link, pivot = mechanism.links[name], _at(mechanism.links[name], grounded[name].name)
+        moment = link.mass * (complex(*link.centre) - pivot) + coupler.mass * part * (_at(link, pin) - pivot)
+        found.append((name, pivot, -share * moment))
+    return found
+
+
+def _slider_crank(
+    mechanism: Mechanism,
+    rod: Link,
+    slider: str,
+    pins: Mapping[str, str],
+    grounded: Mapping[str, Joint],
+    radius: Radius,
+    share: float,
+) -> list[tuple[str, complex, complex]]:
+    name = next(link for link in pins if link != slider)
+    crank = mechanism.links[name]
+    pivot = _at(crank, grounded[name].name)
+    arm = _at(crank, pins[name]) - pivot
+    a, b = _at(rod, pins[name]), _at(rod, pins[slider])
+    z = ((complex(*rod.centre) - a) / (b - a)).real
+    own = crank.mass * (complex(*crank.centre) - pivot)
+    sliding = mechanism.links[slider].mass
+    if share < 1.0:
+        moment = own + (rod.mass * (1.0 - z) + share * (sliding + rod.mass * z)) * arm
+        return [(name, pivot, -moment)]
+    at_rod = rod.mass * (complex(*rod.centre) - a) + sliding * (b - a)
+    heavier = rod.mass + sliding + abs(at_rod) / _radius(radius, rod.name)
+    return [(rod.name, a, -at_rod), (name, pivot, -(own + heavier * arm))]
+
+
+def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
+    for joint in mechanism.joints.values():
+        if a in joint.joined and b in joint.joined and not isinstance(joint, PrismaticJoint):
+            return joint.name
+    raise LinkwrightError(f"links {a!r} and {b!r} share no pin, so {mechanism.name!r} is no four-bar or slider-crank")
+
+
+def _at(link: Link, point: str) -> complex:
+    return complex(*link.points[point])
+
+
+def _peak(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
+    sizes = np.linalg.norm(values, axis=1) if values.ndim == 2 else np.abs(values)
+    return float(np.nanmax(sizes))

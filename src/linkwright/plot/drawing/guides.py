@@ -1,0 +1,179 @@
+"""Guides, blocks, cylinders and welds of a mechanism's drawing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.weld import WeldJoint
+from linkwright.kinematics.drawing import guide_angle
+from linkwright.plot.drawing.machine import Machine
+from linkwright.plot.drawing.parts import Part
+from linkwright.plot.symbols.base import SYMBOLS, Vec, points
+from linkwright.plot.symbols.slider import HEIGHT, LENGTH
+
+STUB = 8.0
+
+
+def guides(machine: Machine) -> Iterator[Part]:
+    """All prismatic joints."""
+    for name, joint in machine.guides.items():
+        if is_cylinder(machine, name):
+            yield from _cylinder(machine, name, joint)
+        else:
+            yield from _block_on_guide(machine, name, joint)
+
+
+def direction(machine: Machine, joint: PrismaticJoint) -> Vec:
+    """Direction of a guide on its link's piece of paper."""
+    angle = guide_angle(machine.motion.mechanism, joint)
+    return math.cos(angle), -math.sin(angle)
+
+
+def block_direction(joint: PrismaticJoint) -> Vec:
+    """Direction of a guide on its block's piece of paper."""
+    return math.cos(joint.block_angle), -math.sin(joint.block_angle)
+
+
+def travel(machine: Machine, name: str) -> tuple[float, float]:
+    """Smallest and largest displacement of a block over the motion, in units of the paper."""
+    s = machine.motion.joint(name).displacement * machine.view.scale
+    return float(np.nanmin(s)), float(np.nanmax(s))
+
+
+def line_start(machine: Machine, joint: PrismaticJoint) -> Vec:
+    """Where the block's point is at displacement zero, on the piece of paper of the guide's link."""
+    x, y = machine.local(joint.guide, joint.through)
+    along = direction(machine, joint)
+    left = joint.offset * machine.view.scale
+    return x + left * along[1], y - left * along[0]
+
+
+def is_cylinder(machine: Machine, name: str) -> bool:
+    """Whether a guide joins two links that have nothing but a pin each: a telescopic cylinder."""
+    joint = machine.guides[name]
+    ends = ((joint.guide, joint.through), (joint.block, joint.at))
+    mechanism = machine.motion.mechanism
+    bare = all(link != "frame" and len(mechanism.link(link).points) == 1 for link, _ in ends)
+    pinned = all(point in machine.pins and link in machine.pins[point].links for link, point in ends)
+    others = [j for j in machine.guides.values() if j is not joint]
+    used = any(link in j.joined for j in others for link, _ in ends)
+    return bare and pinned and not used and joint.offset == 0 and travel(machine, name)[0] > 40.0
+
+
+def _cylinder(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Part]:
+    short, longest = travel(machine, name)
+    length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
+    piston = max(longest - 0.92 * length, short - length + 10.0)
+    at = machine.local(joint.guide, joint.through)
+    rod = SYMBOLS["piston"](at=machine.local(joint.block, joint.at), along=block_direction(joint), length=piston)
+    yield Part("bodies", joint.block, rod)
+    yield Part("blocks", joint.guide, SYMBOLS["barrel"](at=at, along=direction(machine, joint), length=length))
+
+
+def _block_on_guide(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Part]:
+    at, along = machine.local(joint.block, joint.at), block_direction(joint)
+    shift = clear_shift(machine, name, joint)
+    place = (at[0] + shift * along[0], at[1] + shift * along[1])
+    low, high = travel(machine, name)
+    start, way = line_start(machine, joint), direction(machine, joint)
+    if joint.guide == "frame":
+        ends = (low + shift - LENGTH / 2 - STUB, high + shift + LENGTH / 2 + STUB)
+        rail = SYMBOLS["ground_guide"](
+            at=start, along=way, start=ends[0], end=ends[1], side=ground_side(machine, joint)
+        )
+        yield Part("ground", "frame", rail)
+    else:
+        yield from _rod(machine, joint, low, high)
+    if shift:
+        yield Part("bodies", joint.block, SYMBOLS["bar"](through=[at, place]))
+    yield Part("blocks", joint.block, SYMBOLS["slider"](at=place, along=along))
+
+
+def _rod(machine: Machine, joint: PrismaticJoint, low: float, high: float) -> Iterator[Part]:
+    """The line of a guide on a moving link, long enough for the whole travel, and its tie to the link."""
+    start, way = line_start(machine, joint), direction(machine, joint)
+    through = machine.local(joint.guide, joint.through)
+    along = [(x - through[0]) * way[0] + (y - through[1]) * way[1] for x, y in _named(machine, joint)]
+    ends = (low - LENGTH / 2 - STUB, high + LENGTH / 2 + STUB)
+    if joint.offset or len(machine.motion.mechanism.link(joint.guide).points) > 1:
+        along.append(0.0)
+    rod = SYMBOLS["moving_guide"](at=start, along=way, start=min(ends[0], *along, ends[1]), end=max(ends[1], *along))
+    yield Part("bodies", joint.guide, rod)
+    if joint.offset:
+        yield Part("bodies", joint.guide, SYMBOLS["bar"](through=[through, start]))
+
+
+def _named(machine: Machine, joint: PrismaticJoint) -> list[Vec]:
+    return [machine.local(joint.guide, point) for point in joint.direction_points or ()]
+
+
+def ground_side(machine: Machine, joint: PrismaticJoint) -> int:
+    """The side of a fixed guide that faces away from the rest of the machine; below where there is none."""
+    x, y = line_start(machine, joint)
+    way = direction(machine, joint)
+    right = np.array([-way[1], way[0]])
+    clouds = [machine.view.paper(machine.placed[link].world(p))
+              for link in machine.motion.mechanism.links
+              if link != joint.block
+              for p in machine.motion.mechanism.links[link].points.values()]  # fmt: skip
+    everything = np.concatenate(clouds) if clouds else np.zeros((1, 2))
+    mean = float(np.nanmean((everything - (x, y)) @ right))
+    if abs(mean) < 4.0:
+        return 1 if right[1] > 1e-9 or (abs(right[1]) <= 1e-9 and right[0] > 0) else -1
+    return -1 if mean > 0 else 1
+
+
+def clear_shift(machine: Machine, name: str, joint: PrismaticJoint) -> float:
+    """How far along its guide a block is drawn from its point, so that it never covers a fixed pivot."""
+    if joint.guide != "frame":
+        return 0.0
+    low, high = travel(machine, name)
+    start, way = np.array(line_start(machine, joint)), np.array(direction(machine, joint))
+    across = np.array([-way[1], way[0]])
+
+    def on_line(cloud: np.ndarray) -> np.ndarray:
+        relative = cloud - start
+        near = relative[np.abs(relative @ across) < HEIGHT]
+        return near @ way
+
+    own = {joint.at, *machine.motion.mechanism.link(joint.block).points}
+    fixed = [machine.local("frame", p) for p, j in machine.pins.items() if "frame" in j.links and p not in own]
+    inside = on_line(points(fixed))
+    if not ((inside > low - LENGTH / 2) & (inside < high + LENGTH / 2)).any():
+        return 0.0
+    moving = [machine.view.paper(machine.placed[j.links[0]].world(
+        machine.motion.mechanism.link(j.links[0]).points[p])) for p, j in machine.pins.items() if p not in own]  # fmt: skip
+    reach = on_line(np.concatenate(moving))
+    return float(np.nanmax(reach)) - low + 0.9 * LENGTH
+
+
+def welds(machine: Machine) -> Iterator[Part]:
+    """Welds between links, and of links to the ground."""
+    for joint in machine.motion.mechanism.joints.values():
+        if not isinstance(joint, WeldJoint):
+            continue
+        a, b = joint.links
+        at = machine.local(b, joint.at)
+        second = _towards(machine, b, joint.at)
+        c, s = math.cos(joint.angle), math.sin(joint.angle)
+        x, y = _towards(machine, a, joint.at)
+        first = (c * x - s * y, s * x + c * y)
+        if "frame" in joint.links:
+            moving = b if a == "frame" else a
+            away = _towards(machine, moving, joint.at)
+            place = machine.local(moving, joint.at)
+            yield Part("ground", moving, SYMBOLS["wall"](at=place, toward=(-away[0], -away[1])))
+        else:
+            yield Part("tops", b, SYMBOLS["weld"](at=at, first=first, second=second))
+
+
+def _towards(machine: Machine, link: str, point: str) -> Vec:
+    """Direction from a point to the rest of its link."""
+    ways = machine.directions(link, point)
+    x, y = sum(w[0] for w in ways), sum(w[1] for w in ways)
+    length = math.hypot(x, y)
+    return (x / length, y / length) if length > 1e-9 else (1.0, 0.0)

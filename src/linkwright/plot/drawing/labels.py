@@ -1,0 +1,139 @@
+"""Placing labels so that they cover neither each other nor lines.
+
+Every label has candidate places round its anchor. The cost of a place is the ink under it, the labels under it, its
+distance and a small preference. Labels are placed one after the other and then moved while that lowers the cost.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.plot.svg.element import Element, Floats, element
+from linkwright.plot.svg.text import name_width, text_element
+from linkwright.plot.symbols.base import Vec
+
+_STEPS = (0.0, 5.0, 11.0, 19.0, 30.0, 44.0)
+_WAYS = tuple((math.cos(a), math.sin(a)) for a in np.radians(np.arange(-45, 315, 22.5)))
+LEADER = 16.0
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text for a place; ``clearance`` keeps it off the symbol there, ``anchors`` are places as good as the first."""
+
+    text: str
+    anchors: tuple[Vec, ...]
+    style: str = "lw-name"
+    size: float = 14.0
+    clearance: float = 7.0
+    leader: bool = True
+
+    @property
+    def extent(self) -> Vec:
+        """Width and height of the text."""
+        return name_width(self.text, self.size), 0.95 * self.size
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A box (left, top, right, bottom) for a label, its own cost, and the anchor it belongs to."""
+
+    box: tuple[float, float, float, float]
+    dislike: float
+    anchor: Vec
+    gap: float
+
+
+@dataclass
+class Obstacles:
+    """Segments (m, 4) that labels avoid."""
+
+    segments: Floats = field(default_factory=lambda: np.zeros((0, 4)))
+
+    @staticmethod
+    def of(polylines: Sequence[Floats]) -> Obstacles:
+        """The segments of polylines; rows of NaN break them."""
+        rows = [np.hstack([line[:-1], line[1:]]) for line in polylines if len(line) > 1]
+        segments = np.concatenate([*rows, np.zeros((0, 4))])
+        return Obstacles(segments[np.isfinite(segments).all(axis=1)])
+
+    def under(self, boxes: Floats) -> Floats:
+        """Length of ink in every box (k, 4), by clipping each segment to it."""
+        if not len(self.segments):
+            return np.zeros(len(boxes))
+        start, way = self.segments[None, :, :2], self.segments[None, :, 2:] - self.segments[None, :, :2]
+        low, high = boxes[:, None, :2], boxes[:, None, 2:]
+        with np.errstate(all="ignore"):
+            a, b = (low - start) / way, (high - start) / way
+            inside = (start >= low) & (start <= high)
+            first = np.where(way == 0, np.where(inside, -np.inf, np.inf), np.minimum(a, b)).max(axis=2)
+            last = np.where(way == 0, np.where(inside, np.inf, -np.inf), np.maximum(a, b)).min(axis=2)
+        share = np.clip(np.minimum(last, 1.0) - np.maximum(first, 0.0), 0.0, None)
+        touched = share > 0
+        length: Floats = share * np.hypot(way[..., 0], way[..., 1]) + 4.0 * touched
+        return length.sum(axis=1)
+
+
+def candidates(label: Label) -> list[Candidate]:
+    """Places for a label round each of its anchors, the nearest first."""
+    width, height = label.extent
+    found = []
+    for order, (x, y) in enumerate(label.anchors):
+        for step in _STEPS:
+            for dx, dy in _WAYS:
+                gap = label.clearance + step
+                centre = (x + dx * (gap + width / 2 * abs(dx)), y + dy * (gap + height / 2 * abs(dy)))
+                box = (centre[0] - width / 2, centre[1] - height / 2, centre[0] + width / 2, centre[1] + height / 2)
+                liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2)
+                found.append(Candidate(box, 0.45 * step + liking + 1.5 * order, (x, y), step))
+    return found
+
+
+def place(labels: Sequence[Label], obstacles: Obstacles, rounds: int = 4) -> list[Candidate]:
+    """The chosen place of every label."""
+    options = [candidates(label) for label in labels]
+    boxes = [np.array([each.box for each in some]) for some in options]
+    margin = np.array([-2.0, -1.0, 2.0, 1.0])
+    own = [1.6 * obstacles.under(box + margin) + [each.dislike for each in some]
+           for box, some in zip(boxes, options, strict=True)]  # fmt: skip
+    chosen = [-1] * len(labels)
+    order = sorted(range(len(labels)), key=lambda k: -float(own[k].min()))
+    for _ in range(rounds):
+        before = list(chosen)
+        for k in order:
+            others = np.array([boxes[i][c] for i, c in enumerate(chosen) if i != k and c >= 0]).reshape(-1, 4)
+            chosen[k] = int(np.argmin(own[k] + 3.0 * _overlap(boxes[k], others)))
+        if chosen == before:
+            break
+    return [options[k][c] for k, c in enumerate(chosen)]
+
+
+def _overlap(boxes: Floats, others: Floats) -> Floats:
+    """Area (k,) that boxes share with others, each grown by a hair's breadth."""
+    if not len(others):
+        return np.zeros(len(boxes))
+    a, b = boxes[:, None, :], others[None, :, :]
+    wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + 4.0
+    high = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + 2.0
+    shared: Floats = np.where((wide > 0) & (high > 0), wide * high, 0.0)
+    return shared.sum(axis=1)
+
+
+def written(label: Label, chosen: Candidate) -> list[Element]:
+    """The text at its place, with a leader where it stands far off."""
+    left, top, right, bottom = chosen.box
+    found = []
+    if label.leader and chosen.gap > LEADER:
+        x = min(max(chosen.anchor[0], left), right)
+        y = min(max(chosen.anchor[1], top), bottom)
+        dx, dy = chosen.anchor[0] - x, chosen.anchor[1] - y
+        share = label.clearance / (math.hypot(dx, dy) or 1.0)
+        end = (chosen.anchor[0] - share * dx, chosen.anchor[1] - share * dy)
+        found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
+    baseline = bottom - 0.14 * label.size
+    found.append(text_element((left + right) / 2, baseline, label.text, label.style, label.size, "middle"))
+    return found

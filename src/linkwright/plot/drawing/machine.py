@@ -1,0 +1,143 @@
+"""The parts of a mechanism's drawing: bodies, joints, supports."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.motion import Motion
+from linkwright.model.mechanism import Link
+from linkwright.plot.drawing.parts import Part
+from linkwright.plot.drawing.view import Placement, View
+from linkwright.plot.svg.element import Floats
+from linkwright.plot.symbols.base import PIN, SYMBOLS, Vec, points
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A motion with the placements of its links and the view it is drawn in."""
+
+    motion: Motion
+    placed: dict[str, Placement]
+    view: View
+
+    @cached_property
+    def pins(self) -> dict[str, RevoluteJoint]:
+        """Its pins by name."""
+        return {k: j for k, j in self.motion.mechanism.joints.items() if isinstance(j, RevoluteJoint)}
+
+    @cached_property
+    def guides(self) -> dict[str, PrismaticJoint]:
+        """Its guides by name."""
+        return {k: j for k, j in self.motion.mechanism.joints.items() if isinstance(j, PrismaticJoint)}
+
+    def local(self, link: str, point: str) -> Vec:
+        """A point on its link's piece of paper."""
+        return self.view.local(self.motion.mechanism.link(link).points[point])
+
+    def paper(self, link: str, point: str, index: int) -> Vec:
+        """A point on the paper at one position."""
+        x, y = self.view.paper(self.placed[link].world(self.motion.mechanism.link(link).points[point])[index])
+        return float(x), float(y)
+
+    def directions(self, link: str, point: str) -> list[Vec]:
+        """Unit vectors, in the paper of the link, from one of its points to the others."""
+        here = self.local(link, point)
+        ways = ((x - here[0], y - here[1]) for x, y in self.cloud(link))
+        return [(x / d, y / d) for x, y in ways if (d := math.hypot(x, y)) > 1.0]
+
+    def cloud(self, link: str) -> Floats:
+        """All points of a link on its piece of paper, (k, 2)."""
+        return points([self.view.local(p) for p in self.motion.mechanism.link(link).points.values()])
+
+
+def flat(cloud: Floats) -> Floats | None:
+    """The two end points of points in a line, or None where they span an area."""
+    if len(cloud) < 2:
+        return cloud
+    spread = cloud - cloud.mean(axis=0)
+    _, _, axes = np.linalg.svd(spread)
+    along, across = spread @ axes[0], spread @ axes[1]
+    if np.ptp(across) > 2.0:
+        return None
+    return cloud[[int(along.argmin()), int(along.argmax())]]
+
+
+def bodies(machine: Machine) -> Iterator[Part]:
+    """Bars and plates of the moving links, and dots at their plain points."""
+    for link in machine.motion.mechanism.links.values():
+        cloud = machine.cloud(link.name)
+        ends = flat(cloud)
+        if ends is None:
+            yield Part("bodies", link.name, SYMBOLS["plate"](corners=cloud))
+        elif len(ends) == 2 and np.hypot(*(ends[1] - ends[0])) > 1.0:
+            yield Part("bodies", link.name, SYMBOLS["bar"](through=ends))
+        for name in _plain_points(machine, link):
+            yield Part("pins", link.name, SYMBOLS["point"](at=machine.local(link.name, name)))
+
+
+def _plain_points(machine: Machine, link: Link) -> list[str]:
+    guided = {j.at for j in machine.guides.values() if j.block == link.name}
+    through = {j.through for j in machine.guides.values() if j.guide == link.name}
+    joints = machine.motion.mechanism.joints
+    return [
+        p
+        for p in link.points
+        if p not in guided | through and not (p in joints and link.name in joints[p].joined)
+    ]
+
+
+def pins(machine: Machine) -> Iterator[Part]:
+    """Pins; those of the frame on their supports; bars that go on through a pin are drawn over it."""
+    for name, joint in machine.pins.items():
+        carrier = "frame" if "frame" in joint.links else joint.links[0]
+        at = machine.local(carrier, name)
+        if carrier == "frame":
+            toward = support_direction(machine, name, joint)
+            yield Part("ground", "frame", SYMBOLS["fixed_pivot"](at=at, toward=toward))
+        yield Part("pins", carrier, SYMBOLS["pin"](at=at))
+        for link in joint.links:
+            through = None if link == "frame" else _passing(machine, link, name)
+            if through is not None:
+                yield Part("tops", link, SYMBOLS["bar"](through=through))
+
+
+def _passing(machine: Machine, link: str, point: str) -> Floats | None:
+    """A short piece of a straight bar about a pin inside it."""
+    ends = flat(machine.cloud(link))
+    if ends is None or len(ends) < 2:
+        return None
+    here = points([machine.local(link, point)])[0]
+    if min(np.hypot(*(end - here)) for end in ends) < 2.0:
+        return None
+    along = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0]))
+    return points([here - 1.3 * PIN * along, here + 1.3 * PIN * along])
+
+
+def support_direction(machine: Machine, point: str, joint: RevoluteJoint) -> Vec:
+    """Direction of the ground under a fixed pivot: down, unless links reach there for most of the motion."""
+    choices: list[tuple[Vec, float]] = [((0.0, 1.0), 0.0), ((0.0, -1.0), 0.25), ((-1.0, 0.0), 0.3), ((1.0, 0.0), 0.3)]
+    reach = [_reaching(machine, link, point) for link in joint.links if link != "frame"]
+    ways = np.concatenate([*reach, np.zeros((0, 2))])
+
+    def cost(choice: tuple[Vec, float]) -> float:
+        toward, dislike = choice
+        return dislike + (float(np.mean(ways @ toward > 0.72)) if len(ways) else 0.0)
+
+    return min(choices, key=cost)[0]
+
+
+def _reaching(machine: Machine, link: str, point: str) -> Floats:
+    """Directions (m, 2) on the paper in which a link reaches from a pin over all positions."""
+    local = points(machine.directions(link, point))
+    direction = machine.placed[link].direction
+    direction = direction[np.isfinite(direction).all(axis=1)]
+    c, s = direction[:, :1], -direction[:, 1:]
+    x, y = local[:, 0], local[:, 1]
+    return np.stack([(c * x - s * y).ravel(), (s * x + c * y).ravel()], axis=1)

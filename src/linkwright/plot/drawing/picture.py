@@ -1,0 +1,83 @@
+"""A finished drawing: SVG text that can be saved and shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.plot.drawing.style import CSS
+from linkwright.plot.svg.element import Element, Floats, element, number
+from linkwright.plot.svg.render import png, save_picture
+
+MARGIN = 12.0
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A kinematic drawing; notebooks show it, ``svg`` is its text, ``save`` writes it."""
+
+    svg: str
+
+    def save(self, path: str | Path, *, fonts: Sequence[str | Path] = (), width: int | None = None) -> Path:
+        """Write it as .svg, .png (``width`` pixels across) or .pdf, whole or not at all.
+
+        PNG and PDF need ``linkwright[plot]``; ``fonts``: font files used beside the system's.
+        Raises LinkwrightError for another suffix, a missing package or font, a folder that cannot be written.
+        """
+        options: dict[str, object] = {}
+        if Path(path).suffix.lower() != ".svg" and fonts:
+            options["fonts"] = tuple(fonts)
+        if Path(path).suffix.lower() == ".png" and width is not None:
+            options["width"] = width
+        return save_picture(self.svg, path, **options)
+
+    def png(self, *, width: int | None = None, fonts: Sequence[str | Path] = ()) -> bytes:
+        """The picture as PNG."""
+        return png(self.svg, width=width, fonts=fonts)
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def __repr__(self) -> str:
+        return f"Drawing({len(self.svg)} characters of SVG)"
+
+
+Box = tuple[float, float, float, float]
+
+
+def bounds(clouds: Iterable[Floats]) -> Box:
+    """Left, top, right, bottom of everything drawn."""
+    everything = np.concatenate([*clouds, np.zeros((0, 2))])
+    everything = everything[np.isfinite(everything).all(axis=1)]
+    if not len(everything):
+        return (0.0, 0.0, 1.0, 1.0)
+    (left, top), (right, bottom) = everything.min(axis=0), everything.max(axis=0)
+    return float(left), float(top), float(right), float(bottom)
+
+
+def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
+    """A whole SVG document over a box; ``size`` is its longer side in pixels."""
+    if size is not None and not (np.isfinite(size) and size > 0):
+        raise LinkwrightError(f"the size of a drawing is {size}; give pixels above 0")
+    left, top = box[0] - MARGIN, box[1] - MARGIN
+    width, height = box[2] - left + MARGIN, box[3] - top + MARGIN
+    factor = 1.0 if size is None else size / max(width, height)
+    root = element(
+        "svg",
+        {
+            "xmlns": "http://www.w3.org/2000/svg",
+            "viewBox": " ".join(number(each) for each in (left, top, width, height)),
+            "width": factor * width,
+            "height": factor * height,
+            "role": "img",
+        },
+        element("title", None, title),
+        element("style", None, CSS),
+        element("rect", {"class": "lw-paper", "x": left, "y": top, "width": width, "height": height}),
+        *content,
+    )
+    return str(root)

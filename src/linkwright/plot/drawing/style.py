@@ -1,0 +1,47 @@
+"""Colours, strokes and fonts of drawings; every class begins with ``lw-``."""
+
+from __future__ import annotations
+
+from linkwright.plot.svg.fonts import FAMILY_LIST
+from linkwright.plot.symbols.base import LINE
+
+INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE = (
+    "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2",
+)  # fmt: skip
+
+
+def _arrow(name: str, colour: str, width: float = 2.0) -> str:
+    return (
+        f".lw-{name}-line{{fill:none;stroke:{colour};stroke-width:{width}}}"
+        f".lw-{name}-head{{fill:{colour};stroke:none}}"
+    )
+
+
+CSS = "".join((
+    ".lw-paper{fill:#fff}",
+    f".lw-bar,.lw-spring{{fill:none;stroke:{INK};stroke-linecap:round;stroke-linejoin:round}}",
+    f".lw-bar{{stroke-width:{LINE}}}.lw-spring{{stroke-width:1.5}}",
+    f".lw-plate{{fill:#dbe6f1;stroke:{INK};stroke-width:2;stroke-linejoin:round}}",
+    f".lw-block{{fill:#f3f6f9;stroke:{INK};stroke-width:2;stroke-linejoin:round}}",
+    f".lw-pin,.lw-mass-ring{{fill:#fff;stroke:{INK};stroke-width:1.8}}",
+    f".lw-point,.lw-weld,.lw-mass{{fill:{INK}}}",
+    f".lw-support{{fill:#fff;stroke:{INK};stroke-width:1.6;stroke-linejoin:round}}",
+    f".lw-ground{{fill:none;stroke:{INK};stroke-width:1.8;stroke-linecap:round}}",
+    f".lw-hatch{{fill:none;stroke:{GROUND};stroke-width:1}}",
+    f".lw-pitch{{fill:none;stroke:{INK};stroke-width:1.4;stroke-dasharray:12 3 2 3}}",
+    f".lw-tooth{{fill:none;stroke:{INK};stroke-width:1.2}}",
+    f".lw-dimension{{fill:none;stroke:{GROUND};stroke-width:1}}.lw-dimension-head{{fill:{GROUND}}}",
+    ".lw-trace{fill:none;stroke:#1565c0;stroke-width:1.3;stroke-opacity:.8;stroke-linejoin:round}",
+    ".lw-trace-1{stroke:#2e7d32}.lw-trace-2{stroke:#d9730d}.lw-trace-3{stroke:#7b1fa2}",
+    ".lw-leader{fill:none;stroke:#9aa4ae;stroke-width:.8}",
+    _arrow("input", ORANGE),
+    _arrow("force", RED),
+    _arrow("load", PURPLE, 2.4),
+    _arrow("velocity", BLUE),
+    _arrow("acceleration", GREEN),
+    f"text{{font-family:{FAMILY_LIST}}}",
+    f".lw-name{{fill:{INK};font-style:italic}}.lw-link{{fill:#52606d}}.lw-value{{fill:{GROUND}}}",
+    f".lw-legend{{fill:{INK}}}.lw-axis{{fill:none;stroke:{GROUND};stroke-width:1}}",
+    ".lw-faded{opacity:.28}",
+    ".lw-dashed{opacity:.62}.lw-dashed path,.lw-dashed circle{stroke-dasharray:5 3.5;fill-opacity:.25}",
+))  # fmt: skip

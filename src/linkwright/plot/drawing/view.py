@@ -1,0 +1,103 @@
+"""Where links are at every position, and how the machine's metres become the paper's units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.motion import Motion
+from linkwright.plot.svg.element import Floats
+from linkwright.plot.symbols.base import Vec
+
+DIAGONAL = 620.0
+SHORTEST_BAR = 26.0
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Origin (n, 2) m and direction of the x axis (n, 2) of a link at every position."""
+
+    origin: Floats
+    direction: Floats
+
+    def world(self, local: Vec) -> Floats:
+        """A point of the link in frame axes, (n, 2) m."""
+        c, s = self.direction[:, 0], self.direction[:, 1]
+        x, y = local
+        return np.stack([self.origin[:, 0] + c * x - s * y, self.origin[:, 1] + s * x + c * y], axis=1)
+
+    @property
+    def angle(self) -> Floats:
+        """Angle of the x axis, (n,) rad, without jumps over the solved positions."""
+        raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
+        good = np.isfinite(raw)
+        raw[good] = np.unwrap(raw[good])
+        return raw
+
+
+def placements(motion: Motion) -> dict[str, Placement]:
+    """Placement of every link, the frame included."""
+    still = np.zeros((motion.steps, 2))
+    found = {"frame": Placement(still, still + (1.0, 0.0))}
+    for name, link in motion.mechanism.links.items():
+        direction = motion.link(name).direction
+        point, (x, y) = next(iter(link.points.items()))
+        c, s = direction[:, 0], direction[:, 1]
+        at = motion.point(f"{name}.{point}").position
+        found[name] = Placement(at - np.stack([c * x - s * y, s * x + c * y], axis=1), direction)
+    return found
+
+
+@dataclass(frozen=True)
+class View:
+    """Units of the paper per metre, and the place in the frame that lies at the paper's origin."""
+
+    scale: float
+    origin: Vec
+
+    def paper(self, world: Floats) -> Floats:
+        """Points (..., 2) in frame axes as points of the paper."""
+        return (np.asarray(world) - self.origin) * (self.scale, -self.scale)
+
+    def local(self, point: Vec) -> Vec:
+        """A point in link axes as a point of the link's piece of paper."""
+        return point[0] * self.scale, -point[1] * self.scale
+
+    def transform(self, placement: Placement, index: int) -> tuple[float, float, float]:
+        """Shift x, y and turn (degrees, clockwise) of a link's piece of paper at one position."""
+        x, y = self.paper(placement.origin[index])
+        c, s = placement.direction[index]
+        return float(x), float(y), float(-np.degrees(np.arctan2(s, c)))
+
+
+def moved(points: Floats, transform: tuple[float, float, float]) -> Floats:
+    """Points of a link's piece of paper on the paper."""
+    x, y, turn = transform
+    c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    return np.stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1)
+
+
+def fitted(motion: Motion, placed: Mapping[str, Placement], indices: list[int]) -> View:
+    """A view in which the machine at the given positions has the usual diagonal, larger where bars are short."""
+    mechanism = motion.mechanism
+    cloud = [placed[link.name].world(p)[indices] for link in mechanism.links.values() for p in link.points.values()]
+    pins = [np.array([p]) for name, p in mechanism.frame.points.items() if name in mechanism.joints]
+    everything = np.concatenate([*cloud, *pins])
+    everything = everything[np.isfinite(everything).all(axis=1)]
+    if not len(everything):
+        raise LinkwrightError(f"none of the positions of {mechanism.name!r} to be drawn was reached")
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    diagonal = float(np.hypot(*(high - low))) or 1.0
+    scale = DIAGONAL / diagonal
+    shortest = min((length for link in mechanism.links.values() for length in _bars(link.points)), default=diagonal)
+    scale *= float(np.clip(SHORTEST_BAR / (shortest * scale), 1.0, 1.6))
+    return View(scale, (float(low[0]), float(high[1])))
+
+
+def _bars(points: Mapping[str, Vec]) -> list[float]:
+    rows = list(points.values())
+    lengths = [float(np.hypot(a[0] - b[0], a[1] - b[1])) for i, a in enumerate(rows) for b in rows[:i]]
+    return [length for length in lengths if length > 0]

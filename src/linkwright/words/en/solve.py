@@ -1,0 +1,78 @@
+"""The command ``solve``."""
+
+WORDS = {
+    "summary": "motion, joint forces and drive effort over the cycle",
+    "description": """\
+Solves a mechanism over one cycle, or at the inputs or times that you name, and
+prints a table: the input, angle, velocity and acceleration of the links, and what
+the driver must supply. Beneath it stand the largest force in every joint and the
+checks of the result. Angles are in degrees (--si: rad), counter-clockwise positive.""",
+    "examples": """\
+linkwright solve gallery:jaw_crusher_sixbar
+linkwright solve crusher.yaml --at 0..90deg:10        every 10° of the input
+linkwright solve crusher.yaml --at "0 deg, 30 deg" --points C jaw.D
+linkwright solve crusher.yaml --columns "jaw.*" "O5 on jaw"
+linkwright solve crusher.yaml --steps 360 --output crusher.csv
+linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
+    "where_title": "positions",
+    "what_title": "results",
+    "form_title": "form",
+    "steps_help": "equal steps over the cycle (default: 24)",
+    "at_help": 'inputs of the first driver: "0 deg, 30 deg" or 0..90deg:10 (from..to:step); several drivers: '
+    '"NAME=…; NAME=…"',
+    "times_help": 'times: "0 s, 0.1 s" or "0..2 s:0.1"',
+    "columns_help": 'columns by name: "jaw.*", "C.velocity.x", "O5 on jaw"; --json shows all names',
+    "points_help": "position, velocity and acceleration of points: C, jaw.D",
+    "forces_help": "joint forces and driver effort (default: where the model has masses or loads)",
+    "static_help": "forces without inertia",
+    "mark_help": "leave gaps where a position cannot be reached, and say why, instead of refusing",
+    "si_help": "angles in rad",
+    "output_help": "write all columns in SI units to FILE.csv or FILE.json",
+    "structure": "mobility {mobility}: {chain}",
+    "input": "input",
+    "driver": "driver",
+    "quantity.": "",
+    "quantity.time": "time",
+    "quantity.angle": "angle",
+    "quantity.angular_velocity": "velocity",
+    "quantity.angular_acceleration": "acceleration",
+    "quantity.displacement": "place",
+    "quantity.velocity": "velocity",
+    "quantity.acceleration": "acceleration",
+    "quantity.position.x": "x",
+    "quantity.position.y": "y",
+    "quantity.velocity.x": "vx",
+    "quantity.velocity.y": "vy",
+    "quantity.acceleration.x": "ax",
+    "quantity.acceleration.y": "ay",
+    "quantity.x": "Fx",
+    "quantity.y": "Fy",
+    "quantity.magnitude": "F",
+    "quantity.couple": "couple",
+    "quantity.effort": "effort",
+    "quantity.torque": "torque",
+    "quantity.force": "force",
+    "joint_forces": "Largest joint forces, over {count} positions",
+    "joint": "joint",
+    "on": "on",
+    "largest_force": "force N",
+    "x_there": "Fx N",
+    "y_there": "Fy N",
+    "at_input": "at input",
+    "at": "at {place}",
+    "effort_range": "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}, mean {mean} {unit}",
+    "power_check": "Check: driver power from joint forces and from all powers differ by {residual} W at most (of "
+    "{size} W)",
+    "balance_check": "Check: forces on every link balance within {residual} N (of {size} N)",
+    "left_out": 'Left out for width: {names}. See them with --columns "{one}.*"; --output FILE.csv writes all '
+    "{total} columns.",
+    "note": "Note: {text}",
+    "not_reached": "Not reached: {count} of {of} positions",
+    "empty_value": '{option}: "{text}" has an empty place between commas',
+    "range_step": '{option}: "{text}" has no step; write from..to:step, such as 0..90deg:10',
+    "range_long": '{option}: "{text}" has more than {most} steps; take a larger step',
+    "no_driver": 'there is no driver "{name}"',
+    "no_input": "the model has no driver, so there is no input to set",
+    "uneven": "--at: the drivers have lists of different lengths ({counts}); give as many values for each, or one",
+    "no_column": 'no column is called "{pattern}"; there are columns of {owners}',
+}

@@ -1,0 +1,52 @@
+"""Balanced mechanisms: the shaking force is zero by the law of the centre of mass, whatever the formula."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+FOURBAR = """
+format: 1
+name: four-bar with mass centres off its lines
+frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0.05 m]}}
+links:
+  crank: {points: [O1, A], length: 0.1 m, mass: 1 kg, inertia: 0.002 kg·m², mass_centre: [0.03 m, 0.01 m]}
+  coupler: {points: [A, B], length: 0.35 m, mass: 2.5 kg, inertia: 0.02 kg·m², mass_centre: [0.2 m, 0.06 m]}
+  rocker: {points: [O2, B], length: 0.25 m, mass: 1.7 kg, inertia: 0.01 kg·m², mass_centre: [0.1 m, -0.02 m]}
+driver: {turn: crank, about: O1, speed: 25 rad/s}
+"""
+
+SLIDER = """
+format: 1
+name: slider-crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.05 m, mass: 1 kg, inertia: 0.002 kg·m²}
+  rod: {points: [A, B], length: 0.2 m, mass: 0.8 kg, inertia: 0.004 kg·m², mass_centre: [0.06 m, 0 m]}
+  piston: {points: [B], mass: 0.9 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, speed: 100 rad/s}
+"""
+
+
+@pytest.mark.parametrize("text", [FOURBAR, SLIDER])
+def test_full_balance_leaves_no_shaking_force(text: str) -> None:
+    found = lw.balance(lw.loads(text), radius=0.08)
+    before = np.abs(found.before.shaking_force).max()
+    assert before > 10
+    assert np.abs(found.after.shaking_force).max() < 1e-12 * before
+
+
+def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_force() -> None:
+    found = lw.balance(lw.loads(SLIDER), radius=0.05, share=0.5)
+    before, after = found.before.shaking_force, found.after.shaking_force
+    assert np.hypot(*after.T).max() < 0.7 * np.hypot(*before.T).max()
+    rotating = 1.0 * 0.025 + 0.8 * (1 - 0.06 / 0.2) * 0.05
+    reciprocating = (0.9 + 0.8 * 0.3) * 0.05
+    assert np.abs(after[:, 1]).max() == pytest.approx(0.5 * reciprocating * 100**2, rel=1e-9)
+    assert np.abs(before[:, 1]).max() == pytest.approx(rotating * 100**2, rel=1e-9)
+
+
+def test_other_mechanisms_are_refused_with_a_sentence() -> None:
+    with pytest.raises(lw.LinkwrightError, match="neither a four-bar nor a slider-crank"):
+        lw.balance(lw.load("gallery:jaw_crusher_sixbar"), radius=0.1)
