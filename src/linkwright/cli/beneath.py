@@ -19,9 +19,9 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     forces = solved.forces
     if forces is None or not solved.motion.ok.any():
         return []
-    lines = [say("solve.joint_forces", count=int(solved.motion.ok.sum()))]
-    head = (say("solve.joint"), say("solve.on"), say("solve.largest_force"), say("solve.x_there"), say("solve.y_there"))
-    rows = [(*head, say("solve.at_input"))] if solved.motion.inputs else [(*head, "")]
+    several = solved.motion.steps > 1
+    title = say("solve.largest_forces", count=int(solved.motion.ok.sum())) if several else say("solve.joint_forces")
+    rows = [tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))]
     for joint, link in reaction_pairs(forces.mechanism):
         force = forces.reaction(joint, on=link)
         size = np.hypot(force[:, 0], force[:, 1])
@@ -29,8 +29,9 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
         number = Column("", "", "", "N", size[place : place + 1]).text
         texts = (number(size[place]), number(force[place, 0]), number(force[place, 1]))
         rows.append((joint, link, *texts, input_text(solved, place, degrees=degrees)))
-    lines += [f"  {line}" for line in aligned(rows, "<<>>>>")]
-    return [*lines, *_efforts(solved, forces, say, degrees=degrees)]
+    wide = 6 if several else 5
+    table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
+    return [title, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
 
 
 def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
@@ -74,17 +75,21 @@ def failures(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
 
 
 def input_text(solved: Solved, place: int, *, degrees: bool) -> str:
-    """The drivers' coordinates at a position."""
+    """Where a position is: the drivers' coordinates, or the time where drivers follow laws of their own."""
     motion = solved.motion
+    if not solved.steady:
+        return f"t = {_short(motion.time[place])} s"
     texts = []
     for name, values in motion.inputs.items():
-        value, unit = values[place], "m"
-        if motion.positions.rotary[name]:
-            value, unit = (np.degrees(value), "°") if degrees else (value, " rad")
-        else:
-            unit = " m"
-        texts.append(f"{round(float(value), 4) + 0.0:g}{unit}")
+        turn = motion.positions.rotary[name]
+        in_degrees = turn and degrees
+        unit = "°" if in_degrees else " rad" if turn else " m"
+        texts.append(f"{_short(np.degrees(values[place]) if in_degrees else values[place])}{unit}")
     return ", ".join(texts)
+
+
+def _short(value: float) -> str:
+    return f"{round(float(value), 4) + 0.0:g}"
 
 
 def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list[str]:
@@ -97,8 +102,11 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         unit = "N·m" if isinstance(forces.mechanism.joints[driver.joint], RevoluteJoint) else "N"
         number = Column("", "", "", unit, values).text
         high, low = int(np.nanargmax(values)), int(np.nanargmin(values))
+        if len(values) == 1:
+            rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))
+            continue
         places = [say("solve.at", place=input_text(solved, place, degrees=degrees)) for place in (high, low)]
-        mean = float(np.nanmean(values[:-1] if len(values) > 1 else values))
+        mean = float(np.nanmean(values[:-1]))
         rows.append(
             say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
                 mean=number(mean), high_at=places[0], low_at=places[1])

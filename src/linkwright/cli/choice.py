@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from linkwright.cli.columns import Column
+from linkwright.cli.errors import UsageError
 from linkwright.cli.solving import Solved
-from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure
 
@@ -18,10 +20,8 @@ POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleratio
 
 def leading(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
     """Time where it matters, and the drivers' coordinates."""
-    drivers = solved.motion.mechanism.drivers
-    steady = all(isinstance(driver.law, ConstantSpeed) for driver in drivers.values())
-    found = [] if drivers and steady else [columns["time"]]
-    return found + [columns[name] for name in drivers]
+    first = [] if solved.steady else [columns["time"]]
+    return first + [columns[name] for name in solved.motion.mechanism.drivers]
 
 
 def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
@@ -42,6 +42,14 @@ def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str])
     return [block for block in found if block]
 
 
+def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
+    """Names that the columns have for points that are asked for; raises UsageError for an unknown one."""
+    try:
+        return [motion.point(name).name for name in names or ()]
+    except LinkwrightError as error:
+        raise UsageError(f"--points: {error}") from None
+
+
 def _output_guides(mechanism: Mechanism) -> list[str]:
     """Guides on the frame that no driver moves."""
     driven = {driver.joint for driver in mechanism.drivers.values()}
@@ -55,7 +63,7 @@ def _output_guides(mechanism: Mechanism) -> list[str]:
 def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
     """Links joined to the frame by a pin, the last solved first; then the others; driven and sliding ones last."""
     order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
-    driven = {driver.link for driver in mechanism.drivers.values()}
+    driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
     sliding = {
         link
         for joint in mechanism.joints.values()

@@ -6,6 +6,7 @@ import fnmatch
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from linkwright.words import Say
 _VECTORS = frozenset({"position", "velocity", "acceleration"})
 #: Digits of a column's largest value.
 DIGITS = 5
+#: What is smaller is rounding, and printed as 0.
+NOTHING = 1e-12
 MISSING = "–"
 
 
@@ -52,14 +55,26 @@ class Column:
         """Text of one value as this column writes it."""
         if not math.isfinite(value):
             return MISSING
-        largest = float(np.max(np.abs(self.values[np.isfinite(self.values)]), initial=0.0))
-        if largest < 1e-12:
+        if self._largest < NOTHING:
             return "0"
-        place = math.floor(math.log10(largest))
-        if not -4 <= place < 9:
+        if self._decimals is None:
             return f"{value:.{DIGITS - 1}e}"
-        decimals = min(max(DIGITS - 1 - place, 0), 6)
-        return f"{round(value, decimals) + 0.0:.{decimals}f}"
+        return f"{round(value, self._decimals) + 0.0:.{self._decimals}f}"
+
+    @cached_property
+    def _largest(self) -> float:
+        return float(np.max(np.abs(self.values[np.isfinite(self.values)]), initial=0.0))
+
+    @cached_property
+    def _decimals(self) -> int | None:
+        """Decimals that all values get, no more than they need; None for numbers written with a power of ten."""
+        place = math.floor(math.log10(self._largest))
+        if not -4 <= place < 9:
+            return None
+        most = min(max(DIGITS - 1 - place, 0), 6)
+        values = self.values[np.isfinite(self.values)]
+        exact = (d for d in range(most) if np.abs(values - np.round(values, d)).max() < 1e-9 * self._largest)
+        return next(exact, most)
 
 
 def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> list[Column]:

@@ -44,7 +44,7 @@ class CommandParser(argparse.ArgumentParser):
                 found = {name: text.replace("'", "") if name == "choices" else text for name, text in match.groupdict().items()}
                 message = self.say(key, **found)
                 break
-        raise UsageError(f"{self.prog}: {message}{self.say('cli.see_help', command=self.prog)}")
+        raise UsageError(f"{message}{self.say('cli.see_help', command=self.prog)}")
 
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
         """The options; raises UsageError for what is not known, with the nearest known name."""
@@ -56,8 +56,8 @@ class CommandParser(argparse.ArgumentParser):
         message = self.say(key, name=word)
         offer = nearest_of(word, list(self._option_string_actions)) if word.startswith("-") else None
         if offer:
-            raise UsageError(f"{self.prog}: {message}{self.say('cli.did_you_mean', name=offer)}")
-        raise UsageError(f"{self.prog}: {message}{self.say('cli.see_help', command=self.prog)}")
+            raise UsageError(f"{message}{self.say('cli.did_you_mean', name=offer)}")
+        raise UsageError(f"{message}{self.say('cli.see_help', command=self.prog)}")
 
     def format_usage(self) -> str:
         """The line of usage, headed in the user's language."""

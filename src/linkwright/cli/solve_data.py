@@ -7,7 +7,7 @@ import csv
 import io
 
 from linkwright.cli.beneath import largest, reaction_pairs
-from linkwright.cli.choice import leading
+from linkwright.cli.choice import leading, point_keys
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
 from linkwright.cli.solving import Solved
@@ -58,7 +58,7 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
 def chosen(solved: Solved, options: argparse.Namespace, say: Say) -> list[Column]:
     """The columns that are asked for behind time and inputs; all of them if none is asked for."""
     columns = {column.name: column for column in (Column.of(*item) for item in solved.columns().items())}
-    patterns = [*(options.columns or ()), *(options.points or ())]
+    patterns = [*(options.columns or ()), *point_keys(solved.motion, options.points)]
     if not patterns:
         return list(columns.values())
     first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}

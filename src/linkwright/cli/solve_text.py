@@ -7,39 +7,35 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from linkwright.cli import beneath
-from linkwright.cli.choice import blocks, efforts, leading
+from linkwright.cli.choice import blocks, efforts, leading, point_keys
 from linkwright.cli.columns import Column, fitting, pick, table
 from linkwright.cli.session import Session
 from linkwright.cli.solving import Solved
 from linkwright.words import Say
 
 
-def report(solved: Solved, options: argparse.Namespace, session: Session) -> None:
-    """Prints heading, table, largest forces, checks, notes and warnings."""
+def report(solved: Solved, options: argparse.Namespace, session: Session) -> list[str]:
+    """Lines of heading, table, largest forces, checks, notes and warnings."""
     say, degrees = session.say, not options.si
-    motion = solved.motion
-    session.show(session.strong(motion.mechanism.name))
-    session.show(_structure_line(solved, say))
-    if motion.inputs:
-        session.show()
-        shown, left_out = _chosen(solved, options, session)
-        for line in table(_headed(shown, solved, say), say):
-            session.show(line)
-        if left_out:
-            session.show()
-            session.show(left_out)
-    paragraphs = (
+    lines = [session.strong(solved.motion.mechanism.name), _structure_line(solved, say)]
+    for paragraph in (
+        *_table(solved, options, session),
         beneath.extremes(solved, say, degrees=degrees),
         beneath.checks(solved, say),
         beneath.failures(solved, say, degrees=degrees),
         [say("solve.note", text=note) for note in solved.notes],
         [str(finding) for finding in solved.warnings],
-    )
-    for lines in paragraphs:
-        if lines:
-            session.show()
-        for line in lines:
-            session.show(line)
+    ):
+        lines += ["", *paragraph] if paragraph else []
+    return lines
+
+
+def _table(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[str], list[str]]:
+    """Lines of the table, and of what found no place in it; nothing for a structure at rest."""
+    if not solved.motion.inputs and not options.columns:
+        return [], []
+    shown, left_out = _chosen(solved, options, session)
+    return table(_headed(shown, solved, session.say), session.say), [left_out] if left_out else []
 
 
 def _structure_line(solved: Solved, say: Say) -> str:
@@ -54,7 +50,8 @@ def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tu
     columns = {column.name: column if options.si else column.in_degrees() for column in found}
     first = leading(solved, columns)
     if options.columns:
-        picked = pick(columns, [*options.columns, *(options.points or ())], session.say)
+        points = point_keys(solved.motion, options.points)
+        picked = pick(columns, [*options.columns, *points], session.say)
         names = {column.name for column in picked}
         return [*(column for column in first if column.name not in names), *picked], ""
     return _fitted(solved, columns, first, options, session)
@@ -64,7 +61,7 @@ def _fitted(
     solved: Solved, columns: Mapping[str, Column], first: list[Column], options: argparse.Namespace, session: Session
 ) -> tuple[list[Column], str]:
     last = efforts(solved, columns)
-    asked = [] if not options.points else [_point(solved, name) for name in options.points]
+    asked = point_keys(solved.motion, options.points)
     ranked = blocks(solved, columns, asked)
     kept = ranked if asked and len(ranked) <= len(asked) else fitting([*first, *last], ranked, session.width, session.say)
     kept = [*kept, *(block for block in ranked[: len(asked)] if block not in kept)] if asked else kept
@@ -73,11 +70,6 @@ def _fitted(
     left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
     sentence = session.say("solve.left_out", names=", ".join(left), one=left[0], total=len(columns)) if left else ""
     return [*first, *middle, *last], sentence
-
-
-def _point(solved: Solved, name: str) -> str:
-    """Key of a point in the columns; raises for an unknown name."""
-    return solved.motion.point(name).name
 
 
 def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import inputs, quantities
+from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
@@ -37,6 +38,12 @@ class Solved:
     def notes(self) -> tuple[str, ...]:
         """Notes of motion and forces."""
         return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()))
+
+    @property
+    def steady(self) -> bool:
+        """Whether inputs say where a position is: all drivers have constant speed."""
+        drivers = self.motion.mechanism.drivers.values()
+        return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
 
     def columns(self) -> dict[str, Floats]:
         """All results at the shown rows, by name with unit, SI."""

@@ -96,14 +96,14 @@ def _language(arguments: Sequence[str]) -> str:
     for index, word in enumerate(arguments):
         if word == "--lang":
             if index + 1 == len(arguments):
-                raise UsageError(f"linkwright: {speaker(chosen)('cli.needs_value', name='--lang')}")
+                raise UsageError(speaker(chosen)("cli.needs_value", name="--lang"))
             asked = arguments[index + 1]
         elif word.startswith("--lang="):
             asked = word.removeprefix("--lang=")
         else:
             continue
         if asked not in LANGUAGES:
-            raise UsageError(f"linkwright: {speaker(chosen)('cli.bad_language', name=asked)}")
+            raise UsageError(speaker(chosen)("cli.bad_language", name=asked))
         chosen = asked
     return chosen
 
@@ -111,20 +111,19 @@ def _language(arguments: Sequence[str]) -> str:
 def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
     offer = nearest_of(word, known)
     hint = say("cli.did_you_mean", name=offer) if offer else say("cli.see_help", command="linkwright")
-    return f"linkwright: {say(key, name=word)}{hint}"
+    return say(key, name=word) + hint
 
 
 def _refused(error: LinkwrightError, session: Session) -> int:
     """Tells what is wrong; with ``--json`` as data as well."""
-    usage = isinstance(error, UsageError)
     missing = isinstance(error, ModelError) and all(found.code in _NO_FILE for found in error.findings)
-    session.tell(str(error) if usage or isinstance(error, ModelError) else _headed(str(error), session))
+    session.tell(str(error) if isinstance(error, ModelError) else _headed(str(error), session))
     if session.json:
         from linkwright.cli.data import finding_data, json_text
 
         findings = [finding_data(found) for found in getattr(error, "findings", ())]
         session.show(json_text({"ok": False, "error": str(error), "findings": findings}))
-    return MISUSED if usage or missing else FAULTY
+    return MISUSED if missing or isinstance(error, UsageError) else FAULTY
 
 
 def _unexpected(error: Exception, session: Session) -> int:

@@ -63,6 +63,7 @@ def _binding() -> Any:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
+    binding.parse_assembly("declare void @probe(ptr)")  # LLVM before 17 may not know opaque pointers
     library = ctypes.CDLL("ucrtbase") if sys.platform == "win32" else ctypes.CDLL(None)
     for name in ("sin", "cos"):
         address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value

@@ -18,7 +18,8 @@ def cores() -> int:
 
 
 @cache
-def _pool(threads: int) -> ThreadPoolExecutor:
+def _pool(threads: int, process: int) -> ThreadPoolExecutor:
+    """Threads of one process; a forked process does not inherit them."""
     return ThreadPoolExecutor(threads, thread_name_prefix="linkwright")
 
 
@@ -34,7 +35,8 @@ def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], 
         for first, after in parts:
             work(first, after)
         return
-    futures = [_pool(threads).submit(work, first, after) for first, after in parts]
+    pool = _pool(threads, os.getpid())
+    futures = [pool.submit(work, first, after) for first, after in parts]
     try:
         for future in futures:
             future.result()

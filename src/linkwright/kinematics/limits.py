@@ -6,7 +6,6 @@ kept inside their brackets, refine all of them at once.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
@@ -125,7 +125,7 @@ class Between:
         follower = self._follower
         state = [float(self.motion.states[name][index]) for name in follower.names]
         way = at_times(self.motion.mechanism, [float(self.motion.time[index]), time])
-        reached = follower.step(way, 0, 1, state)
+        reached = follower._step(way, 0, 1, state)
         return dict(zip(follower.names, reached or [np.nan] * len(state), strict=True))
 
     @cached_property
@@ -146,3 +146,192 @@ class Brackets:
     high: Floats
     rate_low: Floats
     rate_high: Floats
+
+    def of(self, chosen: NDArray[np.bool_] | Indices) -> Brackets:
+        """Some of them."""
+        return Brackets(
+            self.before[chosen],
+            self.span[chosen],
+            self.low[chosen],
+            self.high[chosen],
+            self.rate_low[chosen],
+            self.rate_high[chosen],
+        )
+
+
+class _Search:
+    """The limits of one output."""
+
+    def __init__(self, motion: Motion, output: Output) -> None:
+        self.motion = motion
+        self.output = output
+        self.value_names, self.rate_names = _program_names(motion.mechanism, output)
+        self.between = Between(motion)
+        positions = motion.positions
+        self.period = positions.period if positions.closed else None
+        self.count = positions.count
+        if self.period is not None and abs(motion.time[-1] - motion.time[0]) > self.period * (1 - 1e-9):
+            self.count -= 1
+
+    def limits(self) -> tuple[LimitPosition, ...]:
+        rate, second = (row[: self.count] for row in self.motion.evaluate(self.rate_names))
+        still = self._still(rate)
+        if still is None:
+            return ()
+        brackets = self._brackets(np.where(np.abs(rate) <= still, 0.0, rate), second, still)
+        if not len(brackets.before):
+            return ()
+        return self._positions(brackets, self._refined(brackets))
+
+    def _still(self, rate: Floats) -> float | None:
+        """Rates that count as zero; None where the output does not move."""
+        largest = float(np.nanmax(np.abs(rate), initial=0.0))
+        speed = np.nanmax(np.abs(self._stored("w:")), initial=0.0)
+        size = mechanism_size(self.motion.mechanism)
+        speed = max(speed, np.nanmax(np.abs(self._stored("v:")), initial=0.0) / size)
+        if self.output.kind != "angle":
+            speed *= size
+        return None if largest <= CONSTANT * speed else max(STILL * largest, 1e-3 * STILL * speed)
+
+    def _stored(self, prefix: str) -> Floats:
+        rows = self.motion.rows
+        chosen = [row for name, row in rows.index.items() if name.startswith(prefix)]
+        return rows.values[chosen]
+
+    # where the rate changes its sign --------------------------------------------------------------
+    def _brackets(self, rate: Floats, second: Floats, still: float) -> Brackets:
+        pairs = self._neighbours(rate)
+        first, last = pairs[:, 0], pairs[:, 1]
+        span = self._time(last) - self.motion.time[first]
+        zero, one = np.zeros(len(first)), np.ones(len(first))
+        a, b = rate[first], rate[last % self.count]
+        everything = Brackets(first, span, zero, one, a, b)
+        turning = np.sign(a) != np.sign(b)
+        dips = everything.of(
+            ~turning & _dips(a, b, second[first] * span, second[last % self.count] * span)
+        )
+        halves = self._split(dips, still) if len(dips.before) else []
+        return _joined([everything.of(turning), *halves])
+
+    def _neighbours(self, rate: Floats) -> Indices:
+        """Pairs of positions next to each other with a rate; the second may be counted past the last one."""
+        moving = np.flatnonzero(rate != 0.0)
+        if self.period is not None and len(moving):
+            moving = np.append(moving, moving[0] + self.count)
+        pairs = np.stack([moving[:-1], moving[1:]], axis=1)
+        there = np.isfinite(np.append(rate, rate))
+        whole = [bool(there[i : j + 1].all()) for i, j in pairs]
+        return pairs[np.array(whole, dtype=bool)]
+
+    def _time(self, index: Indices) -> Floats:
+        lap = (index >= self.count) * (self.period or 0.0)
+        return np.asarray(self.motion.time[index % self.count] + lap)
+
+    def _split(self, dips: Brackets, still: float) -> list[Brackets]:
+        """Where the rate dips below zero between two positions: both halves."""
+        low, high = dips.low.copy(), dips.high.copy()
+        second = self._rates(dips, low)[1]
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            rate, there = self._rates(dips, middle)
+            same = np.sign(there) == np.sign(second)
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found = (np.abs(rate) > still) & (np.sign(rate) != np.sign(dips.rate_low)) & np.isfinite(rate)
+        some, middle, rate = dips.of(found), middle[found], rate[found]
+        return [
+            Brackets(some.before, some.span, some.low, middle, some.rate_low, rate),
+            Brackets(some.before, some.span, middle, some.high, rate, some.rate_high),
+        ]
+
+    # refinement -------------------------------------------------------------------------------------
+    def _rates(self, brackets: Brackets, share: Floats) -> Floats:
+        """The output's rate and second derivative at shares of the brackets' spans, (2, m)."""
+        time = self.motion.time[brackets.before] + share * brackets.span
+        return self.between.evaluate(self.rate_names, brackets.before, time)
+
+    def _refined(self, brackets: Brackets) -> Floats:
+        """Shares where the rate is zero, by Newton's steps that stay inside the brackets; NaN at a pole."""
+        low, high = brackets.low.copy(), brackets.high.copy()
+        a, b = brackets.rate_low, brackets.rate_high
+        here = low + (high - low) * a / (a - b)
+        before = high - low
+        for _ in range(100):
+            rate, second = self._rates(brackets, here)
+            same = np.sign(rate) == np.sign(a)
+            low, high = np.where(same, here, low), np.where(same, high, here)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                newton = here - rate / (second * brackets.span)
+            sound = (newton >= low) & (newton <= high) & (np.abs(newton - here) <= 0.5 * before)
+            there = np.where(rate == 0.0, here, np.where(sound, newton, 0.5 * (low + high)))
+            before, here = np.abs(there - here), there
+            if (before <= FINE).all():
+                break
+        pole = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
+        return np.where(pole, np.nan, here)
+
+    def _positions(self, brackets: Brackets, share: Floats) -> tuple[LimitPosition, ...]:
+        brackets, share = brackets.of(np.isfinite(share)), share[np.isfinite(share)]
+        time = self.motion.time[brackets.before] + share * brackets.span
+        values = self._values(brackets.before, time)
+        grows = brackets.rate_low * brackets.span > 0.0
+        start = self.motion.time[0]
+        if self.period is not None:
+            late = time - start >= self.period * (1.0 - 1e-15)
+            time = np.where(late, np.maximum(time - self.period, start), time)
+        law = next(iter(self.motion.mechanism.drivers.values())).law
+        inputs = law.coordinate(time)[0]
+        direction = 1.0 if self.motion.time[self.count - 1] >= start else -1.0
+        index = np.searchsorted(direction * self.motion.time[: self.count], direction * time, "right") - 1
+        found = [
+            LimitPosition(float(q), float(t), float(v), "max" if up else "min", int(i))
+            for q, t, v, up, i in zip(inputs, time, values, grows, index, strict=True)
+        ]
+        return tuple(sorted(found, key=lambda each: direction * each.time))
+
+    def _values(self, before: Indices, time: Floats) -> Floats:
+        """The output at these times; angles continuous from the positions before them."""
+        values = self.between.evaluate(self.value_names, before, time)
+        if self.output.kind != "angle":
+            return np.asarray(values[0])
+        raw = np.arctan2(values[1], values[0])
+        near = self.motion.link(self.output.owner).angle[before]
+        return np.asarray(raw + 2 * np.pi * np.round((near - raw) / (2 * np.pi)))
+
+
+def _program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...], tuple[str, str]]:
+    """Names of the program's outputs for a value, and for its two rates."""
+    match output.kind:
+        case "angle":
+            return (f"e:{output.owner}.x", f"e:{output.owner}.y"), (f"w:{output.owner}", f"g:{output.owner}")
+        case "displacement":
+            return (f"s:{output.owner}",), (f"sv:{output.owner}", f"sa:{output.owner}")
+    key = f"{canonical(mechanism, *find_point(mechanism, output.owner))}.{output.kind}"
+    return (f"p:{key}",), (f"v:{key}", f"a:{key}")
+
+
+def mechanism_size(mechanism: Mechanism) -> float:
+    """Largest coordinate of a point on a link, m."""
+    links = [mechanism.frame, *mechanism.links.values()]
+    return max([abs(c) for link in links for point in link.points.values() for c in point] + [1e-12])
+
+
+def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:
+    """Whether a rate of one sign at both ends may cross zero in between, by the cubic through rates and seconds."""
+    sign = np.sign(a)
+    toward = (sign * second_a < 0) & (sign * second_b > 0)
+    found = np.zeros(len(a), dtype=bool)
+    u = np.linspace(0.0, 1.0, 33)[:, None]
+    h00, h10 = (1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2
+    cubic = h00 * a + h10 * second_a + (1 - h00) * b - u**2 * (1 - u) * second_b
+    lowest = (sign * cubic).min(axis=0)
+    found[toward] = (lowest < 0.5 * np.minimum(np.abs(a), np.abs(b)))[toward]
+    return found
+
+
+def _joined(parts: list[Brackets]) -> Brackets:
+    def column(name: str) -> Floats:
+        return np.concatenate([getattr(part, name) for part in parts])
+
+    names = ("span", "low", "high", "rate_low", "rate_high")
+    before = np.concatenate([part.before for part in parts])
+    return Brackets(before, *(column(name) for name in names))

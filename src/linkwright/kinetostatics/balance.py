@@ -1,4 +1,4 @@
-"""Balance of every link, from the results alone."""
+"""Newton's and Euler's equations of every link, put together again from the printed results alone."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 
 if TYPE_CHECKING:
@@ -13,26 +14,83 @@ if TYPE_CHECKING:
 
 
 def balance_residual(forces: Forces) -> Floats:
-    """Largest |Σ joint forces - demand| of any link, (n,) N; the demand is m (a - g) minus the applied loads."""
+    """Largest gap of any link's balance, (n,) N: |Σ F - m a|, and |Σ M - J α| over the mechanism's size.
+
+    Joint forces, couples, driver efforts, loads and weights against mass times acceleration of the mass
+    centre, moments about the frame's origin: nothing of the force analysis but its results enters.
+    """
+    mechanism = forces.mechanism
+    size = max(
+        abs(c)
+        for link in (mechanism.frame, *mechanism.links.values())
+        for p in link.points.values()
+        for c in p
+    )
     worst = np.zeros(forces.steps)
-    for link in forces.mechanism.links:
-        total = np.zeros((forces.steps, 2))
-        for name, joint in forces.mechanism.joints.items():
-            if link in joint.joined:
-                total += forces.reaction(name, on=link)
-        total += _driver_forces(forces, link)
-        fx, fy = forces._fetch((f"own:{link}|x", f"own:{link}|y"))
-        gap = np.hypot(total[:, 0] - fx, total[:, 1] - fy)
+    for link in mechanism.links:
+        force, moment = _joints(forces, link)
+        for driven in (_drivers(forces, link), _loads(forces, link), _inertia(forces, link)):
+            force, moment = force + driven[0], moment + driven[1]
+        gap = np.maximum(np.hypot(force[:, 0], force[:, 1]), np.abs(moment) / (size or 1.0))
         worst = np.maximum(worst, gap)
     return worst
 
 
-def _driver_forces(forces: Forces, link: str) -> Floats:
-    total = np.zeros((forces.steps, 2))
-    for name, driver in forces.mechanism.drivers.items():
-        joint = forces.mechanism.joints[driver.joint]
-        if joint.kind != "prismatic" or link not in joint.joined:
+Pair = tuple[Floats, Floats]
+
+
+def _cross(place: Floats, force: Floats) -> Floats:
+    return place[:, 0] * force[:, 1] - place[:, 1] * force[:, 0]
+
+
+def _nothing(forces: Forces) -> Pair:
+    return np.zeros((forces.steps, 2)), np.zeros(forces.steps)
+
+
+def _joints(forces: Forces, link: str) -> Pair:
+    total, moment = _nothing(forces)
+    for name, joint in forces.mechanism.joints.items():
+        if link not in joint.joined:
             continue
-        sign = 1.0 if link == joint.joined[1] else -1.0
-        total += sign * forces.driver_effort(name)[:, None] * forces._guide_direction(driver.joint)
-    return total
+        force = forces.reaction(name, on=link)
+        total = total + force
+        moment = moment + _cross(_place(forces, name), force) + forces.couple(name, on=link)
+    return total, moment
+
+
+def _place(forces: Forces, name: str) -> Floats:
+    joint = forces.mechanism.joints[name]
+    if isinstance(joint, PrismaticJoint):
+        return forces.motion.point(f"{joint.block}.{joint.at}").position
+    point = getattr(joint, "at", name)
+    return forces.motion.point(f"{joint.joined[-1]}.{point}").position
+
+
+def _drivers(forces: Forces, link: str) -> Pair:
+    total, moment = _nothing(forces)
+    for name, driver in forces.mechanism.drivers.items():
+        if link not in (driver.link, driver.relative_to):
+            continue
+        effort = forces.driver_effort(name) * (1.0 if link == driver.link else -1.0)
+        if not isinstance(forces.mechanism.joints[driver.joint], PrismaticJoint):
+            moment = moment + effort
+            continue
+        force = effort[:, None] * forces.guide_direction(driver.joint)
+        total, moment = total + force, moment + _cross(_place(forces, driver.joint), force)
+    return total, moment
+
+
+def _loads(forces: Forces, link: str) -> Pair:
+    """Loads and friction on a link, about the frame's origin."""
+    names = (f"on:{link}.x", f"on:{link}.y", f"on:{link}.m")
+    fx, fy, moment = forces.fetch(names)
+    return np.stack([fx, fy], axis=1), moment
+
+
+def _inertia(forces: Forces, link: str) -> Pair:
+    part, state = forces.mechanism.links[link], forces.motion.link(link)
+    gravity = np.asarray(forces.mechanism.gravity)
+    acceleration = np.zeros((forces.steps, 2)) if forces.static else state.centre.acceleration
+    force = part.mass * (gravity - acceleration)
+    turning = 0.0 if forces.static else part.inertia * state.angular_acceleration
+    return force, _cross(state.centre.position, force) - turning

@@ -55,9 +55,7 @@ class Balancing:
         return "\n".join(lines)
 
 
-def balance(
-    mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = 360
-) -> Balancing:
+def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = 360) -> Balancing:
     """Counterweights for a four-bar or a slider-crank.
 
     Four-bar: the coupler's mass is shared between its pins by the complex ratio z of its mass centre, and the
@@ -106,7 +104,9 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 def _radius(radius: Radius, link: str) -> float:
     distance = radius[link] if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
-        raise LinkwrightError(f"the radius of the counterweight on {link!r} is {distance:g} m; give a positive one")
+        raise LinkwrightError(
+            f"the radius of the counterweight on {link!r} is {distance:g} m; give a positive one"
+        )
     return distance
 
 
@@ -168,7 +168,9 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
     for joint in mechanism.joints.values():
         if a in joint.joined and b in joint.joined and not isinstance(joint, PrismaticJoint):
             return joint.name
-    raise LinkwrightError(f"links {a!r} and {b!r} share no pin, so {mechanism.name!r} is no four-bar or slider-crank")
+    raise LinkwrightError(
+        f"links {a!r} and {b!r} share no pin, so {mechanism.name!r} is no four-bar or slider-crank"
+    )
 
 
 def _at(link: Link, point: str) -> complex:

@@ -85,13 +85,13 @@ class Forces:
         if isinstance(self.mechanism.joints[joint], RevoluteJoint):
             return np.zeros(self.steps)
         other = self.mechanism.joints[joint].joined[1]
-        row = self._fetch((f"c:{joint}|{other}",))[0]
+        row = self.fetch((f"c:{joint}|{other}",))[0]
         return -row if link == first else row
 
     def resultant_offset(self, joint: str) -> Floats:
         """Where along the guide the resultant acts, (n,) m from the block's point, positive along the guide."""
         joined = self.mechanism.joints[joint].joined
-        n = self._guide_direction(joint)
+        n = self.guide_direction(joint)
         force = self._reaction(joint, joined[1])
         normal = n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0]
         with np.errstate(all="ignore"):
@@ -104,7 +104,7 @@ class Forces:
             raise LinkwrightError(
                 f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
             )
-        return self._fetch((f"effort:{name}",))[0]
+        return self.fetch((f"effort:{name}",))[0]
 
     @property
     def input_torque(self) -> Floats:
@@ -125,29 +125,29 @@ class Forces:
     @cached_property
     def power(self) -> Floats:
         """Power that the drivers must supply, from the powers of all forces, (n,) W."""
-        return self._fetch(("power",))[0]
+        return self.fetch(("power",))[0]
 
     @cached_property
     def power_residual(self) -> Floats:
         """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""
         if not self.mechanism.drivers:
             return np.zeros(self.steps)
-        return self._fetch(("driver_power",))[0] - self.power
+        return self.fetch(("driver_power",))[0] - self.power
 
     @cached_property
     def balance_residual(self) -> Floats:
-        """Largest imbalance of forces on any link, (n,) N, from the printed forces and exact accelerations."""
+        """Largest gap in the balance of any link, (n,) N, put together again from the results; see ``balance``."""
         return balance_residual(self)
 
     @cached_property
     def shaking_force(self) -> Floats:
         """Resultant of the inertia forces on the frame, (n, 2) N."""
-        return np.stack(self._fetch(("shake.x", "shake.y")), axis=1)
+        return np.stack(self.fetch(("shake.x", "shake.y")), axis=1)
 
     @cached_property
     def shaking_moment(self) -> Floats:
         """Its moment about the frame's origin, (n,) N·m."""
-        return self._fetch(("shake_moment",))[0]
+        return self.fetch(("shake_moment",))[0]
 
     def load(self, name: str) -> LoadForce:
         """What one of the file's loads did."""
@@ -157,7 +157,7 @@ class Forces:
                 f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
             )
         names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
-        fx, fy, moment, px, py = self._fetch(names)
+        fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
 
     def columns(self) -> dict[str, Floats]:
@@ -175,7 +175,7 @@ class Forces:
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.mechanism.joints[joint].joined
         if link != links[0]:
-            return np.stack(self._fetch((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y")), axis=1)
+            return np.stack(self.fetch((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y")), axis=1)
         total = np.zeros((self.steps, 2))
         for other in links[1:]:
             total -= self._reaction(joint, other)
@@ -200,7 +200,8 @@ class Forces:
             raise LinkwrightError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")
         return on
 
-    def _guide_direction(self, joint: str) -> Floats:
+    def guide_direction(self, joint: str) -> Floats:
+        """Unit vector along a guide, (n, 2)."""
         from linkwright.kinematics.drawing import guide_angle
 
         prismatic = self.mechanism.joints[joint]
@@ -218,7 +219,8 @@ class Forces:
             raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
         return next(iter(self.mechanism.drivers))
 
-    def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
+    def fetch(self, names: tuple[str, ...]) -> list[Floats]:
+        """Outputs by name, (n,) each."""
         return self.rows.fetch(names, self.evaluate)
 
     def evaluate(self, names: tuple[str, ...]) -> Floats:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.kinetostatics.trace import Demand, ForceTrace
+from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.loads.site import Wrench
 
 #: ``r:JOINT|LINK.x`` reaction on a link, ``c:JOINT|LINK`` couple, ``effort:DRIVER``, ``power`` of all demands,
 #: ``driver_power``, ``lf:LOAD.x`` force of a load, ``lm:LOAD`` its moment about the frame's origin, ``lp:LOAD.x``
-#: its place, ``shake.x`` and ``shake_moment`` on the frame.
+#: its place, ``on:LINK.x`` and ``on:LINK.m`` loads on a link, ``shake.x`` and ``shake_moment`` on the frame.
 
 
 class ForceOutputs:
@@ -34,6 +34,8 @@ class ForceOutputs:
             return self.forces.couple(joint, link)
         if kind == "lm":
             return self._moment(self.forces.wrenches[key])
+        if kind == "on":
+            return self._on_link(*key.rsplit(".", 1))
         base, axis = name.rsplit(".", 1)
         vector = self._vector(base)
         return vector.x if axis == "x" else vector.y
@@ -52,6 +54,16 @@ class ForceOutputs:
         for wrench in wrenches:
             total = total + wrench.force
         return total
+
+    def _on_link(self, link: str, part: str) -> Scalar:
+        """Resultant of loads and friction on one link: x, y, or the moment m about the frame's origin."""
+        wrenches = [w for group in self.forces.wrenches.values() for w in group if w.link == link]
+        if part == "m":
+            return self._moment(wrenches)
+        total = ZERO
+        for wrench in wrenches:
+            total = total + wrench.force
+        return total.x if part == "x" else total.y
 
     def _moment(self, wrenches: list[Wrench]) -> Scalar:
         total: Scalar = 0.0
@@ -74,10 +86,6 @@ class ForceOutputs:
                 moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
             )
         return force, moment
-
-    def demand(self, link: str) -> Demand:
-        """What joints must supply to a link."""
-        return self.forces.own[link]
 
     def standard(self) -> list[str]:
         """What every result stores: reactions on every link, couples, efforts."""

@@ -90,7 +90,7 @@ def _pressing(forces: Forces, term: FrictionTerm) -> Floats:
     force = forces.reaction(term.joint, on=term.b)
     if not term.slides:
         return np.hypot(force[:, 0], force[:, 1])
-    n = forces._guide_direction(term.joint)
+    n = forces.guide_direction(term.joint)
     return np.abs(n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0])
 
 

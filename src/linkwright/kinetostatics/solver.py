@@ -47,10 +47,6 @@ class ForceSolver:
     def _value(self, name: str):  # type: ignore[no-untyped-def]
         if name.split(":", maxsplit=1)[0] in {"p", "v", "a", "e", "w", "g", "s", "sv", "sa"}:
             return self.motion.outputs.value(name)
-        if name.startswith("own:"):
-            link, part = name[4:].rsplit("|", 1)
-            demand = self.outputs.demand(link)
-            return {"x": demand.force.x, "y": demand.force.y, "m": demand.moment}[part]
         return self.outputs.value(name)
 
     def fields_needed(self) -> tuple[str, ...]:

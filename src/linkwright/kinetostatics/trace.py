@@ -131,7 +131,7 @@ def _lever(pose: Pose, local: Vec, force: Vec) -> Scalar:
     """Moment about the anchor of a force at a point of the link."""
     share = (local - pose.anchor).over(pose.rotor.local)
     now = pose.rotor.now
-    return now.cross(force) * share.x + now.dot(force) * share.y
+    return now.cross(force) * share.x - now.dot(force) * share.y
 
 
 class _Reverse:

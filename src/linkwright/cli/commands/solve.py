@@ -53,7 +53,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     elif options.output is None:
         from linkwright.cli.solve_text import report
 
-        report(solved, options, session)
+        session.show("\n".join(report(solved, options, session)))
     if solved.trouble is not None:
         session.tell(f"{session.alarm(session.say('cli.error'))}: {solved.trouble}")
     return int(solved.trouble is not None or not solved.motion.ok.all())
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
     if options.static and options.forces is False:
-        raise UsageError(f"linkwright solve: {say('cli.not_together', name='--static', other='--no-forces')}")
+        raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
     if options.output is None:
         return
     from linkwright.cli.files import refuse_existing

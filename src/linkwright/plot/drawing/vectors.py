@@ -144,7 +144,7 @@ def loads(forces: Forces) -> Vectors:
     )
 
 
-def same_length(motion: Motion, forces: Forces) -> None:
+def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
         raise LinkwrightError(

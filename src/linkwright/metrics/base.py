@@ -1,0 +1,145 @@
+"""What every design number supplies: what it is, whether it applies, its values."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+from linkwright.metrics.analysis import Analysis, Result
+from linkwright.metrics.quantities import si_unit
+from linkwright.registry import Registry
+from linkwright.words import say
+
+Better = Literal["higher", "lower"]
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A sentence about a value, by its key in the catalogue ``metrics``; ``warning`` marks what needs attention."""
+
+    key: str
+    values: dict[str, object] = field(default_factory=dict)
+    warning: bool = False
+
+    def text(self, language: str = "en") -> str:
+        """The sentence."""
+        return say(f"metrics.{self.key}", language, **self.values)
+
+
+@dataclass(frozen=True)
+class MetricValue:
+    """One value of a design number.
+
+    ``subject``: the link, joint, point, group or loop; ``value``: SI; ``at``: the first driver's coordinate there
+    (rad or m), None where the value belongs to the whole cycle; ``place``: a point in frame axes, m, where there is
+    one; ``exact``: False where the value is the largest or smallest of the solved positions, not refined between.
+    """
+
+    metric: str
+    subject: str
+    value: float
+    dimension: str
+    at: float | None = None
+    at_dimension: str = "angle"
+    remarks: tuple[Remark, ...] = ()
+    place: tuple[float, float] | None = None
+    exact: bool = True
+
+    @property
+    def unit(self) -> str:
+        """SI unit of ``value``."""
+        return si_unit(self.dimension)
+
+    @property
+    def warnings(self) -> tuple[Remark, ...]:
+        """The remarks that need attention."""
+        return tuple(remark for remark in self.remarks if remark.warning)
+
+    @property
+    def sentence(self) -> str:
+        """All remarks in English."""
+        return "; ".join(remark.text() for remark in self.remarks)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "metric": self.metric,
+            "subject": self.subject,
+            "value": self.value,
+            "unit": self.unit,
+            "at": self.at,
+            "at_unit": None if self.at is None else si_unit(self.at_dimension),
+            "place": None if self.place is None else list(self.place),
+            "exact": self.exact,
+            "warning": bool(self.warnings),
+            "remark": self.sentence,
+        }
+
+
+class Metric(ABC):
+    """One design number of a mechanism.
+
+    ``dimension``: name of its dimension (values may have their own, where a link gives an angle and a slider a
+    length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,
+    SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved.
+    """
+
+    name: ClassVar[str]
+    dimension: ClassVar[str]
+    source: ClassVar[str]
+    better: ClassVar[Better | None] = None
+    limit: ClassVar[float | None] = None
+    needs_forces: ClassVar[bool] = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return si_unit(self.dimension)
+
+    @property
+    def label(self) -> str:
+        """Its name in words, English."""
+        return self.label_in("en")
+
+    @property
+    def meaning(self) -> str:
+        """What it says, in one English sentence."""
+        return self.meaning_in("en")
+
+    def label_in(self, language: str) -> str:
+        """Its name in words."""
+        return say(f"metrics.{self.name}.label", language)
+
+    def meaning_in(self, language: str) -> str:
+        """What it says, in one sentence."""
+        return say(f"metrics.{self.name}.meaning", language)
+
+    def applies(self, result: Result) -> bool:
+        """Whether the mechanism has this number, and the result what it takes to find it."""
+        analysis = Analysis.of(result)
+        return (analysis.forces is not None or not self.needs_forces) and self.suits(analysis)
+
+    def evaluate(self, result: Result) -> tuple[MetricValue, ...]:
+        """All its values, one per subject."""
+        return tuple(self.values(Analysis.of(result)))
+
+    def suits(self, analysis: Analysis) -> bool:
+        """Whether the mechanism has this number; forces are there if they are needed."""
+        return bool(analysis.motion.mechanism.drivers)
+
+    @abstractmethod
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        """The values, from what several numbers share."""
+
+    def value(
+        self, analysis: Analysis, subject: str, value: float, *, dimension: str | None = None, **more: Any
+    ) -> MetricValue:
+        """A value of this number."""
+        return MetricValue(
+            self.name, subject, float(value), dimension or self.dimension, at_dimension=analysis.input_dimension, **more
+        )
+
+
+METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics")

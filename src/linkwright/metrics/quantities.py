@@ -1,0 +1,43 @@
+"""Units in which design numbers are shown; values are SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from linkwright.units import SI_UNITS
+
+#: Dimensions that only design numbers have, with their SI units.
+FURTHER: Mapping[str, str] = {
+    "energy": "J",
+    "jerk": "m/s³",
+    "angular_jerk": "rad/s³",
+    "length_per_angle": "m/rad",
+    "angle_per_length": "rad/m",
+    "count": "",
+}
+#: Units in which tables show a dimension, with the factor from SI.
+SHOWN: Mapping[str, tuple[str, float]] = {"angle": ("°", 180 / math.pi), "length": ("mm", 1e3)}
+
+
+def si_unit(dimension: str) -> str:
+    """SI unit of a dimension; raises KeyError for one that is not known."""
+    return FURTHER[dimension] if dimension in FURTHER else SI_UNITS[dimension]
+
+
+def shown_unit(dimension: str) -> str:
+    """Unit in which tables show the dimension: degrees for angles, mm for lengths, else SI."""
+    return SHOWN[dimension][0] if dimension in SHOWN else si_unit(dimension)
+
+
+def shown(value: float, dimension: str, digits: int = 6) -> str:
+    """A value with its unit as tables and sentences show it: ``68.4094°``, ``397.606 mm``."""
+    unit = shown_unit(dimension)
+    gap = "" if unit in ("", "°") else " "
+    return f"{number(value, dimension, digits)}{gap}{unit}"
+
+
+def number(value: float, dimension: str, digits: int = 6) -> str:
+    """The number alone, in the shown unit."""
+    factor = SHOWN[dimension][1] if dimension in SHOWN else 1.0
+    return f"{value * factor:.{digits}g}"

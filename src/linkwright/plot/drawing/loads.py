@@ -1,0 +1,81 @@
+"""Springs, dampers, torques and forces of the model as symbols, without scale."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.loads.base import Load
+from linkwright.plot.drawing.machine import Machine
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+
+PUSH = 52.0
+GAP = 7.0
+
+
+def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
+    """The symbols of all loads at one position, on the paper; ``forces``: forces and torques among them."""
+    return joined(mark(machine, load, index, forces) for load in machine.motion.mechanism.loads.values())
+
+
+def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
+    """The symbol of one load; nothing for a kind that has none."""
+    if hasattr(load, "between"):
+        first, second = load.between
+        ends = (machine.paper(end.link, end.point, index) for end in (first, second))
+        return SYMBOLS[load.kind](**dict(zip(("start", "end"), ends, strict=True)))
+    if hasattr(load, "links"):
+        at = _common_pin(machine, load.links, index)
+        return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
+    if forces and load.kind == "torque":
+        at = _middle(machine, getattr(load, "on"), index)
+        return SYMBOLS["moment"](at=at, turning=_sign(load), style="lw-load")
+    way = push_direction(machine, load, index) if forces and load.kind == "force" else None
+    if way is None:
+        return EMPTY
+    x, y = machine.paper(getattr(load, "on"), getattr(load, "at"), index)
+    tip = (x - GAP * way[0], y - GAP * way[1])
+    return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
+
+
+def push_direction(machine: Machine, load: Load, index: int) -> Vec | None:
+    """Direction on the paper in which a force of positive magnitude pushes, turned round for a negative one."""
+    link = getattr(load, "on")
+    c, s = machine.placed[link].direction[index]
+    fixed, in_link, ray = (getattr(load, name, None) for name in ("direction", "in_link", "normal_to"))
+    if fixed is not None:
+        angle = float(fixed)
+    elif in_link is not None:
+        angle = math.atan2(s, c) + float(in_link)
+    elif ray is not None:
+        (px, py), (qx, qy) = (machine.motion.mechanism.link(link).points[name] for name in ray)
+        angle = math.atan2(s, c) + math.atan2(qy - py, qx - px) + math.pi / 2
+    else:
+        return None
+    sign = _sign(load) or 1
+    return sign * math.cos(angle), -sign * math.sin(angle)
+
+
+def _sign(load: Load) -> int:
+    """+1 or -1 for a magnitude that is a number, 0 for one that is not known beforehand."""
+    magnitude = getattr(load, "magnitude", None)
+    if isinstance(magnitude, float | int):
+        return -1 if magnitude < 0 else 1
+    ramp = getattr(load, "ramp", None)
+    return 0 if ramp is None else (-1 if sum(ramp) < 0 else 1)
+
+
+def _common_pin(machine: Machine, links: tuple[str, str], index: int) -> Vec | None:
+    for name, joint in machine.pins.items():
+        if set(links) <= set(joint.links):
+            return machine.paper(links[0], name, index)
+    return None
+
+
+def _middle(machine: Machine, link: str, index: int) -> Vec:
+    """A pin of the link on the frame, or its mass centre."""
+    for name, joint in machine.pins.items():
+        if {"frame", link} <= set(joint.links):
+            return machine.paper("frame", name, index)
+    at = machine.placed[link].world(machine.motion.mechanism.link(link).centre)[index]
+    x, y = machine.view.paper(at)
+    return float(x), float(y)

@@ -1,0 +1,92 @@
+"""A machine laid out on paper: its parts at one position, and the ink that labels keep clear of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.kinematics.motion import Motion
+from linkwright.plot.drawing.guides import guides, welds
+from linkwright.plot.drawing.inputs import input_arrows
+from linkwright.plot.drawing.machine import Machine, bodies, pins
+from linkwright.plot.drawing.parts import LAYERS, Part
+from linkwright.plot.drawing.view import fitted, moved, placements
+from linkwright.plot.svg.element import Element, Floats, group, number, path
+from linkwright.plot.symbols.base import SYMBOLS
+
+
+@dataclass(frozen=True)
+class Scene:
+    """The machine and all its parts, each in the axes of its link."""
+
+    machine: Machine
+    parts: tuple[Part, ...]
+
+    def layered(self, carriers: Iterable[str] | None = None) -> Iterator[tuple[str, str, list[Part]]]:
+        """Layer, link and parts, from the bottom of the paper upwards."""
+        chosen = None if carriers is None else set(carriers)
+        for layer in LAYERS:
+            links = dict.fromkeys(part.carrier for part in self.parts if part.layer == layer)
+            for link in links:
+                if chosen is None or link in chosen:
+                    yield layer, link, [p for p in self.parts if p.layer == layer and p.carrier == link]
+
+    def at(self, index: int, *, moving_only: bool = False) -> list[Element]:
+        """The elements of the machine at one position."""
+        links = tuple(self.machine.motion.mechanism.links)
+        return [
+            group((e for p in parts for e in p.shape.elements), f"lw-{layer}", transform=self._transform(link, index))
+            for layer, link, parts in self.layered(links if moving_only else None)
+        ]
+
+    def ink(self, index: int, *, moving_only: bool = False) -> list[Floats]:
+        """The polylines of everything at one position, on the paper."""
+        return [
+            moved(line, self.machine.view.transform(self.machine.placed[part.carrier], index))
+            for part in self.parts
+            if not (moving_only and part.carrier == "frame")
+            for line in part.shape.ink
+        ]
+
+    def _transform(self, link: str, index: int) -> str | None:
+        if link == "frame":
+            x, y, _ = self.machine.view.transform(self.machine.placed[link], index)
+            return f"translate({number(x)} {number(y)})"
+        x, y, turn = self.machine.view.transform(self.machine.placed[link], index)
+        return f"translate({number(x)} {number(y)}) rotate({turn:.3f})"
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether the last position is followed by the first."""
+        return self.machine.motion.positions.closed
+
+    def trace(self, point: str) -> Floats:
+        """The path of a point on the paper; closed where the cycle is."""
+        track = self.machine.view.paper(self.machine.motion.point(point).position)
+        return np.vstack([track, track[:1]]) if self.closed and len(track) > 1 else track
+
+    def traces(self, names: Sequence[str]) -> list[Element]:
+        """Paths of several points, each in its own colour."""
+        return [path(self.trace(name), f"lw-trace lw-trace-{k % 4}") for k, name in enumerate(names)]
+
+
+def laid_out(motion: Motion, indices: list[int], *, index: int, inputs: bool = True, centres: bool = False) -> Scene:
+    """The scene of a motion, scaled for the positions ``indices``; arrows of the drivers stand as at ``index``."""
+    placed = placements(motion)
+    machine = Machine(motion, placed, fitted(motion, placed, indices))
+    parts = [*bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    if inputs:
+        parts += input_arrows(machine, index)
+    if centres:
+        parts += mass_centres(machine)
+    return Scene(machine, tuple(parts))
+
+
+def mass_centres(machine: Machine) -> Iterator[Part]:
+    """The mass centre of every link that has a mass."""
+    for link in machine.motion.mechanism.links.values():
+        if link.mass > 0:
+            yield Part("marks", link.name, SYMBOLS["mass_centre"](at=machine.view.local(link.centre)))

@@ -1,0 +1,176 @@
+"""Loads that must be refused, and the words that say where, what and what to do."""
+
+from __future__ import annotations
+
+import pytest
+
+import linkwright as lw
+from linkwright.errors import LinkwrightError, ModelError
+from linkwright.model.file import loads
+
+CRANK_ROCKER = """
+format: 1
+name: crank-rocker
+frame: {points: {O: [0 m, 0 m], Q: [4 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  coupler: {points: [A, B], length: 3.5 m, also: {E: [1 m, 1 m], E2: [1 m, 1 m]}}
+  rocker: {points: [Q, B], length: 3 m}
+assembly: {B: left}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  push: LOAD
+"""
+SLIDER = """
+format: 1
+name: slider-crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  rod: {points: [A, B], length: 3 m}
+  piston: {points: [B]}
+joints: {cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  push: LOAD
+"""
+FORCE = "kind: force, on: rocker, at: B, direction: 0 deg"
+
+
+def refused(text: str, load: str, steps: int = 36) -> str:
+    with pytest.raises(LinkwrightError) as caught:
+        lw.solve_forces(lw.solve_motion(loads(text.replace("LOAD", load)), steps=steps))
+    return str(caught.value)
+
+
+def finding(load: str, text: str = CRANK_ROCKER) -> str:
+    with pytest.raises(ModelError) as caught:
+        loads(text.replace("LOAD", load), "m.yaml")
+    assert str(caught.value).startswith("m.yaml:1")
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        ("{kind: forse, on: rocker}", 'did you mean "force"?'),
+        ("{kind: torsion_sprin}", 'did you mean "torsion_spring"?'),
+        ("{on: rocker}", "the load has no kind"),
+        ("{kind: force, on: roker, at: B, direction: 0 deg, magnitude: 1 N}", 'did you mean "rocker"?'),
+        ("{kind: force, on: rocker, at: A, direction: 0 deg, magnitude: 1 N}", 'has no point "A"'),
+        ("{kind: force, on: frame, at: O, direction: 0 deg, magnitude: 1 N}", "the frame does not move"),
+        (f"{{{FORCE}}}", "none of magnitude, ramp, table"),
+        (f"{{{FORCE}, magnitude: 1 N, in_link: 0 deg}}", "direction and in_link are both given"),
+        (f"{{{FORCE}, components: [1 N, 2 N]}}", "direction and components are both given"),
+        (
+            "{kind: force, on: rocker, at: B, components: [1 N, 2 N], magnitude: 3 N}",
+            "magnitude and components are both given",
+        ),
+        (f"{{{FORCE}, ramp: [0 N, 1 N]}}", "a ramp runs over a phase, and none is given"),
+        (f"{{{FORCE}, magnitude: 5}}", "5 N"),
+        (f"{{{FORCE}, magnitude: 5 N·m}}", "force"),
+        (f'{{{FORCE}, magnitude: "5 N*sin(roker)"}}', 'did you mean "rocker"?'),
+        (f'{{{FORCE}, magnitude: "5 N*(rocker"}}', "a parenthesis is not closed"),
+        ("{kind: torque, on: crank, against: crank, magnitude: 1 N·m}", 'same link "crank"'),
+        ("{kind: torque, on: crank, against: krank, magnitude: 1 N·m}", 'did you mean "crank"?'),
+        ("{kind: spring, between: [coupler.E, coupler.E2], stiffness: 1 N/m}", 'on the link "coupler"'),
+        ("{kind: spring, between: [coupler.E, O], stiffness: -1 N/m}", "is negative"),
+        ("{kind: spring, between: [coupler.E, O], stiffness: 1 N/m, free_length: -1 m}", "is negative"),
+        ("{kind: damper, between: [coupler.E, O], damping: -1 N·s/m}", "is negative"),
+        ("{kind: damper, between: [coupler.E, Z], damping: 1 N·s/m}", 'there is no point "Z"'),
+        ("{kind: torsion_spring, links: [crank, crank], stiffness: 1 N·m/rad}", 'both links are "crank"'),
+        ("{kind: torsion_damper, links: [crank], damping: 1 N·m·s/rad}", "1 values stand where 2"),
+        ("{kind: pressure, joint: B, bore: 80 mm, magnitude: 2 bar}", "B"),
+    ],
+)
+def test_findings_in_the_file(load: str, words: str) -> None:
+    assert words in finding(load)
+
+
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        ("{kind: pressure, joint: cylinder, magnitude: 2 bar}", "none of area, bore is given"),
+        ("{kind: pressure, joint: cylinder, bore: 0 m, magnitude: 2 bar}", "is zero"),
+        ("{kind: pressure, joint: cylinder, bore: 8 cm, area: 1 m², magnitude: 2 bar}", "area and bore"),
+        ("{kind: pressure, joint: cylinder, bore: 8 cm, magnitude: 2 bar, pushes: back}", '"backward"'),
+        ("{kind: pressure, joint: cylinder, bore: 8 cm, magnitude: 2 N}", "pressure"),
+    ],
+)
+def test_findings_of_pistons(load: str, words: str) -> None:
+    assert words in finding(load, SLIDER)
+
+
+def test_division_by_zero_at_a_position() -> None:
+    message = refused(CRANK_ROCKER, f'{{{FORCE}, magnitude: "5 N*rad/(input - 90 deg)"}}')
+    assert "loads.push" in message
+    assert '"5 N*rad/(input - 90 deg)" divides by zero at input = 90°' in message
+
+
+@pytest.mark.parametrize(
+    "magnitude",
+    [
+        "5 N*rad/(input - 95.5 deg)",
+        "5 N*rad^2*(input - 95.5 deg)^-2",
+        "5 N*rad/(input - 355 deg)",
+        "5 N*tan(input - 5.5 deg)",
+    ],
+)
+def test_division_by_zero_between_two_positions(magnitude: str) -> None:
+    place = "355°" if "355" in magnitude else "95.5°"
+    message = refused(CRANK_ROCKER, f'{{{FORCE}, magnitude: "{magnitude}"}}')
+    assert f"divides by zero near input = {place}" in message
+    assert "leave that position out by a phase" in message
+
+
+def test_a_division_left_out_by_a_phase_is_no_matter() -> None:
+    phase = "phase: {input: [120 deg, 300 deg]}"
+    text = CRANK_ROCKER.replace("LOAD", f'{{{FORCE}, magnitude: "5 N*rad/(input - 95.5 deg)", {phase}}}')
+    size = lw.solve_forces(lw.solve_motion(loads(text), steps=36)).load("push").magnitude
+    assert size[13] == pytest.approx(5 / 0.6021385919380437)  # at 130°, 34.5° after the pole
+    assert size[[9, 10, 11, 31]].tolist() == [0, 0, 0, 0]
+
+
+def test_a_jump_is_no_division_by_zero() -> None:
+    text = CRANK_ROCKER.replace("LOAD", f'{{{FORCE}, magnitude: "5 N/sign(input - 95.5 deg)"}}')
+    size = lw.solve_forces(lw.solve_motion(loads(text), steps=36)).load("push").force[:, 0]
+    assert sorted(set(size)) == [-5.0, 5.0]
+
+
+def test_a_root_of_a_negative_number() -> None:
+    message = refused(CRANK_ROCKER, f'{{{FORCE}, magnitude: "5 N*sqrt(cos(input))"}}')
+    assert "no finite real value at input = 100°" in message
+
+
+def test_a_table_that_does_not_cover_the_cycle() -> None:
+    table = "table: {over: input, x: [0 deg, 90 deg, 300 deg], y: [0 N, 5 N, 0 N]}"
+    message = refused(CRANK_ROCKER, f"{{{FORCE}, {table}}}")
+    assert "loads.push: its table over input goes from 0° to 300°" in message
+    assert "300° to 350° is missing" in message
+
+
+def test_a_table_over_an_output_that_goes_further() -> None:
+    table = "table: {over: cylinder, x: [2 m, 3.5 m], y: [5 bar, 1 bar]}"
+    message = refused(SLIDER, f"{{kind: pressure, joint: cylinder, area: 1 cm², {table}}}")
+    assert "loads.push: its table over cylinder goes from 2 m to 3.5 m" in message
+    assert "3.5 m to 4 m is missing" in message
+
+
+@pytest.mark.parametrize("of", ["crank", "O.x"])
+def test_a_phase_whose_limit_does_not_exist(of: str) -> None:
+    message = refused(CRANK_ROCKER, f"{{{FORCE}, magnitude: 5 N, phase: {{of: {of}, from: max, to: min}}}}")
+    assert f"loads.push: the output '{of}' never reverses within the cycle" in message
+
+
+def test_a_swing_that_the_cycle_does_not_hold() -> None:
+    text = SLIDER.replace("about: O, speed: 10 rad/s}", 'about: O, position: "(200 deg/s)*t - 10 deg"}')
+    text = text.replace("loads:", "cycle: {duration: 1.5 s}\nloads:")
+    load = "{kind: force, on: piston, at: B, direction: 0 deg, magnitude: 5 N, phase: {of: cylinder, from: min, to: max}}"
+    message = refused(text, load)
+    assert "does not go from its min to its max within the cycle" in message
+    assert "max at input 0°, min at input 180°" in message
+
+
+def test_a_ray_between_points_that_coincide() -> None:
+    message = refused(CRANK_ROCKER, "{kind: force, on: coupler, at: B, normal_to: [E, E2], magnitude: 5 N}")
+    assert "loads.push: the points E and E2 of coupler coincide" in message
