@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from linkwright.engine import machine_code
+from linkwright.engine.derivative import value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -236,3 +237,26 @@ def test_reductions_of_random_programs_agree_with_numpy(n: int) -> None:
                 at = int(got[f"{output}.{kind}"][d])
                 assert holds[d][at]
                 np.testing.assert_allclose(rows[output][d][at], want[kind[3:]], rtol=1e-10, atol=1e-12)
+
+
+@pytest.mark.parametrize("backend", ["numpy", pytest.param("llvm", marks=needs_compiler)])
+@pytest.mark.parametrize("seed", range(6))
+def test_gradients_of_random_programs_equal_differences(seed: int, backend: str) -> None:
+    program, formulas = random_program(seed)
+    p, x, f = case(seed, 9, designs=2)
+    gradient = value_and_gradient(program, [("v0", "sum"), ("v3", "mean")], list(PARAMETERS), valid=None)
+    positions = dict(zip(POSITIONS, x, strict=True))
+    parameters = dict(zip(PARAMETERS, p.T, strict=True))
+    values, slopes = gradient(parameters, positions, {"f": f}, backend=backend)  # type: ignore[arg-type]
+
+    def objective(d: int, row: Floats) -> float:
+        rows = direct(formulas, row, x, f[d])
+        return float(rows[0].sum() + rows[3].mean())
+
+    for d in range(2):
+        assert values[d] == pytest.approx(objective(d, p[d]), rel=1e-11)
+        for column in range(3):
+            step = np.zeros(3)
+            step[column] = 1e-6
+            want = (objective(d, p[d] + step) - objective(d, p[d] - step)) / 2e-6
+            assert slopes[d, column] == pytest.approx(want, rel=1e-6, abs=1e-6)

@@ -20,8 +20,14 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     if forces is None or not solved.motion.ok.any():
         return []
     several = solved.motion.steps > 1
-    title = say("solve.largest_forces", count=int(solved.motion.ok.sum())) if several else say("solve.joint_forces")
-    rows = [tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))]
+    title = (
+        say("solve.largest_forces", count=int(solved.motion.ok.sum()))
+        if several
+        else say("solve.joint_forces")
+    )
+    rows = [
+        tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))
+    ]
     for joint, link in reaction_pairs(forces.mechanism):
         force = forces.reaction(joint, on=link)
         size = np.hypot(force[:, 0], force[:, 1])
@@ -53,9 +59,12 @@ def checks(solved: Solved, say: Say) -> list[str]:
     if forces.mechanism.drivers:
         lines.append(say("solve.power_check", residual=f"{power:.1e}", size=f"{largest(forces.power):.3g}"))
     size = max(
-        (largest(forces.reaction(joint, on=link)) for joint, link in reaction_pairs(forces.mechanism)), default=0.0
+        (largest(forces.reaction(joint, on=link)) for joint, link in reaction_pairs(forces.mechanism)),
+        default=0.0,
     )
-    lines.append(say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}"))
+    lines.append(
+        say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}")
+    )
     return lines
 
 
@@ -106,11 +115,11 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))
             continue
         places = [say("solve.at", place=input_text(solved, place, degrees=degrees)) for place in (high, low)]
-        mean = float(np.nanmean(values[:-1]))
-        rows.append(
-            say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
-                mean=number(mean), high_at=places[0], low_at=places[1])
-        )  # fmt: skip
+        said = say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
+                   high_at=places[0], low_at=places[1])  # fmt: skip
+        if solved.whole_cycle:
+            said += say("solve.effort_mean", mean=number(float(np.nanmean(values[:-1]))), unit=unit)
+        rows.append(said)
     return rows
 
 

@@ -34,7 +34,9 @@ def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
 def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str]) -> list[list[Column]]:
     """Columns that belong together, what matters most first: points asked for, outputs, then the other links."""
     mechanism, structure = solved.motion.mechanism, solved.motion.structure
-    found = [[columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points]
+    found = [
+        [columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points
+    ]
     for joint in _output_guides(mechanism):
         found.append([columns[f"{joint}.{kind}"] for kind in GUIDE])
     for link in _ranked_links(mechanism, structure):

@@ -95,13 +95,15 @@ def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> li
     return list(found.values())
 
 
-def fitting(fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say) -> list[list[Column]]:
-    """The first of the blocks (columns that belong together) that fit beside the fixed columns; at least one."""
+def fitting(
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int = 1
+) -> list[list[Column]]:
+    """The first of the blocks (columns that belong together) that fit beside the fixed ones; at least ``least``."""
     used = sum(column_width(column, say) + len(GAP) for column in fixed) - len(GAP)
     chosen: list[list[Column]] = []
     for block in blocks:
         wide = sum(column_width(column, say) + len(GAP) for column in block)
-        if chosen and used + wide > width:
+        if len(chosen) >= least and used + wide > width:
             break
         used += wide
         chosen.append(list(block))
@@ -109,11 +111,8 @@ def fitting(fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: 
 
 
 def column_width(column: Column, say: Say) -> int:
-    """Cells that a column takes in the table."""
-    texts = [*column.cells(), label(column, say), column.unit]
-    if not column.owner.strip():
-        texts.append(column.owner)
-    return max(shown_width(text) for text in texts)
+    """Cells that a column takes in the table, under its own words."""
+    return max(shown_width(text) for text in [*column.cells(), label(column, say), column.unit])
 
 
 def label(column: Column, say: Say) -> str:
@@ -135,7 +134,9 @@ def table(columns: Sequence[Column], say: Say) -> list[str]:
     owners = _owner_line(columns, widths)
     lines = [owners] if owners.strip() else []
     for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
-        lines.append(GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip())
+        lines.append(
+            GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip()
+        )
     return lines
 
 

@@ -31,7 +31,9 @@ def overview(session: Session) -> None:
                 f"{say('cli.usage')}{say('cli.usage_line')}\n",
                 f"{say('cli.tagline')}\n",
                 _section(say("cli.commands"), "\n".join(rows)),
-                _section(say("cli.options"), "\n".join(f"{o:<{wide}}{say(f'cli.{key}')}" for o, key in options)),
+                _section(
+                    say("cli.options"), "\n".join(f"{o:<{wide}}{say(f'cli.{key}')}" for o, key in options)
+                ),
                 _section(say("cli.exit_title"), say("cli.exit_codes")),
                 say("cli.more"),
             ]

@@ -15,7 +15,12 @@ _VALUE_WITH_MINUS = re.compile(r"-[\d.]")
 _SENTENCES = (
     (re.compile(r"the following arguments are required: (?P<names>.+)"), "cli.missing"),
     (re.compile(r"argument (?P<name>\S+): expected (?:one|at least one) argument"), "cli.needs_value"),
-    (re.compile(r"argument (?P<name>\S+): invalid choice: '(?P<value>.*)' \(choose from (?P<choices>.+)\)"), "cli.bad_choice"),
+    (
+        re.compile(
+            r"argument (?P<name>\S+): invalid choice: '(?P<value>.*)' \(choose from (?P<choices>.+)\)"
+        ),
+        "cli.bad_choice",
+    ),
     (re.compile(r"argument (?P<name>\S+): invalid int value: '(?P<value>.*)'"), "cli.bad_whole"),
     (re.compile(r"argument (?P<name>\S+): not allowed with argument (?P<other>\S+)"), "cli.not_together"),
 )
@@ -41,8 +46,7 @@ class CommandParser(argparse.ArgumentParser):
         """Raises UsageError with the sentence."""
         for pattern, key in _SENTENCES:
             if match := pattern.fullmatch(message):
-                found = {name: text.replace("'", "") if name == "choices" else text for name, text in match.groupdict().items()}
-                message = self.say(key, **found)
+                message = self.say(key, **match.groupdict())
                 break
         raise UsageError(f"{message}{self.say('cli.see_help', command=self.prog)}")
 

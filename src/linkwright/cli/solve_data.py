@@ -34,7 +34,9 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
         "positions": len(solved.rows),
-        "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)},
+        "columns": {
+            f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)
+        },
         "reached": motion.ok[solved.rows],
         "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
         "notes": list(solved.notes),

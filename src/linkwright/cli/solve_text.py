@@ -58,17 +58,25 @@ def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tu
 
 
 def _fitted(
-    solved: Solved, columns: Mapping[str, Column], first: list[Column], options: argparse.Namespace, session: Session
+    solved: Solved,
+    columns: Mapping[str, Column],
+    first: list[Column],
+    options: argparse.Namespace,
+    session: Session,
 ) -> tuple[list[Column], str]:
+    """Between inputs and efforts the points that were asked for, then as many links as the width allows."""
     last = efforts(solved, columns)
     asked = point_keys(solved.motion, options.points)
     ranked = blocks(solved, columns, asked)
-    kept = ranked if asked and len(ranked) <= len(asked) else fitting([*first, *last], ranked, session.width, session.say)
-    kept = [*kept, *(block for block in ranked[: len(asked)] if block not in kept)] if asked else kept
-    names = {column.name for block in kept for column in block}
+    points, others = ranked[: len(asked)], ranked[len(asked) :]
+    fixed = [*first, *last, *(column for block in points for column in block)]
+    kept = fitting(fixed, others, session.width, session.say, least=0 if points else 1)
+    names = {column.name for block in [*points, *kept] for column in block}
     middle = [column for column in columns.values() if column.name in names]
-    left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
-    sentence = session.say("solve.left_out", names=", ".join(left), one=left[0], total=len(columns)) if left else ""
+    left = list(dict.fromkeys(block[0].owner for block in others if block[0].name not in names))
+    if not left:
+        return [*first, *middle, *last], ""
+    sentence = session.say("solve.left_out", names=", ".join(left), one=left[0], total=len(columns))
     return [*first, *middle, *last], sentence
 
 
@@ -78,8 +86,12 @@ def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]
     found = []
     for column in columns:
         if column.name in inputs:
-            column = replace(column, owner=say("solve.input"), quantity="" if len(inputs) == 1 else column.name)
+            column = replace(
+                column, owner=say("solve.input"), quantity="" if len(inputs) == 1 else column.name
+            )
         elif column.quantity == "effort" and len(inputs) == 1:
-            column = replace(column, owner=say("solve.driver"), quantity="torque" if "m" in column.unit else "force")
+            column = replace(
+                column, owner=say("solve.driver"), quantity="torque" if "m" in column.unit else "force"
+            )
         found.append(column)
     return found

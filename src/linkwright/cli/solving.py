@@ -33,6 +33,7 @@ class Solved:
     rows: NDArray[np.intp]
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
+    whole_cycle: bool = False
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -61,7 +62,8 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
             forces = solve_forces(motion, static=options.static)
         except LinkwrightError as error:
             trouble = error
-    return Solved(motion, forces, rows, tuple(warnings), trouble)
+    cycle = options.at is None and options.times is None
+    return Solved(motion, forces, rows, tuple(warnings), trouble, cycle)
 
 
 def has_loads(mechanism: Mechanism) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from collections.abc import Sequence
@@ -20,12 +21,14 @@ _NO_FILE = frozenset({"no-file", "not-a-file"})
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs one command and returns its exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted."""
+    """Runs one command. Exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     session = Session(speaker("en"))
     try:
         language = _language(arguments)
-        session = Session(speaker(language), language, json="--json" in arguments, debug="--debug" in arguments)
+        session = Session(
+            speaker(language), language, json="--json" in arguments, debug="--debug" in arguments
+        )
         code = _dispatch(arguments, session)
         sys.stdout.flush()
         return code
@@ -54,8 +57,12 @@ def _dispatch(arguments: list[str], session: Session) -> int:
         version(session)
     elif "--help" in head or "-h" in head:
         overview(session)
-    elif unknown := [word for word in head if word not in ("--json", "--debug") and not word.startswith("--lang")]:
-        raise UsageError(_unknown(session.say, "cli.unknown_option", unknown[0], ["--help", "--version", "--lang"]))
+    elif unknown := [
+        word for word in head if word not in ("--json", "--debug") and not word.startswith("--lang")
+    ]:
+        raise UsageError(
+            _unknown(session.say, "cli.unknown_option", unknown[0], ["--help", "--version", "--lang"])
+        )
     else:
         session.show(session.say("cli.start"))
     return FINE
@@ -89,7 +96,7 @@ def _split(arguments: Sequence[str]) -> tuple[list[str], str | None, list[str]]:
 
 
 def _language(arguments: Sequence[str]) -> str:
-    """The language of ``--lang``, else of the environment, else English; taken out of no list."""
+    """The language of ``--lang``, else of the environment, else English."""
     chosen = os.environ.get("LINKWRIGHT_LANG") or "en"
     if chosen not in LANGUAGES:
         chosen = "en"
@@ -143,8 +150,6 @@ def _headed(sentence: str, session: Session) -> str:
 
 def _quiet_end() -> int:
     """Nobody reads any more: the rest goes nowhere, without a complaint at the end of the process."""
-    try:
+    with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (OSError, ValueError):
-        pass
     return FINE

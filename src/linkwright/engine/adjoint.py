@@ -40,7 +40,13 @@ class Adjoints:
             return
         known.value = self._trace.add(known.value, value)
         if known.mask is not None:
-            known.mask = None if mask is None else self._trace.logic("or", known.mask, mask)
+            known.mask = self._either(known.mask, mask)
+
+    def _either(self, one: Mask, other: Mask | None) -> Mask | None:
+        """Where at least one holds; None where that is everywhere."""
+        if other is None or one == self._trace.negate(other) or other == self._trace.negate(one):
+            return None
+        return self._trace.logic("or", one, other)
 
     def sweep_back(self, chosen: set[int]) -> None:
         """Pass the adjoints of the chosen lines on to their arguments, last line first."""

@@ -42,47 +42,49 @@ class BoundPlan:
 
     def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
         self._lines = lines
-        single = designs is None
-        self._design_shape: tuple[int, ...] = () if designs is None else (designs, 1)
-        full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
-        shapes = {
-            "parameter": self._design_shape,
-            "position": (positions,) if single else (1, positions),
-            "field": full,
-            "state": full,
+        self._single = designs is None
+        self._full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
+        self._shapes: dict[str, tuple[int, ...]] = {
+            "parameter": () if designs is None else (designs, 1),
+            "position": (positions,) if designs is None else (1, positions),
+            "field": self._full,
+            "state": self._full,
         }
-        self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *full))
-        numbers = np.empty((registers.numbers, *full))
-        truths = np.empty((registers.truths, *full), dtype=np.bool_)
-        # One object per buffer: NumPy then sees at once where an operation is in place.
-        pools: dict[str, list[NDArray[Any]]] = {
-            ROW: list(self.outputs),
-            NUMBER: list(numbers),
-            TRUTH: list(truths),
-        }
+        self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *self._full))
+        self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in self._shapes}
         self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
         self._design_numbers = np.empty(len(self._numbers_at))
         self._design_truths = np.empty(len(self._truths_at), dtype=np.bool_)
-        self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in shapes}
+        self._arrays = self._lay_out(registers)
+        self._calls = self._calls_for([i for i, x in enumerate(lines.lines) if x.varies and x.is_operation])
+        self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
+        self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
+
+    def _lay_out(self, registers: Registers) -> list[NDArray[Any]]:
+        """The array of every line. One object per buffer: NumPy then sees what is in place."""
+        pools: dict[str, list[NDArray[Any]]] = {
+            ROW: list(self.outputs),
+            NUMBER: list(np.empty((registers.numbers, *self._full))),
+            TRUTH: list(np.empty((registers.truths, *self._full), dtype=np.bool_)),
+        }
         arrays: list[NDArray[Any]] = []
-        for index, line in enumerate(lines.lines):
-            if line.op == "constant":
-                array: NDArray[Any] = np.array(line.constant)
-            elif line.is_input:
-                array = self._design_place(index) if single and not line.varies else np.empty(shapes[line.op])
-                self.inputs[line.op].append(array)
-            elif not line.varies:
-                dtype = np.bool_ if line.truth else np.float64
-                array = self._design_place(index) if single else np.empty(self._design_shape, dtype=dtype)
-            else:
+        for index, line in enumerate(self._lines.lines):
+            if index in registers.places:
                 kind, number = registers.places[index]
                 array = pools[kind][number]
+            elif line.op == "constant":
+                array = np.array(line.constant)
+            elif self._single and not line.varies:
+                array = self._design_place(index)
+            elif line.is_input:
+                array = np.empty(self._shapes[line.op])
+            else:
+                array = np.empty(self._shapes["parameter"], dtype=np.bool_ if line.truth else np.float64)
+            if line.is_input:
+                self.inputs[line.op].append(array)
             arrays.append(array)
-        self._arrays = arrays
-        self._calls = self._calls_for([i for i, x in enumerate(lines.lines) if x.varies and x.is_operation])
-        self._calls += [(np.copyto, (self.outputs[row], arrays[i])) for row, i in registers.copies]
-        self._design_calls = [] if single else self._calls_for(lines.design_lines())
+        return arrays
 
     def _design_place(self, index: int) -> NDArray[Any]:
         if index in self._truths_at:

@@ -16,6 +16,7 @@ from linkwright.engine.trace import Scalar
 
 __all__ = ["GradientProgram", "Term", "forward", "reverse", "value_and_gradient"]
 
+
 def forward(program: Program, wrt: Sequence[str]) -> Program:
     """A program with the outputs of ``program`` and ``output|input`` = d(output)/d(input).
 

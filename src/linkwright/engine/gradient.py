@@ -177,7 +177,9 @@ class GradientProgram:
         """
         given, names = np.asarray(table, dtype=np.float64), self.parameters
         if given.ndim != 2 or given.shape[1] != len(names):
-            raise ValueError(f"the table must have the columns {', '.join(names)}, not the shape {given.shape}")
+            raise ValueError(
+                f"the table must have the columns {', '.join(names)}, not the shape {given.shape}"
+            )
         manner = Manner(threads, backend, progress)
         values, gradient = np.zeros(len(given)), np.zeros((len(given), len(self.wrt)))
         for part in self.parts:

@@ -174,4 +174,3 @@ class AccumulatorWriter:
         if entering is not None:
             code.append(f"%b{k} = select {self.w.mask} {entering}, {vector} %t{k}, {vector} %a{k}")
         return code
-

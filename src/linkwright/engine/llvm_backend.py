@@ -26,7 +26,7 @@ Arrays = Mapping[str, ArrayLike]
 Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 _NONE: Arrays = {}
 #: Values (designs times positions) of one call; a call cannot be interrupted.
-_CHUNK_VALUES = 1 << 18
+_CHUNK_VALUES = 1 << 16
 
 
 def compile_program(

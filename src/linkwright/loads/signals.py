@@ -95,7 +95,7 @@ class Signals(Protocol):
 def shown(value: float, dimension: str) -> str:
     """A value for a message: angles in degrees, times in s, lengths in m."""
     if dimension == "angle":
-        return f"{round(float(np.degrees(value)), 9):.6g}°"
+        return f"{round(float(np.degrees(value)), 9) + 0.0:.6g}°"
     return f"{value:.6g} {'s' if dimension == 'time' else 'm'}"
 
 

@@ -10,14 +10,14 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Callable, Mapping
-from functools import lru_cache, partial
+from functools import cache, partial
 
 LANGUAGES = ("en", "zh")
 Say = Callable[..., str]
 
 
 def say(key: str, language: str = "en", **values: object) -> str:
-    """The text of a key in a language, with ``{names}`` replaced by ``values``; raises KeyError for an unknown key."""
+    """The text of a key in a language, its ``{names}`` replaced by ``values``; raises KeyError."""
     area, _, name = key.partition(".")
     text = catalogue(area, language)[name]
     return text.format(**values) if values else text
@@ -30,7 +30,7 @@ def speaker(language: str) -> Say:
     return partial(say, language=language)
 
 
-@lru_cache(maxsize=None)
+@cache
 def catalogue(area: str, language: str) -> Mapping[str, str]:
     """All texts of an area; raises KeyError for an area or a language that does not exist."""
     if language not in LANGUAGES:

@@ -45,7 +45,11 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     try:
         mechanism = load(name)
         built = structure(mechanism)
-        fact = {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+        fact: dict[str, object] = {
+            "links": len(mechanism.links),
+            "mobility": built.mobility,
+            "class": built.mechanism_class,
+        }
         motion = solve_motion(mechanism, steps=TRIED, failures="mark")
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", str(error), code="motion")], {}

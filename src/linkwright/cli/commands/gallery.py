@@ -14,7 +14,8 @@ from linkwright.words import Say
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The command's options."""
-    parser.add_argument("action", metavar="list|show|copy", nargs="?", default="list", help=say("gallery.action_help"))
+    what = say("gallery.action_help")
+    parser.add_argument("action", metavar="list|show|copy", nargs="?", default="list", help=what)
     parser.add_argument("name", metavar="NAME", nargs="?", help=say("gallery.name_help"))
     parser.add_argument("folder", metavar="DIR", nargs="?", default=".", help=say("gallery.folder_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
@@ -83,7 +84,11 @@ def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
     known = gallery.names()
     if name not in known:
         offer = nearest_of(name, known)
-        hint = say("cli.did_you_mean", name=offer) if offer else say("cli.see_help", command="linkwright gallery")
+        hint = (
+            say("cli.did_you_mean", name=offer)
+            if offer
+            else say("cli.see_help", command="linkwright gallery")
+        )
         raise UsageError(say("gallery.unknown", name=name) + hint)
     return name, gallery.file(name).read_text(encoding="utf-8")
 

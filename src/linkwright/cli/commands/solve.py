@@ -27,7 +27,9 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     what = parser.add_argument_group(say("solve.what_title"))
     what.add_argument("--columns", nargs="+", metavar="PATTERN", help=say("solve.columns_help"))
     what.add_argument("--points", nargs="+", metavar="POINT", help=say("solve.points_help"))
-    what.add_argument("--forces", action=argparse.BooleanOptionalAction, default=None, help=say("solve.forces_help"))
+    what.add_argument(
+        "--forces", action=argparse.BooleanOptionalAction, default=None, help=say("solve.forces_help")
+    )
     what.add_argument("--static", action="store_true", help=say("solve.static_help"))
     what.add_argument("--mark", action="store_true", help=say("solve.mark_help"))
     form = parser.add_argument_group(say("solve.form_title"))
@@ -46,8 +48,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is not None:
         _write(solved, options, session)
     if session.json:
-        from linkwright.cli.solve_data import data
         from linkwright.cli.data import json_text
+        from linkwright.cli.solve_data import data
 
         session.show(json_text(data(solved, options, session.say)))
     elif options.output is None:

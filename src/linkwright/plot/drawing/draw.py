@@ -85,7 +85,7 @@ def draw(
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     index = _index(motion, position)
     ghosts, ghost_style = _overlay(motion, overlay)
-    scene = laid_out(motion, [index, *ghosts], index=index, inputs=inputs, centres=centres)
+    scene = laid_out(motion, index, inputs=inputs, centres=centres)
     sheet = Sheet(scene, index)
     sheet.ghosts(ghosts, ghost_style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
@@ -123,8 +123,8 @@ class Sheet:
     def machine(self, *, pushes: bool) -> None:
         """The mechanism itself, with the symbols of its loads; ``pushes``: forces and torques among them."""
         marks = load_marks(self.scene.machine, self.index, forces=pushes)
-        self.add(marks.elements, marks.ink)
         self.add(self.scene.at(self.index), self.scene.ink(self.index))
+        self.add(marks.elements, marks.ink)
 
     def vectors(self, groups: Sequence[Sequence[Vectors]]) -> None:
         """Vectors; those of one group share a scale."""
@@ -148,7 +148,7 @@ class Sheet:
         if wanted:
             chosen += point_labels(self.scene.machine, self.index)
         if wanted is True or wanted == "all":
-            chosen += link_labels(self.scene.machine, self.index)
+            chosen += link_labels(self.scene, self.index)
         places = place(chosen, Obstacles.of(self.ink))
         for label, candidate in zip(chosen, places, strict=True):
             self.elements += written(label, candidate)

@@ -97,11 +97,11 @@ def _rod(machine: Machine, joint: PrismaticJoint, low: float, high: float) -> It
     """The line of a guide on a moving link, long enough for the whole travel, and its tie to the link."""
     start, way = line_start(machine, joint), direction(machine, joint)
     through = machine.local(joint.guide, joint.through)
-    along = [(x - through[0]) * way[0] + (y - through[1]) * way[1] for x, y in _named(machine, joint)]
+    reach = [(x - through[0]) * way[0] + (y - through[1]) * way[1] for x, y in _named(machine, joint)]
     ends = (low - LENGTH / 2 - STUB, high + LENGTH / 2 + STUB)
     if joint.offset or len(machine.motion.mechanism.link(joint.guide).points) > 1:
-        along.append(0.0)
-    rod = SYMBOLS["moving_guide"](at=start, along=way, start=min(ends[0], *along, ends[1]), end=max(ends[1], *along))
+        reach.append(0.0)
+    rod = SYMBOLS["moving_guide"](at=start, along=way, start=min(*ends, *reach), end=max(*ends, *reach))
     yield Part("bodies", joint.guide, rod)
     if joint.offset:
         yield Part("bodies", joint.guide, SYMBOLS["bar"](through=[through, start]))

@@ -9,7 +9,7 @@ from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
 
 PUSH = 52.0
-GAP = 7.0
+GAP, BLOCK_GAP = 7.0, 19.0
 
 
 def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
@@ -33,7 +33,9 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
     if way is None:
         return EMPTY
     x, y = machine.paper(getattr(load, "on"), getattr(load, "at"), index)
-    tip = (x - GAP * way[0], y - GAP * way[1])
+    on_block = any(j.block == getattr(load, "on") and j.at == getattr(load, "at") for j in machine.guides.values())
+    gap = BLOCK_GAP if on_block else GAP
+    tip = (x - gap * way[0], y - gap * way[1])
     return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
 
 

@@ -73,10 +73,10 @@ class Scene:
         return [path(self.trace(name), f"lw-trace lw-trace-{k % 4}") for k, name in enumerate(names)]
 
 
-def laid_out(motion: Motion, indices: list[int], *, index: int, inputs: bool = True, centres: bool = False) -> Scene:
-    """The scene of a motion, scaled for the positions ``indices``; arrows of the drivers stand as at ``index``."""
+def laid_out(motion: Motion, index: int, *, inputs: bool = True, centres: bool = False) -> Scene:
+    """The scene of a motion; arrows of the drivers stand as at the position ``index``."""
     placed = placements(motion)
-    machine = Machine(motion, placed, fitted(motion, placed, indices))
+    machine = Machine(motion, placed, fitted(motion, placed))
     parts = [*bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
     if inputs:
         parts += input_arrows(machine, index)

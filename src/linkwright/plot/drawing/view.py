@@ -80,15 +80,15 @@ def moved(points: Floats, transform: tuple[float, float, float]) -> Floats:
     return np.stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1)
 
 
-def fitted(motion: Motion, placed: Mapping[str, Placement], indices: list[int]) -> View:
-    """A view in which the machine at the given positions has the usual diagonal, larger where bars are short."""
+def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
+    """A view in which all that the machine reaches has the usual diagonal, larger where bars are short."""
     mechanism = motion.mechanism
-    cloud = [placed[link.name].world(p)[indices] for link in mechanism.links.values() for p in link.points.values()]
+    cloud = [placed[link.name].world(p) for link in mechanism.links.values() for p in link.points.values()]
     pins = [np.array([p]) for name, p in mechanism.frame.points.items() if name in mechanism.joints]
     everything = np.concatenate([*cloud, *pins])
     everything = everything[np.isfinite(everything).all(axis=1)]
     if not len(everything):
-        raise LinkwrightError(f"none of the positions of {mechanism.name!r} to be drawn was reached")
+        raise LinkwrightError(f"no position of {mechanism.name!r} was reached, so there is nothing to draw")
     low, high = everything.min(axis=0), everything.max(axis=0)
     diagonal = float(np.hypot(*(high - low))) or 1.0
     scale = DIAGONAL / diagonal

@@ -1,0 +1,177 @@
+"""A result together with what several design numbers share: outputs, limit positions, true extremes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypeAlias, overload
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.loads.signals import Limit
+from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.resolve import Resolver
+from linkwright.model.signal_fields import Output
+
+Result: TypeAlias = "Motion | Forces | Analysis"
+Kind = Literal["max", "min"]
+#: Points per bracket and rounds of the search between positions; a round narrows a bracket 16 times.
+POINTS, ROUNDS = 33, 5
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m, nearest sample ``index``.
+
+    ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
+    """
+
+    value: float
+    time: float
+    input: float
+    index: int
+    exact: bool
+
+
+class Analysis:
+    """What design numbers are read from: a motion, its forces if they were solved, and what numbers share."""
+
+    def __init__(self, motion: Motion, forces: Forces | None = None) -> None:
+        self.motion = motion
+        self.forces = forces
+        self.resolver = Resolver(motion, forces)
+        self._limits: dict[Output, tuple[Limit, ...]] = {}
+
+    @classmethod
+    def of(cls, result: Motion | Forces | Analysis) -> Analysis:
+        """The analysis of a result."""
+        if isinstance(result, Analysis):
+            return result
+        return cls(result.motion, result) if isinstance(result, Forces) else cls(result)
+
+    @property
+    def input_dimension(self) -> str:
+        """``angle`` or ``length``: of the first driver's coordinate."""
+        return "angle" if next(iter(self.motion.positions.rotary.values()), True) else "length"
+
+    @cached_property
+    def outputs(self) -> tuple[Output, ...]:
+        """What the machine puts out: angles of links that turn about the frame, displacements of blocks on it."""
+        return mechanism_outputs(self.motion.mechanism)
+
+    @cached_property
+    def input_rate(self) -> Floats:
+        """Rate of the first driver, (n,) rad/s or m/s."""
+        return next(iter(self.motion.positions.coordinates.values()))[1]
+
+    @property
+    def closed(self) -> bool:
+        """Whether the positions are one closed cycle, each time in it once."""
+        positions = self.motion.positions
+        span = positions.time[-1] - positions.time[0] if positions.count > 1 else 0.0
+        return positions.closed and positions.period is not None and span < positions.period * (1 - 1e-9)
+
+    @property
+    def whole(self) -> bool:
+        """Whether the positions are one closed cycle and all are reached."""
+        return self.closed and bool(self.motion.ok.all())
+
+    def limits(self, output: Output) -> tuple[Limit, ...]:
+        """Limit positions of an output, by increasing time."""
+        if output not in self._limits:
+            from linkwright.kinematics.limits import limit_positions
+
+            found = [Limit(e.input, e.time, e.value, e.kind) for e in limit_positions(self.motion, output)]
+            self._limits[output] = tuple(sorted(found, key=lambda each: each.time))
+        return self._limits[output]
+
+    def mean(self, values: Floats) -> float:
+        """Mean over the time of the cycle, of the positions that are reached."""
+        good = np.isfinite(values)
+        if self.closed or good.sum() < 2:
+            return float(np.mean(values[good]))
+        time, kept = np.abs(self.motion.time[good] - self.motion.time[0]), values[good]
+        span = time[-1] - time[0]
+        return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
+
+    def rms(self, values: Floats) -> float:
+        """Root of the mean square over the time of the cycle."""
+        return float(np.sqrt(self.mean(values * values)))
+
+    @overload
+    def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> Extreme | None: ...
+    @overload
+    def extreme(self, signal: Callable[[Forces], Floats], kind: Kind, *, of: Literal["forces"]) -> Extreme | None: ...
+    def extreme(self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion") -> Extreme | None:
+        """Largest or smallest value of a signal over the cycle, found between the positions where that can be.
+
+        ``signal`` takes a Motion (or Forces, with ``of="forces"``) and gives (n,). None where no position is
+        reached.
+        """
+        solved = self.forces if of == "forces" else self.motion
+        values = signal(solved)
+        if not np.isfinite(values).any():
+            return None
+        sign = 1.0 if kind == "max" else -1.0
+        index = int(np.nanargmax(sign * values))
+        time = self.motion.time
+        sample = Extreme(float(values[index]), float(time[index]), float(self.motion.input[index]), index, False)
+        if not self.resolver.possible or self.motion.steps < 3:
+            return sample
+        step = float(abs(time[1] - time[0]))
+        peaks = _peaks(sign * values, self.closed)
+        low, high = time[peaks] - step, time[peaks] + step
+        if not self.closed:
+            low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
+        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
+
+    def extreme_between(
+        self, signal: Callable[[Motion], Floats], kind: Kind, start: float, end: float
+    ) -> Extreme | None:
+        """The same between two times, s, both among the candidates; None where resolving is not possible."""
+        if not self.resolver.possible:
+            return None
+        sign = 1.0 if kind == "max" else -1.0
+        time = np.linspace(start, end, 361)
+        values = sign * signal(self.resolver.at(time, "motion"))
+        if not np.isfinite(values).any():
+            return None
+        best = int(np.nanargmax(values))
+        first = Extreme(sign * float(values[best]), float(time[best]), self.resolver.input_at(float(time[best])), best, True)
+        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, 360)]]
+        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, "motion")), low, high, sign, first)
+
+    def _narrowed(
+        self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme
+    ) -> Extreme:
+        """The best of some brackets, each narrowed around its best point again and again."""
+        value, time = sign * first.value, first.time
+        shares = np.linspace(0.0, 1.0, POINTS)
+        for _ in range(ROUNDS):
+            grid = low[:, None] + (high - low)[:, None] * shares
+            values = signal(grid.ravel()).reshape(grid.shape)
+            values = np.where(np.isfinite(values), values, -np.inf)
+            best = values.argmax(axis=1)
+            rows = np.arange(len(low))
+            top = int(values[rows, best].argmax())
+            if values[top, best[top]] > value:
+                value, time = float(values[top, best[top]]), float(grid[top, best[top]])
+            step = (high - low) / (POINTS - 1)
+            low, high = np.maximum(grid[rows, best] - step, low), np.minimum(grid[rows, best] + step, high)
+        return Extreme(sign * value, time, self.resolver.input_at(time), first.index, True)
+
+
+def _peaks(values: Floats, closed: bool) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    """Samples not below their neighbours that may hold the largest value: at most four, the highest first."""
+    filled = np.where(np.isfinite(values), values, -np.inf)
+    before, after = np.roll(filled, 1), np.roll(filled, -1)
+    if not closed:
+        before[0] = after[-1] = -np.inf
+    local = np.flatnonzero((filled >= before) & (filled >= after) & np.isfinite(filled))
+    order = local[np.argsort(-filled[local], kind="stable")]
+    spread = float(np.nanmax(values) - np.nanmin(values))
+    return order[filled[order] >= filled[order[0]] - 0.05 * spread][:4]

@@ -1,0 +1,75 @@
+"""What a mechanism puts out, and the motion of an output."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+
+
+def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
+    """Angles of links that turn about the frame and displacements of blocks on it, driven ones left out."""
+    driven = {(driver.joint, driver.link) for driver in mechanism.drivers.values()}
+    driven |= {(driver.joint, driver.relative_to) for driver in mechanism.drivers.values()}
+    found: dict[Output, None] = {}
+    for name, joint in mechanism.joints.items():
+        if "frame" not in joint.joined:
+            continue
+        links = [link for link in joint.joined if link != "frame" and (name, link) not in driven]
+        if isinstance(joint, RevoluteJoint):
+            found |= {Output("angle", link, link): None for link in links}
+        elif isinstance(joint, PrismaticJoint) and links:
+            found[Output("displacement", name, name)] = None
+    return tuple(found)
+
+
+def output_link(mechanism: Mechanism, output: Output) -> str:
+    """The link that carries an output."""
+    if output.kind == "angle":
+        return output.owner
+    joint = mechanism.joints[output.owner]
+    return next(link for link in joint.joined if link != "frame")
+
+
+def value(motion: Motion, output: Output) -> Floats:
+    """Angle (rad, continuous) or displacement (m), (n,)."""
+    return motion.link(output.owner).angle if output.kind == "angle" else motion.joint(output.owner).displacement
+
+
+def rate(motion: Motion, output: Output) -> Floats:
+    """Its first derivative in time, (n,)."""
+    if output.kind == "angle":
+        return motion.link(output.owner).angular_velocity
+    return motion.joint(output.owner).velocity
+
+
+def second(motion: Motion, output: Output) -> Floats:
+    """Its second derivative in time, (n,)."""
+    if output.kind == "angle":
+        return motion.link(output.owner).angular_acceleration
+    return motion.joint(output.owner).acceleration
+
+
+def turns_fully(motion: Motion, output: Output) -> bool:
+    """Whether an angle gains whole turns over a closed cycle, so that it never swings back to its start."""
+    if output.kind != "angle" or motion.steps < 3 or not motion.ok.all():
+        return False
+    angle = value(motion, output)
+    step = angle[-1] - angle[-2]
+    return bool(abs(angle[-1] + step - angle[0]) > np.pi)
+
+
+def free_points(mechanism: Mechanism) -> tuple[str, ...]:
+    """Points of moving links that are no joint's: coupler points, tool points; as ``link.point``."""
+    used = set(mechanism.joints)
+    for joint in mechanism.joints.values():
+        if isinstance(joint, PrismaticJoint):
+            used |= {joint.through, joint.at, *(joint.direction_points or ())}
+    return tuple(
+        f"{name}.{point}" for name, link in mechanism.links.items() for point in link.points if point not in used
+    )

@@ -1,0 +1,292 @@
+"""Outputs in the user's words: ``C.velocity``, ``jaw.angle``, ``reaction O5 on jaw``, ``driver.effort``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.trace import Scalar, absolute, minimum, sqrt
+from linkwright.engine.vector import Vec
+from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.names import canonical, find_point
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+from linkwright.structure.group import Group
+
+Floats = NDArray[np.float64]
+
+POINT_PARTS = {"position": ("p", "length"), "velocity": ("v", "velocity"), "acceleration": ("a", "acceleration")}
+LINK_PARTS = {"angular_velocity": "w", "angular_acceleration": "g"}
+SLIDE_PARTS = {"displacement": ("s", "length"), "velocity": ("sv", "velocity"), "acceleration": ("sa", "acceleration")}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """An output that a program computes.
+
+    ``name`` as the user wrote it; ``dimension``: name of its dimension; ``values``: what the program computes,
+    a number, or for an angle the (cosine, sine) of ``reference`` + angle. ``rising``: ``angle_of`` a tangent.
+    """
+
+    name: str
+    dimension: str
+    carrier: Scalar
+    form: str = "plain"
+    reference: float = 0.0
+
+    def shown(self, values: Floats) -> Floats:
+        """The quantity from its carrier: both grow together, so extremes of one are extremes of the other."""
+        if self.form == "plain":
+            return values
+        factor = 2.0 if self.form == "half tangent" else 1.0
+        return np.asarray(self.reference + factor * np.arctan(values))
+
+    def slope(self, values: Floats) -> Floats:
+        """Derivative of the quantity by its carrier."""
+        if self.form == "plain":
+            return np.ones_like(values)
+        factor = 2.0 if self.form == "half tangent" else 1.0
+        return np.asarray(factor / (1.0 + values * values))
+
+
+class Named:
+    """Looks outputs up by the user's words, in the programs of one mechanism.
+
+    ``middle(link)``: an angle near which a link's angle stays, (rad); asked for links whose angle is wanted.
+    """
+
+    def __init__(self, forces: ForceSolver, middle: Callable[[str], float]) -> None:
+        self.forces = forces
+        self.motion = forces.motion
+        self.mechanism: Mechanism = forces.motion.mechanism
+        self.middle = middle
+
+    def quantity(self, name: str) -> Quantity:
+        """The output of that name; raises LinkwrightError with the nearest known name."""
+        words = name.split()
+        if words and words[0] in _PHRASES:
+            return _PHRASES[words[0]](self, name, words[1:])
+        base, _, axis = name.rpartition(".")
+        if axis in ("x", "y") and base in ("shaking_force",):
+            return Quantity(name, "force", self.forces.outputs.value(f"shake.{axis}"))
+        for reader in (self._driver, self._link, self._slide, self._point):
+            found = reader(name)
+            if found is not None:
+                return found
+        raise self._unknown(name)
+
+    # readers ------------------------------------------------------------------------------
+    def _driver(self, name: str) -> Quantity | None:
+        owner, _, part = name.rpartition(".")
+        if part == "effort" and owner in self.mechanism.drivers:
+            return Quantity(name, self._effort_dimension(owner), self.forces.outputs.value(f"effort:{owner}"))
+        return None
+
+    def _link(self, name: str) -> Quantity | None:
+        owner, _, part = name.rpartition(".")
+        if owner not in self.mechanism.links:
+            return None
+        if part == "angle":
+            return self._angle(name, owner)
+        if part in LINK_PARTS:
+            return Quantity(name, part, self.motion.outputs.value(f"{LINK_PARTS[part]}:{owner}"))
+        return None
+
+    def _slide(self, name: str) -> Quantity | None:
+        owner, _, part = name.rpartition(".")
+        if isinstance(self.mechanism.joints.get(owner), PrismaticJoint) and part in SLIDE_PARTS:
+            kind, dimension = SLIDE_PARTS[part]
+            return Quantity(name, dimension, self.motion.outputs.value(f"{kind}:{owner}"))
+        return None
+
+    def _point(self, name: str) -> Quantity | None:
+        base, _, last = name.rpartition(".")
+        part, axis = last, ""
+        if last in ("x", "y"):
+            axis = last
+            owner, _, part = base.rpartition(".")
+            if part not in POINT_PARTS:
+                owner, part = base, "position"
+        else:
+            owner = base
+        if part not in POINT_PARTS or not owner or (part == "position" and not axis):
+            return None
+        kind, dimension = POINT_PARTS[part]
+        vector = self.motion.outputs.point(self._point_key(owner))["pva".index(kind)]
+        return Quantity(name, dimension, _component(vector, axis))
+
+    def _point_key(self, owner: str) -> str:
+        link = self.mechanism.links.get(owner.removesuffix(".centre"))
+        if owner.endswith(".centre") and link is not None and "centre" not in link.points:
+            return owner.removesuffix("centre") + "@centre"
+        return canonical(self.mechanism, *find_point(self.mechanism, owner))
+
+    def _angle(self, name: str, link: str) -> Quantity:
+        """Tangent of half the angle from the middle direction: it grows with the angle over a whole turn."""
+        middle = self.middle(link)
+        e = self.motion.motion.poses[link].direction
+        c, s = float(np.cos(middle)), float(np.sin(middle))
+        along, across = e.x * c + e.y * s, e.y * c - e.x * s
+        return Quantity(name, "angle", across / (1.0 + along), "half tangent", middle)
+
+    def _effort_dimension(self, driver: str) -> str:
+        joint = self.mechanism.joints[self.mechanism.drivers[driver].joint]
+        return "torque" if isinstance(joint, RevoluteJoint) else "force"
+
+    # phrases ------------------------------------------------------------------------------
+    def input_torque(self, name: str, rest: list[str]) -> Quantity:
+        if rest or not self.mechanism.drivers:
+            raise self._unknown(name)
+        first = next(iter(self.mechanism.drivers))
+        return Quantity(name, self._effort_dimension(first), self.forces.outputs.value(f"effort:{first}"))
+
+    def power(self, name: str, rest: list[str]) -> Quantity:
+        if rest:
+            raise self._unknown(name)
+        return Quantity(name, "power", self.forces.outputs.value("driver_power"))
+
+    def shaking_force(self, name: str, rest: list[str]) -> Quantity:
+        if rest:
+            raise self._unknown(name)
+        x, y = (self.forces.outputs.value(f"shake.{axis}") for axis in "xy")
+        return Quantity(name, "force", _component(Vec(x, y), ""))
+
+    def shaking_moment(self, name: str, rest: list[str]) -> Quantity:
+        if rest:
+            raise self._unknown(name)
+        return Quantity(name, "torque", self.forces.outputs.value("shake_moment"))
+
+    def reaction(self, name: str, rest: list[str]) -> Quantity:
+        """``reaction O5 on jaw``, with ``.x`` or ``.y`` for a component."""
+        joint, link, axis = self._at_joint(name, rest)
+        return Quantity(name, "force", _component(self.forces.forces.reaction(joint, link), axis))
+
+    def couple(self, name: str, rest: list[str]) -> Quantity:
+        joint, link, _ = self._at_joint(name, rest)
+        return Quantity(name, "torque", self.forces.forces.couple(joint, link))
+
+    def load(self, name: str, rest: list[str]) -> Quantity:
+        """Size of a load's force."""
+        if len(rest) != 1 or rest[0] not in self.mechanism.loads:
+            raise self._unknown(name)
+        x, y = (self.forces.outputs.value(f"lf:{rest[0]}.{axis}") for axis in "xy")
+        return Quantity(name, "force", _component(Vec(x, y), ""))
+
+    def closeness(self, name: str, rest: list[str]) -> Quantity:
+        """Square under a dyad's root as a share of its largest value: 0 at a singular position."""
+        placed = self.motion.motion.placed
+        groups = [self._group(name, rest[0])] if rest else [g for g in self.motion.structure.groups if g.cuts]
+        total: Scalar | None = None
+        for group in groups:
+            if placed[group.name].dyad is None:
+                continue
+            quality = placed[group.name].quality
+            total = quality if total is None else minimum(total, quality)
+        if total is None:
+            raise LinkwrightError(
+                f"{name!r}: there is no group with a closed form, and only those tell how near they are to a "
+                "singular position; choose another output"
+            )
+        return Quantity(name, "dimensionless", total)
+
+    def transmission_angle(self, name: str, rest: list[str]) -> Quantity:
+        """Acute angle between the two links at the inner pin of an RRR dyad."""
+        if len(rest) != 1:
+            raise self._unknown(name)
+        group = self._group(name, rest[0])
+        if group.signature != "RRR" or len(group.inner_joints) != 1:
+            raise LinkwrightError(
+                f"{name!r}: a transmission angle is between two links of an RRR group; {group.signature} "
+                f"({', '.join(group.links)}) is none; ask for closeness {rest[0]}"
+            )
+        outer = [self.motion.outputs.point(joint.joint)[0] for joint in group.outer_joints]
+        inner = self.motion.outputs.point(rest[0])[0]
+        u, v = inner - outer[0], inner - outer[1]
+        tangent = absolute(u.cross(v)) / absolute(u.dot(v))
+        return Quantity(name, "angle", tangent, "tangent")
+
+    def _group(self, name: str, joint: str) -> Group:
+        inner = {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
+        if joint not in inner:
+            offer = nearest(joint, list(inner))
+            hint = f"did you mean {offer!r}?" if offer else f"inner joints are: {', '.join(inner) or 'none'}"
+            raise LinkwrightError(f"{name!r}: {joint!r} is not the inner joint of a group; {hint}")
+        return inner[joint]
+
+    def _at_joint(self, name: str, rest: list[str]) -> tuple[str, str, str]:
+        axis = ""
+        if rest and rest[-1].endswith((".x", ".y")):
+            rest = [*rest[:-1], rest[-1][:-2]]
+            axis = name[-1]
+        joints = self.mechanism.joints
+        if len(rest) not in (1, 3) or rest[0] not in joints or (len(rest) == 3 and rest[1] != "on"):
+            raise self._unknown(name)
+        joined = joints[rest[0]].joined
+        if len(rest) == 3:
+            if rest[2] not in joined:
+                raise LinkwrightError(
+                    f"{name!r}: joint {rest[0]!r} does not touch {rest[2]!r}; it joins {', '.join(joined)}"
+                )
+            return rest[0], rest[2], axis
+        moving = [link for link in joined if link != "frame"]
+        if len(moving) != 1:
+            raise LinkwrightError(
+                f"{name!r}: joint {rest[0]!r} joins {', '.join(joined)}; say on which link: "
+                f'"{name} on {moving[0]}"'
+            )
+        return rest[0], moving[0], axis
+
+    def _unknown(self, name: str) -> LinkwrightError:
+        known = list(output_names(self.mechanism))
+        offer = nearest(name, known)
+        hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(map(repr, known[:6]))}"
+        return LinkwrightError(f"there is no output {name!r} in {self.mechanism.name!r}; {hint}")
+
+
+_PHRASES: dict[str, Callable[[Named, str, list[str]], Quantity]] = {
+    "input_torque": Named.input_torque,
+    "power": Named.power,
+    "shaking_force": Named.shaking_force,
+    "shaking_moment": Named.shaking_moment,
+    "reaction": Named.reaction,
+    "couple": Named.couple,
+    "load": Named.load,
+    "closeness": Named.closeness,
+    "transmission_angle": Named.transmission_angle,
+}
+
+
+def output_names(mechanism: Mechanism) -> Iterator[str]:
+    """Names of outputs that a study can ask for, most of them."""
+    for driver in mechanism.drivers:
+        yield f"{driver}.effort"
+    yield from ("input_torque", "power", "shaking_force", "shaking_moment", "closeness")
+    for link in mechanism.links:
+        yield from (f"{link}.angle", f"{link}.angular_velocity", f"{link}.angular_acceleration")
+    for name, joint in mechanism.joints.items():
+        if isinstance(joint, PrismaticJoint):
+            yield from (f"{name}.{part}" for part in SLIDE_PARTS)
+            yield f"couple {name} on {joint.block}"
+        yield from (f"reaction {name} on {link}" for link in joint.joined if link != "frame")
+    keys = {canonical(mechanism, name, p) for name, link in mechanism.links.items() for p in link.points}
+    for key in sorted(keys):
+        yield from (f"{key}.x", f"{key}.y", f"{key}.velocity", f"{key}.acceleration")
+
+
+def _component(vector: Vec, axis: str) -> Scalar:
+    """A component, or the size."""
+    if axis:
+        return vector.x if axis == "x" else vector.y
+    if _still(vector.x):
+        return absolute(vector.y)
+    return absolute(vector.x) if _still(vector.y) else sqrt(vector.square)
+
+
+def _still(value: Scalar) -> bool:
+    return isinstance(value, float) and value == 0.0
