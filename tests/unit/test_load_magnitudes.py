@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.model.file import loads
 from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output, SwingPhase
 
 SLIDER = """
 format: 1
@@ -155,9 +158,7 @@ def test_a_torsion_spring_takes_the_free_angle_nearest_to_its_own(free: float, l
     rod = -np.arcsin(np.sin(THETA) / 3)
     rate = -np.cos(THETA) / np.sqrt(9 - np.sin(THETA) ** 2)
     got = torque(slider(load + ", preload: 2 N·m"))
-    np.testing.assert_allclose(
-        got, (20 * (rod - np.radians(60)) + sign * 2) * rate, rtol=1e-9, atol=1e-9
-    )
+    np.testing.assert_allclose(got, (20 * (rod - np.radians(60)) + sign * 2) * rate, rtol=1e-9, atol=1e-9)
 
 
 def test_a_torsion_spring_winds_up() -> None:
@@ -234,10 +235,28 @@ def test_the_crusher_ramps_between_its_published_limit_positions() -> None:
 
 
 def test_the_conveyor_advances_between_its_printed_limit_positions() -> None:
-    """The slider comes forward from 231.6500775° to 348.743° of the crank, as printed in the report."""
+    """The rocker swings forward from 231.6500775° to 348.743° of the crank, as printed in the report."""
     mechanism = lw.load("gallery:swing_conveyor")
-    edited = mechanism.source and mechanism
-    assert edited is mechanism
+    advance = SwingPhase(Output("angle", "rocker", "rocker"), "max", "min")
+    load = replace(mechanism.loads["resistance"], phase=advance)
     at = np.radians([231.649, 231.651, 290.0, 348.742, 348.744])
-    forces = lw.solve_forces(lw.solve_motion(mechanism, at=at))
-    assert forces.load("resistance").force[:, 0] == pytest.approx([0, -2200, -2200, 0, 0], abs=1e-9)
+    forces = lw.solve_forces(lw.solve_motion(replace(mechanism, loads={"resistance": load}), at=at))
+    expected = [0, -2200, -2200, -2200, 0]
+    assert forces.load("resistance").force[:, 0] == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_stroke_ends_at_the_first_of_two_equal_limits() -> None:
+    """The conveyor's slider has its largest displacement twice, where the rod lies along the rocker's arm.
+
+    Going out from its smallest displacement it stops at the first, before the rocker's own limit position.
+    """
+    mechanism = lw.load("gallery:swing_conveyor")
+    stroke = SwingPhase(Output("displacement", "guide", "guide"), "min", "max")
+    load = replace(mechanism.loads["resistance"], phase=stroke)
+    motion = lw.solve_motion(replace(mechanism, loads={"resistance": load}), steps=720)
+    acts = lw.solve_forces(motion).load("resistance").magnitude > 0
+    out = motion.joint("guide").displacement
+    first, last = np.flatnonzero(acts)[[0, -1]]
+    assert acts[first : last + 1].all()
+    assert abs(first - int(out.argmin())) <= 1 and out[last] == pytest.approx(out.max(), abs=1e-5)
+    assert (np.diff(out[first : last + 1]) > 0).all()

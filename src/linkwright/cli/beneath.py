@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.cli.columns import Column
-from linkwright.cli.solving import Solved
+from linkwright.cli.solving import Solved, reaction_pairs
 from linkwright.cli.text_table import aligned
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
-from linkwright.model.mechanism import Mechanism
 from linkwright.words import Say
 
 
@@ -32,21 +31,12 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
         force = forces.reaction(joint, on=link)
         size = np.hypot(force[:, 0], force[:, 1])
         place = int(np.nanargmax(size))
-        number = Column("", "", "", "N", size[place : place + 1]).text
+        number = Column("", "", "", "N", size[place : place + 1], solved.force_scale).text
         texts = (number(size[place]), number(force[place, 0]), number(force[place, 1]))
         rows.append((joint, link, *texts, input_text(solved, place, degrees=degrees)))
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
     return [title, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
-
-
-def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
-    """Joint and link of every force that is not merely the reverse of another one."""
-    found: list[tuple[str, str]] = []
-    for name, joint in mechanism.joints.items():
-        links = [link for link in joint.joined if link != "frame"]
-        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
-    return found
 
 
 def checks(solved: Solved, say: Say) -> list[str]:
@@ -58,10 +48,7 @@ def checks(solved: Solved, say: Say) -> list[str]:
     lines = []
     if forces.mechanism.drivers:
         lines.append(say("solve.power_check", residual=f"{power:.1e}", size=f"{largest(forces.power):.3g}"))
-    size = max(
-        (largest(forces.reaction(joint, on=link)) for joint, link in reaction_pairs(forces.mechanism)),
-        default=0.0,
-    )
+    size = solved.force_scale
     lines.append(
         say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}")
     )
@@ -104,12 +91,13 @@ def _short(value: float) -> str:
 def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list[str]:
     """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
     rows = []
-    for name, driver in forces.mechanism.drivers.items():
-        values = forces.driver_effort(name)
+    for key, driver in forces.mechanism.drivers.items():
+        values = forces.driver_effort(key)
+        name = key if len(forces.mechanism.drivers) > 1 else say("solve.driver")
         if not np.isfinite(values).any():
             continue
         unit = "N·m" if isinstance(forces.mechanism.joints[driver.joint], RevoluteJoint) else "N"
-        number = Column("", "", "", unit, values).text
+        number = Column("", "", "", unit, values, solved.force_scale).text
         high, low = int(np.nanargmax(values)), int(np.nanargmin(values))
         if len(values) == 1:
             rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))

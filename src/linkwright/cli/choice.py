@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from linkwright.cli.columns import Column
 from linkwright.cli.errors import UsageError
@@ -28,7 +29,8 @@ def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
     """What the drivers must supply."""
     if solved.forces is None:
         return []
-    return [columns[f"{name}.effort"] for name in solved.motion.mechanism.drivers]
+    names = [f"{name}.effort" for name in solved.motion.mechanism.drivers]
+    return [replace(columns[name], scale=solved.force_scale) for name in names]
 
 
 def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str]) -> list[list[Column]]:

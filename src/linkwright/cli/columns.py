@@ -19,20 +19,24 @@ from linkwright.words import Say
 _VECTORS = frozenset({"position", "velocity", "acceleration"})
 #: Digits of a column's largest value.
 DIGITS = 5
-#: What is smaller is rounding, and printed as 0.
+#: Share of the scale below which a value is rounding.
 NOTHING = 1e-12
 MISSING = "–"
 
 
 @dataclass(frozen=True)
 class Column:
-    """Values (n,) of one quantity of a link, point, joint or driver (``owner``), in ``unit``."""
+    """Values (n,) of one quantity of a link, point, joint or driver (``owner``), in ``unit``.
+
+    ``scale`` is the size against which values are mere rounding, and printed as 0.
+    """
 
     name: str
     owner: str
     quantity: str
     unit: str
     values: Floats
+    scale: float = 1.0
 
     @classmethod
     def of(cls, key: str, values: Floats) -> Column:
@@ -55,7 +59,7 @@ class Column:
         """Text of one value as this column writes it."""
         if not math.isfinite(value):
             return MISSING
-        if self._largest < NOTHING:
+        if self._largest < NOTHING * self.scale:
             return "0"
         if self._decimals is None:
             return f"{value:.{DIGITS - 1}e}"

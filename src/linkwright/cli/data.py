@@ -10,8 +10,8 @@ from linkwright.errors import Finding
 
 
 def json_text(value: object) -> str:
-    """JSON text of plain data and arrays; what is not a finite number becomes null."""
-    return json.dumps(_plain(value), ensure_ascii=False, indent=1, allow_nan=False)
+    """JSON text of plain data and arrays, a list of numbers on one line; what is not finite becomes null."""
+    return _written(_plain(value), "")
 
 
 def finding_data(finding: Finding) -> dict[str, str]:
@@ -36,3 +36,17 @@ def _plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
+
+
+def _written(value: Any, margin: str) -> str:
+    inner = margin + "  "
+    if isinstance(value, dict) and value:
+        rows = [f"{inner}{_scalar(key)}: {_written(each, inner)}" for key, each in value.items()]
+        return "{\n" + ",\n".join(rows) + f"\n{margin}}}"
+    if isinstance(value, list) and any(isinstance(each, dict | list | str) for each in value):
+        return "[\n" + ",\n".join(inner + _written(each, inner) for each in value) + f"\n{margin}]"
+    return _scalar(value)
+
+
+def _scalar(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -6,11 +6,11 @@ import argparse
 import csv
 import io
 
-from linkwright.cli.beneath import largest, reaction_pairs
+from linkwright.cli.beneath import largest
 from linkwright.cli.choice import leading, point_keys
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
-from linkwright.cli.solving import Solved
+from linkwright.cli.solving import Solved, reaction_pairs
 from linkwright.words import Say
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,16 @@ class Solved:
         """Notes of motion and forces."""
         return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()))
 
+    @cached_property
+    def force_scale(self) -> float:
+        """Largest joint force, N, but no less than 1."""
+        sizes = [1.0]
+        if self.forces is not None:
+            for joint, link in reaction_pairs(self.motion.mechanism):
+                force = self.forces.reaction(joint, on=link)
+                sizes.append(float(np.max(np.abs(force[np.isfinite(force)]), initial=0.0)))
+        return max(sizes)
+
     @property
     def steady(self) -> bool:
         """Whether inputs say where a position is: all drivers have constant speed."""
@@ -64,6 +75,15 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
             trouble = error
     cycle = options.at is None and options.times is None
     return Solved(motion, forces, rows, tuple(warnings), trouble, cycle)
+
+
+def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
+    """Joint and link of every force that is not merely the reverse of another one."""
+    found: list[tuple[str, str]] = []
+    for name, joint in mechanism.joints.items():
+        links = [link for link in joint.joined if link != "frame"]
+        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
+    return found
 
 
 def has_loads(mechanism: Mechanism) -> bool:

@@ -135,7 +135,8 @@ def _from_drawing(
             distances = {
                 sign: probe.distance({**modes, group.name: sign}, states, inputs) for sign in (1.0, -1.0)
             }
-            modes[group.name] = min(distances, key=distances.__getitem__)
+            closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding
+            modes[group.name] = -1.0 if closer else 1.0
 
 
 class _Probe:
@@ -155,6 +156,7 @@ class _Probe:
                     self.names.append(f"{link}.{point}")
                     self.goal += drawn
         self.program = Program.of(motion.trace, outputs)
+        self.rounding = 1e-20 * sum(coordinate * coordinate for coordinate in self.goal)
 
     def distance(self, modes: dict[str, float], states: dict[str, float], inputs: dict[str, float]) -> float:
         values = self._values(modes, inputs)

@@ -17,7 +17,7 @@ from linkwright.structure.chains import make_group
 from linkwright.structure.constraints import FRAME, ConstraintGraph
 from linkwright.structure.group import Connection, Group, Kind, Structure
 from linkwright.structure.matching import components, maximum_matching
-from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler
+from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler, islands
 
 
 def structure(mechanism: Mechanism) -> Structure:
@@ -42,6 +42,7 @@ def structure(mechanism: Mechanism) -> Structure:
         drivers=tuple(mechanism.drivers),
         groups=tuple(groups),
         counts=numbers,
+        parts=tuple(tuple(part) for part in islands(mechanism)),
     )
 
 

@@ -106,7 +106,8 @@ class Structure:
     """Mobility and Assur groups of a mechanism, in solving order.
 
     ``grubler``: mobility by Grübler's formula, 3n - 2p; ``redundant``: rotations that a loop of
-    guides fixes more than once (joint names), added to it. See the theory page on structure.
+    guides fixes more than once (joint names), added to it; ``parts``: sets of links that share nothing but
+    the frame (more than one: several mechanisms in one model). See the theory page on structure.
     """
 
     grubler: int
@@ -114,6 +115,7 @@ class Structure:
     drivers: tuple[str, ...]
     groups: tuple[Group, ...]
     counts: dict[str, int]
+    parts: tuple[tuple[str, ...], ...] = ()
 
     @property
     def mobility(self) -> int:

@@ -21,6 +21,11 @@ def describe(structure: Structure) -> str:
         f"Mechanism = frame + {chain}",
         f"It is a class {roman(structure.mechanism_class)} mechanism.",
     ]
+    if len(structure.parts) > 1:
+        listed = " and ".join("{" + ", ".join(part) + "}" for part in structure.parts)
+        lines.append(
+            f"These are {len(structure.parts)} mechanisms that share nothing but the frame: {listed}."
+        )
     if structure.drivers:
         lines.append("Another choice of driver leads to other groups, and may change the class.")
     return "\n".join(lines)
@@ -75,6 +80,7 @@ def as_data(structure: Structure) -> dict[str, object]:
         "redundant": list(structure.redundant),
         "counts": dict(structure.counts),
         "drivers": list(structure.drivers),
+        "parts": [list(part) for part in structure.parts],
         "class": structure.mechanism_class,
         "groups": [
             {

@@ -1,0 +1,410 @@
+"""Rank of the Jacobian of all joints, and what it says against Grübler's count.
+
+Coordinates of a link are the place of its origin and its angle; all lengths are divided by the size of the
+mechanism, so that rows and columns compare. Drivers are left out: what is found is the mobility.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.base import Joint
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.weld import WeldJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.drawing import Drawing, guide_angle
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import canonical
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure.mobility import counts, grubler
+
+#: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
+ZERO = 1e-9
+ZERO_DRAWN = 1e-6
+#: A drawing whose joints gape by less than this share of the size closes.
+CLOSED = 1e-9
+
+Numbers = NDArray[Any]
+Parts = Mapping[str, Sequence[Any]]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One scalar equation: its joint, what it holds (``place`` or ``rotation``), its value, its derivatives."""
+
+    joint: str
+    holds: str
+    value: Any
+    parts: Parts
+
+
+@dataclass(frozen=True)
+class RankReport:
+    """Mobility by rank: ``mobility`` = ``freedoms`` - ``rank``, of ``equations`` rows.
+
+    ``redundant``: equations that others already demand, such as ``rotation at slot_2``; ``links``: links that
+    could be taken out without changing the motion; ``special``: whether the rank is smaller here than in
+    neighbouring positions; ``grubler``: 3n - 2p; ``sentence``: all this in words.
+    """
+
+    rank: int
+    freedoms: int
+    equations: int
+    grubler: int
+    redundant: tuple[str, ...]
+    links: tuple[str, ...]
+    special: bool
+    sentence: str
+
+    @property
+    def mobility(self) -> int:
+        """Number of independent (at a special position instantaneous) freedoms of the mechanism."""
+        return self.freedoms - self.rank
+
+
+def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
+    """Rank of the constraint Jacobian of the whole mechanism at a solved position, by singular values.
+
+    A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints,
+    special lengths, special positions (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody
+    Systems, ch. 5). Raises LinkwrightError if the position is not solved.
+    """
+    if not motion.ok[index]:
+        raise LinkwrightError(f"position {index} is not solved, so its Jacobian has no rank; choose another one")
+    mechanism = motion.mechanism
+    system = ConstraintSystem(mechanism)
+    here = coordinates(motion, index)
+    rank, redundant = _rank(system, here, ZERO)
+    guides = motion.structure.redundant
+    special, links = False, tuple[str, ...]()
+    if system.freedoms - rank > motion.structure.mobility:
+        special = not _moves(system, here, rank)
+        links = () if special else _spare_links(mechanism, here, ZERO)
+    return _report(mechanism, system, rank, redundant, links, special, "", guides)
+
+
+def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
+    """Rank in the position of the drawing, for models that counting refuses.
+
+    The drawn coordinates are first moved to the nearest ones that the joints allow. ``special`` then means that
+    the mechanism cannot leave that position. None without a drawing that places every link.
+    """
+    drawn = _drawn(mechanism)
+    if drawn is None:
+        return None
+    system = ConstraintSystem(mechanism)
+    here, gap = _closed(system, drawn)
+    rank, redundant = _rank(system, here, ZERO_DRAWN)
+    if gap > CLOSED:
+        return _gaping(mechanism, system, rank, redundant, gap)
+    special = rank < system.freedoms and not _moves(system, here, rank)
+    links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
+    return _report(mechanism, system, rank, redundant, links, special, " in the drawing", ())
+
+
+# equations ----------------------------------------------------------------------------------------
+class ConstraintSystem:
+    """Equations of the joints of a mechanism, perhaps ``without`` some links, over (x, y, θ) of every link.
+
+    Works on complex numbers as well, for exact derivatives by complex steps.
+    """
+
+    def __init__(self, mechanism: Mechanism, without: Iterable[str] = ()) -> None:
+        left = frozenset(without)
+        self.mechanism = mechanism
+        self.links = [name for name in mechanism.links if name not in left]
+        self.size = _size(mechanism)
+        self._first = {name: 3 * i for i, name in enumerate(self.links)}
+        self._joints = [
+            (joint, kept)
+            for joint in mechanism.joints.values()
+            if len(kept := tuple(link for link in joint.joined if link not in left)) > 1
+        ]
+
+    @property
+    def freedoms(self) -> int:
+        """Three of every link."""
+        return 3 * len(self.links)
+
+    def rows(self, x: Numbers) -> list[Row]:
+        """All equations at some coordinates."""
+        poses = {"frame": _Pose(0.0, 0.0, 0.0)}
+        poses |= {name: _Pose(*x[i : i + 3]) for name, i in self._first.items()}
+        return [row for joint, kept in self._joints for row in self._of_joint(joint, kept, poses)]
+
+    def residual(self, x: Numbers) -> Numbers:
+        """Values of the equations; lengths over the size."""
+        return np.array([row.value for row in self.rows(x)])
+
+    def jacobian(self, x: Numbers) -> Numbers:
+        """Derivatives of the equations, (equations, freedoms)."""
+        return self.matrix(self.rows(x))
+
+    def matrix(self, rows: Sequence[Row]) -> Numbers:
+        """The derivatives of some equations as a matrix."""
+        entries = [[0.0] * self.freedoms for _ in rows]
+        for entry, row in zip(entries, rows, strict=True):
+            for link, part in row.parts.items():
+                if link in self._first:
+                    i = self._first[link]
+                    for k in range(3):
+                        entry[i + k] = entry[i + k] + part[k]
+        return np.array(entries) if rows else np.zeros((0, self.freedoms))
+
+    def driver_row(self, name: str, x: Numbers) -> Row:
+        """A driver's coordinate (rad, or m over the size) with its derivatives."""
+        driver = self.mechanism.drivers[name]
+        joint = self.mechanism.joints[driver.joint]
+        poses = {"frame": _Pose(0.0, 0.0, 0.0)}
+        poses |= {link: _Pose(*x[i : i + 3]) for link, i in self._first.items()}
+        if isinstance(joint, PrismaticJoint):
+            return self._along(joint, poses, across=False)
+        a, b = driver.relative_to, driver.link
+        return Row(joint.name, "driver", poses[b].angle - poses[a].angle, {a: (0, 0, -1.0), b: (0, 0, 1.0)})
+
+    def _of_joint(self, joint: Joint, kept: tuple[str, ...], poses: Mapping[str, _Pose]) -> Iterable[Row]:
+        if isinstance(joint, RevoluteJoint):
+            for other in kept[1:]:
+                yield from self._pin(joint.name, kept[0], other, joint.name, poses)
+        elif isinstance(joint, PrismaticJoint):
+            turn = guide_angle(self.mechanism, joint) - joint.block_angle
+            yield self._rotation(joint.name, joint.guide, joint.block, turn, poses)
+            yield self._along(joint, poses, across=True)
+        elif isinstance(joint, WeldJoint):
+            a, b = joint.links
+            yield self._rotation(joint.name, a, b, joint.angle, poses)
+            yield from self._pin(joint.name, a, b, joint.at, poses)
+
+    def _local(self, link: str, point: str) -> tuple[float, float]:
+        x, y = self.mechanism.link(link).points[point]
+        return x / self.size, y / self.size
+
+    def _pin(self, joint: str, a: str, b: str, point: str, poses: Mapping[str, _Pose]) -> Iterable[Row]:
+        (ax, ay), (bx, by) = (poses[link].arm(self._local(link, point)) for link in (a, b))
+        p, q = poses[a], poses[b]
+        yield Row(joint, "place", p.x + ax - q.x - bx, {a: (1.0, 0.0, -ay), b: (-1.0, 0.0, by)})
+        yield Row(joint, "place", p.y + ay - q.y - by, {a: (0.0, 1.0, ax), b: (0.0, -1.0, -bx)})
+
+    @staticmethod
+    def _rotation(joint: str, a: str, b: str, turn: float, poses: Mapping[str, _Pose]) -> Row:
+        difference = poses[b].angle - poses[a].angle - turn
+        c = np.cos(difference)
+        return Row(joint, "rotation", np.sin(difference), {a: (0.0, 0.0, -c), b: (0.0, 0.0, c)})
+
+    def _along(self, joint: PrismaticJoint, poses: Mapping[str, _Pose], *, across: bool) -> Row:
+        """The block's place along the guide, or its distance across it."""
+        guide, block = poses[joint.guide], poses[joint.block]
+        direction = guide_angle(self.mechanism, joint) + (0.5 * math.pi if across else 0.0)
+        nx, ny = guide.arm((math.cos(direction), math.sin(direction)))
+        tx, ty = guide.arm(self._local(joint.guide, joint.through))
+        bx, by = block.arm(self._local(joint.block, joint.at))
+        gx, gy = block.x + bx - guide.x - tx, block.y + by - guide.y - ty
+        value = nx * gx + ny * gy - (joint.offset / self.size if across else 0.0)
+        turned = nx * ty - ny * tx + nx * gy - ny * gx
+        parts = {joint.guide: (-nx, -ny, turned), joint.block: (nx, ny, ny * bx - nx * by)}
+        return Row(joint.name, "place", value, parts)
+
+
+class _Pose:
+    """Place and direction of a link."""
+
+    __slots__ = ("angle", "c", "s", "x", "y")
+
+    def __init__(self, x: Any, y: Any, angle: Any) -> None:
+        self.x, self.y, self.angle = x, y, angle
+        self.c, self.s = np.cos(angle), np.sin(angle)
+
+    def arm(self, local: tuple[float, float]) -> tuple[Any, Any]:
+        """A vector of the link's axes in frame axes."""
+        return self.c * local[0] - self.s * local[1], self.s * local[0] + self.c * local[1]
+
+
+def coordinates(motion: Motion, index: int) -> Floats:
+    """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
+    mechanism, found = motion.mechanism, []
+    size = _size(mechanism)
+    for name, link in mechanism.links.items():
+        c, s = motion.link(name).direction[index]
+        point, (px, py) = next(iter(link.points.items()))
+        x, y = motion.point_of(canonical(mechanism, name, point)).position[index]
+        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, math.atan2(s, c)]
+    return np.array(found)
+
+
+def _drawn(mechanism: Mechanism) -> Floats | None:
+    drawing = Drawing(mechanism)
+    if not drawing:
+        return None
+    size, found = _size(mechanism), []
+    for name, link in mechanism.links.items():
+        angle = drawing.angle(name)
+        places = ((p, drawing.points.get(f"{name}.{p}", drawing.points.get(p))) for p in link.points)
+        known = next(((link.points[p], place) for p, place in places if place is not None), None)
+        if angle is None or known is None:
+            return None
+        (px, py), (x, y) = known
+        c, s = math.cos(angle), math.sin(angle)
+        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, angle]
+    return np.array(found)
+
+
+def _size(mechanism: Mechanism) -> float:
+    links = [mechanism.frame, *mechanism.links.values()]
+    return max([abs(c) for link in links for point in link.points.values() for c in point] + [1e-12])
+
+
+# rank ---------------------------------------------------------------------------------------------
+def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[str, ...]]:
+    """Rank, and the equations that those before them imply (the last ones of each dependence)."""
+    rows = system.rows(x)
+    matrix = system.matrix(rows)
+    independent: list[Floats] = []
+    redundant = []
+    rank = _numeric_rank(matrix, zero)
+    if rank == len(rows):
+        return rank, ()
+    for row, vector in zip(rows, matrix, strict=True):
+        left = vector.copy()
+        for _ in range(2):
+            for unit in independent:
+                left = left - unit.dot(left) * unit
+        length = float(np.linalg.norm(left))
+        if length > math.sqrt(zero) * float(np.linalg.norm(vector)) and len(independent) < rank:
+            independent.append(left / length)
+        else:
+            redundant.append(f"{row.holds} at {row.joint}")
+    return rank, tuple(redundant)
+
+
+def _numeric_rank(matrix: Floats, zero: float) -> int:
+    if not matrix.size:
+        return 0
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return int((values > zero * values[0]).sum())
+
+
+def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...]:
+    """Links without which the mobility stays the same and Grübler's count comes up to it; last ones first."""
+    full = ConstraintSystem(mechanism)
+    mobility = full.freedoms - _rank(full, x, zero)[0]
+    keep = {name for driver in mechanism.drivers.values() for name in (driver.link, driver.relative_to)}
+    spare: list[str] = []
+    for name in reversed(mechanism.links):
+        if name in keep or _deficit(full, x, spare, zero) == 0:
+            continue
+        trial = [*spare, name]
+        if _mobility_without(full, x, trial, zero) == mobility and _deficit(
+            full, x, trial, zero
+        ) < _deficit(full, x, spare, zero):
+            spare = trial
+    return tuple(spare)
+
+
+def _reduced(full: ConstraintSystem, x: Floats, without: Sequence[str]) -> tuple[ConstraintSystem, Floats]:
+    system = ConstraintSystem(full.mechanism, without)
+    chosen = [k for i, name in enumerate(full.links) if name not in without for k in range(3 * i, 3 * i + 3)]
+    return system, x[chosen]
+
+
+def _mobility_without(full: ConstraintSystem, x: Floats, without: Sequence[str], zero: float) -> int:
+    system, part = _reduced(full, x, without)
+    return system.freedoms - _numeric_rank(system.jacobian(part), zero)
+
+
+def _deficit(full: ConstraintSystem, x: Floats, without: Sequence[str], zero: float) -> int:
+    """Number of redundant equations that are left."""
+    system, part = _reduced(full, x, without)
+    matrix = system.jacobian(part)
+    return len(matrix) - _numeric_rank(matrix, zero)
+
+
+# drawings -----------------------------------------------------------------------------------------
+def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
+    """The nearest coordinates that satisfy the joints (Gauss and Newton, shortest steps), and what still gapes."""
+    for _ in range(60):
+        gap = system.residual(x)
+        step = np.linalg.lstsq(system.jacobian(x), gap, rcond=1e-9)[0]
+        length = float(np.linalg.norm(step))
+        x = x - step * min(1.0, 0.5 / max(length, 1e-300))
+        if length < 1e-15:
+            break
+    return x, float(np.abs(system.residual(x)).max(initial=0.0))
+
+
+def _moves(system: ConstraintSystem, x: Floats, rank: int) -> bool:
+    """Whether a small finite motion along one of the free directions exists at the same rank."""
+    directions = np.linalg.svd(system.jacobian(x))[2][rank:]
+    for direction in directions:
+        there, gap = _closed(system, x + 0.03 * direction)
+        moved = float(np.linalg.norm(there - x))
+        if gap <= CLOSED and moved > 0.015 and _numeric_rank(system.jacobian(there), ZERO_DRAWN) <= rank:
+            return True
+    return False
+
+
+# sentences ----------------------------------------------------------------------------------------
+def _report(
+    mechanism: Mechanism,
+    system: ConstraintSystem,
+    rank: int,
+    redundant: tuple[str, ...],
+    links: tuple[str, ...],
+    special: bool,
+    where: str,
+    guides: tuple[str, ...],
+) -> RankReport:
+    count = grubler(counts(mechanism))
+    mobility = system.freedoms - rank
+    equations = system.freedoms - count
+    make = partial(RankReport, rank, system.freedoms, equations, count, redundant, links, special)
+    if mobility == count:
+        return make(f"Grübler's mobility {count} is confirmed by the rank of the Jacobian{where}")
+    said = f"Grübler gives {count}, but the rank of the Jacobian{where} gives {mobility}"
+    return make(f"{said}: {_reason(redundant, links, special, guides)}")
+
+
+def _reason(
+    redundant: tuple[str, ...], links: tuple[str, ...], special: bool, guides: tuple[str, ...]
+) -> str:
+    listed = ", ".join(redundant)
+    if special:
+        return (
+            f"this is a special position, where the joints' equations are dependent ({listed}); "
+            "the additional freedom is lost as soon as the mechanism leaves it"
+        )
+    if links:
+        many = len(links) > 1
+        names = ", ".join(repr(name) for name in links)
+        return (
+            f"the link{'s' if many else ''} {names} {'are' if many else 'is'} redundant in this special geometry; "
+            f"remove {'them' if many else 'it'}"
+        )
+    if guides:
+        return f"the guides {', '.join(guides)} close a loop that already prevents rotation ({listed})"
+    return f"passive constraints ({listed}) demand what other joints already demand, by the special lengths"
+
+
+def _gaping(
+    mechanism: Mechanism, system: ConstraintSystem, rank: int, redundant: tuple[str, ...], gap: float
+) -> RankReport:
+    from linkwright.units import format
+
+    count = grubler(counts(mechanism))
+    said = (
+        f"Grübler gives {count}; the links do not fit together near the drawing: at best a gap of "
+        f"{format(gap * system.size, 'length')} is left, so no link is redundant there"
+    )
+    return RankReport(
+        rank, system.freedoms, system.freedoms - count, count, redundant, (), False, said
+    )
+
+

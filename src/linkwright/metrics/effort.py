@@ -1,0 +1,85 @@
+"""Input torque (force) and power: peak, root mean square, mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue
+
+
+class EffortMetric(Metric):
+    """What drivers must supply."""
+
+    dimension = "torque"
+    source = "kinetostatics: effort of the driver from the joint forces"
+    better: ClassVar[Better | None] = "lower"
+    needs_forces = True
+
+    @staticmethod
+    def effort_dimension(analysis: Analysis, name: str) -> str:
+        """Torque of a turning driver, force of a sliding one."""
+        return "torque" if analysis.motion.positions.rotary[name] else "force"
+
+
+@METRICS.register("peak_input_torque")
+class PeakInputTorque(EffortMetric):
+    """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
+
+    name = "peak_input_torque"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        for name in analysis.motion.mechanism.drivers:
+            found = analysis.extreme(lambda f, name=name: np.abs(f.driver_effort(name)), "max", of="forces")
+            if found is not None:
+                kind = self.effort_dimension(analysis, name)
+                yield self.value(analysis, name, found.value, dimension=kind, at=found.input, exact=found.exact)
+
+
+@METRICS.register("rms_input_torque")
+class RmsInputTorque(EffortMetric):
+    """Root mean square over time of the effort of every driver: what heats a motor."""
+
+    name = "rms_input_torque"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        assert analysis.forces is not None
+        for name in analysis.motion.mechanism.drivers:
+            root = analysis.rms(analysis.forces.driver_effort(name))
+            yield self.value(analysis, name, root, dimension=self.effort_dimension(analysis, name))
+
+
+def power(forces: Forces) -> Floats:
+    """Power of all drivers together, (n,) W."""
+    return forces.power
+
+
+@METRICS.register("peak_power")
+class PeakPower(EffortMetric):
+    """Largest power that the drivers supply together at any moment."""
+
+    name = "peak_power"
+    dimension = "power"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        found = analysis.extreme(power, "max", of="forces")
+        if found is not None:
+            subject = analysis.motion.mechanism.name
+            yield self.value(analysis, subject, found.value, at=found.input, exact=found.exact)
+
+
+@METRICS.register("mean_power")
+class MeanPower(EffortMetric):
+    """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
+
+    name = "mean_power"
+    dimension = "power"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        assert analysis.forces is not None
+        yield self.value(analysis, analysis.motion.mechanism.name, analysis.mean(power(analysis.forces)))

@@ -1,0 +1,65 @@
+"""Joint reactions: peak and root mean square."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue
+from linkwright.model.mechanism import Mechanism
+
+
+def sides(mechanism: Mechanism) -> Iterator[tuple[str, str, str]]:
+    """Name to show, joint and link for every reaction; each link's share where a pin holds three or more."""
+    for name, joint in mechanism.joints.items():
+        several = len(joint.joined) > 2
+        for link in joint.joined if several else joint.joined[1:]:
+            yield (f"{name} on {link}" if several else name), name, link
+
+
+def size(joint: str, link: str) -> Callable[[Forces], Floats]:
+    """Size of a reaction, (n,) N."""
+
+    def signal(forces: Forces) -> Floats:
+        force = forces.reaction(joint, on=link)
+        return np.hypot(force[:, 0], force[:, 1])
+
+    return signal
+
+
+@METRICS.register("peak_reaction")
+class PeakReaction(Metric):
+    """Largest size of every joint's reaction, N."""
+
+    name = "peak_reaction"
+    dimension = "force"
+    source = "kinetostatics: reactions by Assur group"
+    better: ClassVar[Better | None] = "lower"
+    needs_forces = True
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        for subject, joint, link in sides(analysis.motion.mechanism):
+            found = analysis.extreme(size(joint, link), "max", of="forces")
+            if found is not None:
+                yield self.value(analysis, subject, found.value, at=found.input, exact=found.exact)
+
+
+@METRICS.register("rms_reaction")
+class RmsReaction(Metric):
+    """Root mean square over time of the size of every joint's reaction, N."""
+
+    name = "rms_reaction"
+    dimension = "force"
+    source = "kinetostatics: reactions by Assur group"
+    better: ClassVar[Better | None] = "lower"
+    needs_forces = True
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        assert analysis.forces is not None
+        for subject, joint, link in sides(analysis.motion.mechanism):
+            yield self.value(analysis, subject, analysis.rms(size(joint, link)(analysis.forces)))

@@ -1,0 +1,90 @@
+"""Transmission angle: smallest over the cycle, and over each stroke."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import radians
+from typing import Any, ClassVar
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.metrics.analysis import Analysis, Extreme
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
+from linkwright.metrics.closure import dyads, transmission_angle
+from linkwright.metrics.outputs import output_link
+from linkwright.metrics.quantities import shown
+from linkwright.model.signal_fields import Output
+from linkwright.structure.group import Group
+
+LIMIT = radians(40)
+SOURCE = "VDI 2123; Volmer, Getriebetechnik; TU Chemnitz, Getriebelexika: not below about 40°"
+
+
+def low(value: float) -> tuple[Remark, ...]:
+    """A warning where a transmission angle is below the recommended one."""
+    values: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(LIMIT, "angle")}
+    return (Remark("transmission_angle.low", values, warning=True),) if value < LIMIT else ()
+
+
+@METRICS.register("transmission_angle")
+class TransmissionAngle(Metric):
+    """Smallest transmission angle of every dyad, 0 to π/2; see :func:`~linkwright.metrics.closure.transmission_angle`."""
+
+    name = "transmission_angle"
+    dimension = "angle"
+    source = SOURCE
+    better: ClassVar[Better | None] = "higher"
+    limit = LIMIT
+
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and bool(dyads(analysis.motion))
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        for group in dyads(analysis.motion):
+            found = analysis.extreme(_signal(group), "min")
+            if found is not None:
+                yield self.value(analysis, group.name, found.value, **_where(found))
+
+
+@METRICS.register("transmission_angle_of_stroke")
+class TransmissionAngleOfStroke(Metric):
+    """Smallest transmission angle of a dyad on each stroke of its output between two limit positions."""
+
+    name = "transmission_angle_of_stroke"
+    dimension = "angle"
+    source = SOURCE
+    better: ClassVar[Better | None] = "higher"
+    limit = LIMIT
+
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        period = analysis.motion.positions.period or 0.0
+        for group, output in _driven_dyads(analysis):
+            limits = analysis.limits(output)
+            for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
+                end = last.time if last.time > first.time else last.time + period
+                found = analysis.extreme_between(_signal(group), "min", first.time, end)
+                if found is not None:
+                    subject = f"{group.name}: {output} {first.kind}→{last.kind}"
+                    yield self.value(analysis, subject, found.value, **_where(found))
+
+
+def _signal(group: Group) -> Callable[[Motion], Floats]:
+    return lambda motion: transmission_angle(motion, group)
+
+
+def _where(found: Extreme) -> dict[str, Any]:
+    return {"at": found.input, "exact": found.exact, "remarks": low(found.value)}
+
+
+def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
+    """Dyads with the output that they drive, where it has limit positions."""
+    motion = analysis.motion
+    return [
+        (group, output)
+        for group in dyads(motion)
+        for output in analysis.outputs
+        if output_link(motion.mechanism, output) in group.links and len(analysis.limits(output)) >= 2
+    ]

@@ -1,0 +1,108 @@
+"""Chosen outputs of a mechanism in one program, ready for many designs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.program import Program
+from linkwright.engine.trace import Mask, Scalar, select
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Positions
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.named import Named, Quantity
+from linkwright.study.vary import positions_steps
+
+Floats = NDArray[np.float64]
+
+#: The truth output that says which positions of a design are solved.
+VALID = "valid"
+#: An angle that covers more than this is one of a link that turns.
+TURNING = 1.9 * np.pi
+
+
+class Traced:
+    """Programs of one mechanism for outputs in the user's words.
+
+    ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form.
+    """
+
+    def __init__(
+        self, mechanism: Mechanism, free: Iterable[str], positions: Positions, *, iterations: int = 1
+    ) -> None:
+        self.mechanism = mechanism
+        self.positions = positions
+        self.solver = MotionSolver(mechanism, frozenset(free))
+        self.solver.iterations = iterations
+        self.forces = ForceSolver(self.solver)
+        self.named = Named(self.forces, self._middle)
+
+    @cached_property
+    def nominal(self) -> Motion:
+        """The motion of the mechanism as it is."""
+        return solve_motion(self.mechanism, steps=positions_steps(self.positions), failures="mark")
+
+    def quantities(self, names: Iterable[str]) -> dict[str, Quantity]:
+        """The outputs by their names."""
+        return {name: self.named.quantity(name) for name in dict.fromkeys(names)}
+
+    def program(self, quantities: Mapping[str, Quantity], valid: Mask | None = None) -> Program:
+        """What the quantities need, with the truth output ``valid``."""
+        motion = self.solver.motion
+        outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
+        outputs[VALID] = motion.valid if valid is None else valid
+        return Program.of(motion.trace, outputs)
+
+    def numbers(self, program: Program) -> Floats:
+        """The nominal values of the program's parameters."""
+        nominal = self.solver.nominal.parameters
+        return np.array([nominal[name] for name in program.parameters])
+
+    def table(self, program: Program, columns: Mapping[str, Floats]) -> Floats:
+        """The parameters of the designs with the given columns, (designs, parameters)."""
+        designs = len(next(iter(columns.values())))
+        table = np.repeat(self.numbers(program)[None, :], designs, axis=0)
+        for place, name in enumerate(program.parameters):
+            if name in columns:
+                table[:, place] = columns[name]
+        return table
+
+    def failure_flags(self) -> dict[str, Scalar]:
+        """Per group 1 where it is the first that fails, by ``out:GROUP`` (reach) and ``singular:GROUP``."""
+        motion = self.solver.motion
+        flags: dict[str, Scalar] = {}
+        before: Mask = True
+        logic = motion.trace.logic
+        for name, placed in motion.placed.items():
+            if placed.valid is True:
+                continue
+            bad = logic("and", before, ~placed.valid)
+            flags[f"out:{name}"] = select(logic("and", bad, _not(placed.reached)), 1.0, 0.0)
+            flags[f"singular:{name}"] = select(logic("and", bad, placed.reached), 1.0, 0.0)
+            before = logic("and", before, placed.valid)
+        return flags
+
+    def _middle(self, link: str) -> float:
+        """The middle of a link's swing in the mechanism as it is."""
+        angle = self.nominal.link(link).angle
+        angle = angle[np.isfinite(angle)]
+        if not len(angle):
+            return 0.0
+        low, high = float(angle.min()), float(angle.max())
+        if high - low > TURNING:
+            raise LinkwrightError(
+                f"{link!r} turns through, so its angle has no smallest and largest value; ask for "
+                f"{link}.angular_velocity instead"
+            )
+        return 0.5 * (low + high)
+
+
+def _not(mask: Mask) -> Mask:
+    return (not mask) if isinstance(mask, bool) else ~mask

@@ -1,0 +1,95 @@
+"""What varies: addresses of dimensions and the values of many designs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+
+Floats = NDArray[np.float64]
+
+
+def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[str, ...]:
+    """The addresses, each once; raises LinkwrightError for one that the mechanism does not have."""
+    known = mechanism.dimensions()
+    wanted = tuple(dict.fromkeys(addresses))
+    for address in wanted:
+        if address not in known:
+            offer = nearest(address, known)
+            hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(list(known)[:6])}"
+            raise LinkwrightError(f"there is no dimension or parameter {address!r} in {mechanism.name!r}; {hint}")
+    return wanted
+
+
+def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+    """Values (designs,) by address, SI; single numbers are repeated.
+
+    Raises:
+        LinkwrightError: an unknown address, columns of different lengths, a value that is not finite, a length
+            that is not positive, a negative mass.
+    """
+    checked_addresses(mechanism, vary)
+    if not vary:
+        raise LinkwrightError('nothing varies; give dimensions with their values: {"crank.length": values}')
+    columns = {address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()}
+    lengths = {len(column) for column in columns.values() if len(column) != 1}
+    for address, column in columns.items():
+        if column.ndim != 1:
+            raise LinkwrightError(f"the values of {address} have the shape {column.shape}; give one per design")
+        _check(mechanism, address, column)
+    if len(lengths) > 1:
+        told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
+        raise LinkwrightError(f"the dimensions have different numbers of values ({told}); give one per design each")
+    count = lengths.pop() if lengths else 1
+    return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
+
+
+def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
+    """Every value on its own must be one that the mechanism takes."""
+    if not len(column):
+        raise LinkwrightError(f"{address} has no values")
+    bad = np.flatnonzero(~np.isfinite(column))
+    if len(bad):
+        raise LinkwrightError(f"value {int(bad[0])} of {address} is {column[bad[0]]}; give finite numbers")
+    for extreme in (column.min(), column.max()):
+        mechanism.with_dimensions({address: float(extreme)})
+
+
+def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: Mapping[str, Floats]) -> None:
+    """Raises LinkwrightError for a dimension that moves the positions of the input themselves."""
+    for address, column in columns.items():
+        for value in (column.min(), column.max()):
+            changed = mechanism.with_dimensions({address: float(value)})
+            if not _same(mechanism, positions, over_cycle(changed, positions_steps(positions))):
+                raise LinkwrightError(
+                    f"{address} changes the drive's law or the cycle, so that the positions of the input differ from "
+                    "design to design; solve such designs one by one"
+                )
+
+
+def positions_steps(positions: Positions) -> int:
+    """The number of steps from which the positions of a cycle were made."""
+    return max(1, positions.count if positions.closed else positions.count - 1)
+
+
+def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:
+    """Whether both have the same coordinates, but for the sign of a turn and the rate of a constant speed."""
+    if a.count != b.count:
+        return False
+    for name, rows in a.coordinates.items():
+        q, other = rows[0], b.coordinates[name][0]
+        if not isinstance(mechanism.drivers[name].law, ConstantSpeed):
+            if not all(map(np.array_equal, rows, b.coordinates[name])):
+                return False
+            continue
+        mirrored = a.closed and a.rotary[name] and np.allclose(other - other[0], q[0] - q, rtol=0, atol=1e-9)
+        if not mirrored and not np.allclose(other, q, rtol=0, atol=1e-9):
+            return False
+    return True
