@@ -1,8 +1,12 @@
-"""The tests import each other's helpers as `tests....`, from wherever pytest is started."""
+"""The tests import each other's helpers as `tests....`, and keep compiled code out of the user's cache."""
 
+import os
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = str(Path(__file__).resolve().parents[1])
 if ROOT not in sys.path:
     sys.path.insert(0, ROOT)
+
+os.environ.setdefault("LINKWRIGHT_CACHE", str(Path(tempfile.gettempdir()) / "linkwright-tests-cache"))

@@ -374,6 +374,40 @@ def test_file_round_trip(kind: str, keys: dict[str, Any]) -> None:
     assert loads(dump(mechanism)).loads["load"] == load
 
 
+CYCLIC = [
+    {"ramp": [1.5, 4.0], "phase": {"input": [0.5, 2.0]}},
+    {"ramp": [1.5, 4.0], "phase": {"of": "bar", "from": "min", "to": "max"}},
+    {"magnitude": 3.0, "phase": {"moving": "guide", "direction": "decreasing"}},
+    {"magnitude": 3.0, "phase": {"moving": "bar.E.y", "direction": "increasing"}},
+    {"table": {"over": "input", "x": [0, 2, 6.3], "y": [1, 5, 2]}},
+    {"table": {"over": "time", "x": [0, 2], "y": [1, 5]}},
+    {"table": {"over": "B.x", "x": [1, 3, 4], "y": [1, 5, 7]}, "phase": {"input": [1, 6]}},
+]
+WITH_CYCLE = [name for name in LOADS if {"magnitude", "ramp", "table", "phase"} <= set(LOADS[name].fields())]
+
+
+@pytest.mark.parametrize("cyclic", CYCLIC, ids="-".join)
+@pytest.mark.parametrize("kind", WITH_CYCLE)
+def test_magnitudes_over_the_cycle(kind: str, cyclic: dict[str, Any]) -> None:
+    """A file gives the same load again; forces are finite, within the bounds of the magnitude, powers balance."""
+    keys = next(dict(e.values[1]) for e in EXAMPLES if e.values[0] == kind and "magnitude" in e.values[1])
+    keys |= {"against": "frame"} if "against" in keys else {}
+    unit = built(kind, {**keys, "magnitude": 1.0})[0]
+    mechanism, load = built(kind, {k: v for k, v in keys.items() if k != "magnitude"} | cyclic)
+    assert loads(dump(mechanism)).loads["load"] == load
+    forces = lw.solve_forces(lw.solve_motion(mechanism, steps=90))
+    done, one = forces.load("load"), lw.solve_forces(lw.solve_motion(unit, steps=90)).load("load")
+    whole = np.column_stack([done.force, done.moment])
+    scale = np.column_stack([one.force, one.moment])
+    size = (whole * scale).sum(axis=1) / (scale * scale).sum(axis=1)
+    np.testing.assert_allclose(whole, size[:, None] * scale, rtol=1e-9, atol=1e-9)
+    given = [*cyclic.get("ramp", ()), *cyclic.get("table", {"y": ()})["y"], cyclic.get("magnitude", 1.5)]
+    off = {0.0} if "phase" in cyclic else set()
+    assert all(min(given) - 1e-9 <= s <= max(given) + 1e-9 or s in off for s in size)
+    assert len(set(np.round(size, 9))) > 1
+    assert np.abs(forces.power_residual).max() < 1e-10 * np.abs(forces.power).max()
+
+
 @each_load
 def test_dimensions_can_be_changed(kind: str, keys: dict[str, Any]) -> None:
     mechanism, load = built(kind, keys)

@@ -260,3 +260,19 @@ def test_a_stroke_ends_at_the_first_of_two_equal_limits() -> None:
     assert acts[first : last + 1].all()
     assert abs(first - int(out.argmin())) <= 1 and out[last] == pytest.approx(out.max(), abs=1e-5)
     assert (np.diff(out[first : last + 1]) > 0).all()
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        'kind: torque, on: crank, magnitude: "5 N·m/(2 + sin(coupler))"',
+        "kind: torsion_spring, links: [frame, rocker], stiffness: 2 N·m/rad, free_angle: 180 deg",
+        "kind: torque, on: crank, magnitude: 2 N·m, phase: {moving: rocker, direction: increasing}",
+    ],
+)
+def test_positions_out_of_reach_do_not_disturb_the_others(load: str) -> None:
+    text = CRANK_ROCKER.replace("[O, A], length: 1 m", "[O, A], length: 3.2 m").replace("LOAD", f"{{{load}}}")
+    motion = lw.solve_motion(loads(text), steps=72, failures="mark")
+    assert 10 < motion.ok.sum() < 62
+    torques = lw.solve_forces(motion).input_torque
+    assert (np.isfinite(torques) == motion.ok).all()

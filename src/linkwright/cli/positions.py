@@ -15,24 +15,26 @@ from linkwright.words import Say
 #: More values than this are taken for a slip.
 MOST = 1_000_000
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+#: One number with a comma where its point should be; two values would each have a unit.
+_COMMA = re.compile(r"[+-]?\d*[1-9]\d*,\d+\s*[^\d\s,.][^,]*")
 
 
 def quantities(text: str, dimension: str, say: Say, option: str) -> list[float]:
     """SI values of a list of quantities and ranges, separated by commas; raises UsageError.
 
-    A range is ``FROM..TO:STEP``; bounds and step without a unit take that of ``TO``, a list's values that of
-    the last.
+    A range is ``FROM..TO:STEP``; its first bound and its step take the unit of ``TO`` where they have none.
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(parts):
         raise UsageError(say("solve.empty_value", option=option, text=text))
-    last = _unit(parts[-1].split("..")[-1].split(":")[0])
+    if _COMMA.fullmatch(text.strip()):
+        raise UsageError(f"{option}: {units.decimal_comma(text.strip())}")
     found: list[float] = []
     for part in parts:
         if ".." in part:
             found += _range(part, dimension, say, option)
         else:
-            found.append(_value(part, last, dimension, option))
+            found.append(_value(part, "", dimension, option))
     return found
 
 

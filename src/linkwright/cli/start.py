@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -23,6 +24,7 @@ _NO_FILE = frozenset({"no-file", "not-a-file"})
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command. Exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted."""
     arguments = list(sys.argv[1:] if argv is None else argv)
+    _widen_streams()
     session = Session(speaker("en"))
     try:
         language = _language(arguments)
@@ -146,6 +148,13 @@ def _unexpected(error: Exception, session: Session) -> int:
 
 def _headed(sentence: str, session: Session) -> str:
     return f"{session.alarm(session.say('cli.error'))}: {sentence}"
+
+
+def _widen_streams() -> None:
+    """Characters that the terminal's encoding lacks are shown as ? instead of ending the command."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 def _quiet_end() -> int:

@@ -25,8 +25,9 @@ Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 _NONE: Arrays = {}
-#: Values (designs times positions) of one call; a call cannot be interrupted.
-_CHUNK_VALUES = 1 << 16
+#: Most configurations (designs times positions) of one call; a call cannot be interrupted.
+_LONGEST_CALL = 1 << 20
+_CALLS_PER_THREAD = 4
 
 
 def compile_program(
@@ -202,5 +203,7 @@ class CompiledProgram:
             )
             self._function(address_of(block))
 
-        size = max(self.width, _CHUNK_VALUES // inputs.length // self.width * self.width)
+        longest = _LONGEST_CALL // inputs.length
+        share = longest if threads <= 1 else -(-len(table) // (threads * _CALLS_PER_THREAD))
+        size = max(1, min(longest, share) // self.width) * self.width
         spread_over(len(table), size, threads, work)

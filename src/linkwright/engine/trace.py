@@ -9,6 +9,7 @@ Equal operations on equal arguments are recorded once, and what is known at trac
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal, overload
 
@@ -277,7 +278,7 @@ def _same(a: object, b: object) -> bool:
     return isinstance(a, Value) and isinstance(b, Value) and a.index == b.index and a.trace is b.trace
 
 
-_UNARY = {
+_UNARY: dict[str, Callable[[float], float]] = {
     "sqrt": lambda x: math.sqrt(x) if x >= 0.0 else math.nan,
     "abs": abs,
     "sin": math.sin,

@@ -129,7 +129,8 @@ class MotionSignals:
     def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, (n,) rad, within half a turn of ``near`` where the cycle begins."""
         first = _between(self.cycle, a, b)
-        first = first + TURN * np.round((near - first[np.isfinite(first)][:1]) / TURN)
+        begin = next(iter(first[np.isfinite(first)]), near)
+        first = first + TURN * np.round((near - begin) / TURN)
         return first if self.cycle is self.motion else self._anchored(_between(self.motion, a, b), first)
 
     def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:

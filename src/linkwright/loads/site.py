@@ -56,10 +56,6 @@ class Site(Protocol):
         """Angular velocity of a link, rad/s."""
         ...
 
-    def angle_between(self, a: str, b: str) -> Scalar:
-        """Angle of link b's x axis against link a's, rad, continuous over the cycle."""
-        ...
-
     def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
         """Of a prismatic joint: the guide's unit vector, the block's point, the sliding velocity."""
         ...

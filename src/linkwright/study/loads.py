@@ -25,7 +25,8 @@ class DesignFields:
 
     def __init__(self, traced: Traced) -> None:
         self.traced = traced
-        self.shared = traced.positions.closed and traced.positions.count >= STEPS
+        closed = traced.positions.closed and traced.positions.count >= STEPS
+        self.shared = closed and not traced.solver.motion.next_states
 
     def of(self, names: tuple[str, ...], changes: Mapping[str, float]) -> dict[str, Floats]:
         """The inputs (n,) by name; raises LinkwrightError where a load or the motion fails for this design."""

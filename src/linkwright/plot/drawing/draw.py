@@ -89,7 +89,7 @@ def draw(
     sheet = Sheet(scene, index)
     sheet.ghosts(ghosts, ghost_style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
-    families = _families(motion, velocities, accelerations, forces, reactions_of)
+    families = vector_groups(motion, velocities, accelerations, forces, reactions_of)
     sheet.machine(pushes=forces is None or forces is False)
     sheet.vectors(families)
     sheet.dimensions(dimensions)
@@ -187,9 +187,10 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[int], s
     return list(dict.fromkeys(limit_positions(motion, output or None))), "lw-dashed"
 
 
-def _families(
+def vector_groups(
     motion: Motion, velocities: Names, accelerations: Names, forces: Forces | bool | None, of: Sequence[str] | None
 ) -> list[list[Vectors]]:
+    """All vectors that a drawing shows, in groups of one scale."""
     found: list[list[Vectors]] = []
     for kind, wanted in (("velocity", velocities), ("acceleration", accelerations)):
         names = all_points(motion.mechanism) if wanted is True else tuple(wanted or ())

@@ -12,6 +12,7 @@ from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.drawing import guide_angle
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.parts import Part
+from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
 from linkwright.plot.symbols.slider import HEIGHT, LENGTH
 
@@ -128,27 +129,35 @@ def ground_side(machine: Machine, joint: PrismaticJoint) -> int:
 
 
 def clear_shift(machine: Machine, name: str, joint: PrismaticJoint) -> float:
-    """How far along its guide a block is drawn from its point, so that it never covers a fixed pivot."""
+    """How far along its guide a block is drawn from its point, clear of fixed pivots and other blocks."""
     if joint.guide != "frame":
         return 0.0
     low, high = travel(machine, name)
     start, way = np.array(line_start(machine, joint)), np.array(direction(machine, joint))
     across = np.array([-way[1], way[0]])
 
-    def on_line(cloud: np.ndarray) -> np.ndarray:
+    def on_line(cloud: Floats) -> Floats:
         relative = cloud - start
-        near = relative[np.abs(relative @ across) < HEIGHT]
-        return near @ way
+        near: Floats = relative[np.abs(relative @ across) < HEIGHT] @ way
+        return near
 
-    own = {joint.at, *machine.motion.mechanism.link(joint.block).points}
-    fixed = [machine.local("frame", p) for p, j in machine.pins.items() if "frame" in j.links and p not in own]
-    inside = on_line(points(fixed))
-    if not ((inside > low - LENGTH / 2) & (inside < high + LENGTH / 2)).any():
-        return 0.0
-    moving = [machine.view.paper(machine.placed[j.links[0]].world(
-        machine.motion.mechanism.link(j.links[0]).points[p])) for p, j in machine.pins.items() if p not in own]  # fmt: skip
-    reach = on_line(np.concatenate(moving))
-    return float(np.nanmax(reach)) - low + 0.9 * LENGTH
+    mechanism = machine.motion.mechanism
+    own = {joint.at, *mechanism.link(joint.block).points}
+    pins = {p: j.links for p, j in machine.pins.items() if p not in own}
+    fixed = on_line(points([machine.local("frame", p) for p, links in pins.items() if "frame" in links]))
+    if not ((fixed > low - LENGTH / 2) & (fixed < high + LENGTH / 2)).any():
+        return 2.2 * LENGTH if _on_other_block(machine, joint) else 0.0
+    moving = [machine.view.paper(machine.placed[links[0]].world(mechanism.link(links[0]).points[p]))
+              for p, links in pins.items()]  # fmt: skip
+    return float(np.nanmax(on_line(np.concatenate(moving)))) - low + 0.9 * LENGTH
+
+
+def _on_other_block(machine: Machine, joint: PrismaticJoint) -> bool:
+    """Whether the block of another guide is drawn at the same place."""
+    pin = machine.pins.get(joint.at)
+    together = {joint.block} if pin is None or joint.block not in pin.links else set(pin.links)
+    others = (each for each in machine.guides.values() if each is not joint and each.guide != "frame")
+    return any(each.at == joint.at and each.block in together for each in others)
 
 
 def welds(machine: Machine) -> Iterator[Part]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -35,7 +35,12 @@ class Label:
     @property
     def extent(self) -> Vec:
         """Width and height of the text."""
-        return name_width(self.text, self.size), 0.95 * self.size
+        return name_width(self.text.rsplit(".", 1)[-1], self.size), 0.95 * self.size
+
+
+    def shortened(self) -> Label:
+        """The label with ``B`` instead of ``rocker.B``."""
+        return replace(self, text=self.text.rsplit(".", 1)[-1])
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from linkwright.loads.base import Load
 from linkwright.plot.drawing.machine import Machine
+from linkwright.plot.drawing.moving import moving_lines
+from linkwright.plot.drawing.scene import Scene
+from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
 
 PUSH = 52.0
@@ -27,21 +31,30 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
         at = _common_pin(machine, load.links, index)
         return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
     if forces and load.kind == "torque":
-        at = _middle(machine, getattr(load, "on"), index)
+        at = _middle(machine, load.on, index)
         return SYMBOLS["moment"](at=at, turning=_sign(load), style="lw-load")
     way = push_direction(machine, load, index) if forces and load.kind == "force" else None
     if way is None:
         return EMPTY
-    x, y = machine.paper(getattr(load, "on"), getattr(load, "at"), index)
-    on_block = any(j.block == getattr(load, "on") and j.at == getattr(load, "at") for j in machine.guides.values())
+    x, y = machine.paper(load.on, load.at, index)
+    on_block = any(j.block == load.on and j.at == load.at for j in machine.guides.values())
     gap = BLOCK_GAP if on_block else GAP
     tip = (x - gap * way[0], y - gap * way[1])
     return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
 
 
+def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Element]:
+    """Springs and dampers that follow their ends over the frames."""
+    found: list[Element] = []
+    for load in scene.machine.motion.mechanism.loads.values():
+        shapes = [mark(scene.machine, load, index, forces=False).ink for index in run]
+        found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
+    return found
+
+
 def push_direction(machine: Machine, load: Load, index: int) -> Vec | None:
     """Direction on the paper in which a force of positive magnitude pushes, turned round for a negative one."""
-    link = getattr(load, "on")
+    link = load.on
     c, s = machine.placed[link].direction[index]
     fixed, in_link, ray = (getattr(load, name, None) for name in ("direction", "in_link", "normal_to"))
     if fixed is not None:

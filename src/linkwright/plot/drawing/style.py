@@ -33,6 +33,7 @@ CSS = "".join((
     f".lw-dimension{{fill:none;stroke:{GROUND};stroke-width:1}}.lw-dimension-head{{fill:{GROUND}}}",
     ".lw-trace{fill:none;stroke:#1565c0;stroke-width:1.3;stroke-opacity:.8;stroke-linejoin:round}",
     ".lw-trace-1{stroke:#2e7d32}.lw-trace-2{stroke:#d9730d}.lw-trace-3{stroke:#7b1fa2}",
+    ".lw-dot{fill:#1565c0}",
     ".lw-leader{fill:none;stroke:#9aa4ae;stroke-width:.8}",
     _arrow("input", ORANGE),
     _arrow("force", RED),

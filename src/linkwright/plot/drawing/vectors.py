@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.names import canonical, find_point
 from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.view import View
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Shape, joined
@@ -121,7 +121,7 @@ def _joint_place(motion: Motion, joint: str, on: str) -> Floats:
     if isinstance(found, RevoluteJoint):
         return _position(motion, f"{on}.{joint}")
     block = found.joined[1]
-    return _position(motion, f"{block}.{getattr(found, 'at')}")
+    return _position(motion, f"{block}.{found.at}")
 
 
 def _position(motion: Motion, name: str) -> Floats:

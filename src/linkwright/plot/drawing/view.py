@@ -53,14 +53,14 @@ def placements(motion: Motion) -> dict[str, Placement]:
 
 @dataclass(frozen=True)
 class View:
-    """Units of the paper per metre, and the place in the frame that lies at the paper's origin."""
+    """Units of the paper per metre; the frame's origin is the paper's."""
 
     scale: float
-    origin: Vec
 
     def paper(self, world: Floats) -> Floats:
         """Points (..., 2) in frame axes as points of the paper."""
-        return (np.asarray(world) - self.origin) * (self.scale, -self.scale)
+        scaled: Floats = np.asarray(world) * (self.scale, -self.scale)
+        return scaled
 
     def local(self, point: Vec) -> Vec:
         """A point in link axes as a point of the link's piece of paper."""
@@ -94,7 +94,7 @@ def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
     scale = DIAGONAL / diagonal
     shortest = min((length for link in mechanism.links.values() for length in _bars(link.points)), default=diagonal)
     scale *= float(np.clip(SHORTEST_BAR / (shortest * scale), 1.0, 1.6))
-    return View(scale, (float(low[0]), float(high[1])))
+    return View(scale)
 
 
 def _bars(points: Mapping[str, Vec]) -> list[float]:

@@ -1,0 +1,105 @@
+"""Grashof type of four-bar loops with the frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from math import hypot
+
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.metrics.quantities import shown
+from linkwright.model.mechanism import Mechanism
+
+#: A Grashof sum this near to zero, relative to the longest link, is a change point.
+EQUAL = 1e-12
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """A loop of four pinned links: ``first`` and ``second`` turn about the frame, ``coupler`` between; lengths m."""
+
+    first: str
+    coupler: str
+    second: str
+    lengths: dict[str, float]
+
+    @property
+    def name(self) -> str:
+        """Its links, the frame left out."""
+        return f"{self.first}–{self.coupler}–{self.second}"
+
+    @property
+    def margin(self) -> float:
+        """p + q - (s + l), m: positive where the shortest link can turn fully against the others."""
+        s, p, q, longest = sorted(self.lengths.values())
+        return p + q - s - longest
+
+    @property
+    def shortest(self) -> str:
+        """The shortest link; of equal ones a side link before the frame."""
+        return min(self.lengths, key=lambda link: (self.lengths[link], link == "frame", link == self.coupler))
+
+    @property
+    def type(self) -> str:
+        """``crank_rocker``, ``double_crank``, ``double_rocker``, ``change_point`` or ``triple_rocker``."""
+        if abs(self.margin) <= EQUAL * max(self.lengths.values()):
+            return "change_point"
+        if self.margin < 0:
+            return "triple_rocker"
+        return {"frame": "double_crank", self.coupler: "double_rocker"}.get(self.shortest, "crank_rocker")
+
+
+def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
+    """All four-bar loops that contain the frame and have pins only."""
+    pins = {name: joint for name, joint in mechanism.joints.items() if isinstance(joint, RevoluteJoint)}
+    grounded = [(link, name) for name, joint in pins.items() if "frame" in joint.links for link in joint.links]
+    sides = [(link, pin) for link, pin in grounded if link != "frame"]
+    found = []
+    for (first, a0), (second, b0) in combinations(sides, 2):
+        if first == second or a0 == b0:
+            continue
+        for a, b, coupler in _couplers(mechanism, pins, (first, a0), (second, b0)):
+            ends = {"frame": (a0, b0), first: (a0, a), coupler: (a, b), second: (b0, b)}
+            lengths = {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
+            if min(lengths.values()) > 0:
+                found.append(FourBar(first, coupler, second, lengths))
+    return tuple(found)
+
+
+def _couplers(
+    mechanism: Mechanism, pins: dict[str, RevoluteJoint], first: tuple[str, str], second: tuple[str, str]
+) -> Iterator[tuple[str, str, str]]:
+    """Pins on both sides and the link between them."""
+    on_first = [name for name, joint in pins.items() if first[0] in joint.links and name != first[1]]
+    on_second = [name for name, joint in pins.items() if second[0] in joint.links and name != second[1]]
+    for a in on_first:
+        for b in on_second:
+            shared = set(pins[a].links) & set(pins[b].links) - {"frame", first[0], second[0]}
+            yield from ((a, b, link) for link in sorted(shared) if a != b)
+
+
+def _length(mechanism: Mechanism, link: str, a: str, b: str) -> float:
+    (xa, ya), (xb, yb) = (mechanism.link(link).points[name] for name in (a, b))
+    return hypot(xb - xa, yb - ya)
+
+
+@METRICS.register("grashof")
+class Grashof(Metric):
+    """p + q - (s + l) of every four-bar loop with the frame, with its type and the conditions that it rests on."""
+
+    name = "grashof"
+    dimension = "length"
+    source = "Grashof 1883; Norton, Design of Machinery, sec. 2.12: s + l ≤ p + q"
+
+    def suits(self, analysis: Analysis) -> bool:
+        return bool(four_bars(analysis.motion.mechanism))
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        for loop in four_bars(analysis.motion.mechanism):
+            s, p, q, longest = (shown(v, "length") for v in sorted(loop.lengths.values()))
+            numbers: dict[str, object] = {"s": s, "l": longest, "p": p, "q": q, "shortest": loop.shortest}
+            remark = Remark(f"grashof.{loop.type}", numbers, warning=loop.type == "change_point")
+            yield self.value(analysis, loop.name, loop.margin, remarks=(remark,))

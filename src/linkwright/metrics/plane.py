@@ -1,0 +1,48 @@
+"""Plane geometry of curves and point sets."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """a × b of vectors (n, 2), (n,)."""
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+
+
+def convex_hull(points: Floats) -> Floats:
+    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain)."""
+    ordered = np.unique(points, axis=0)
+    if len(ordered) < 3:
+        return ordered
+    return np.array(_half(ordered)[:-1] + _half(ordered[::-1])[:-1])
+
+
+def _half(ordered: Floats) -> list[Floats]:
+    chain: list[Floats] = []
+    for point in ordered:
+        while len(chain) > 1 and cross(chain[-1] - chain[-2], point - chain[-1]) <= 0:
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def area(corners: Floats) -> float:
+    """Area of a polygon (m, 2), m², counter-clockwise positive."""
+    return 0.5 * float(cross(corners, np.roll(corners, -1, axis=0)).sum())
+
+
+def crossings(path: Floats) -> list[tuple[float, float]]:
+    """Where a closed polygon (n, 2) crosses itself: pairs of places i + share along it."""
+    n = len(path)
+    d = np.roll(path, -1, axis=0) - path
+    i, j = np.triu_indices(n, 2)
+    keep = ~((i == 0) & (j == n - 1))
+    i, j = i[keep], j[keep]
+    gap, turn = path[j] - path[i], cross(d[i], d[j])
+    with np.errstate(all="ignore"):
+        s, t = cross(gap, d[j]) / turn, cross(gap, d[i]) / turn
+    hit = (s >= 0) & (s < 1) & (t >= 0) & (t < 1)
+    return [(float(a + x), float(b + y)) for a, b, x, y in zip(i[hit], j[hit], s[hit], t[hit], strict=True)]

@@ -1,0 +1,118 @@
+"""Range of the input in which the mechanism can be assembled, and its dead points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.metrics.closure import dyads, transmission_angle
+from linkwright.metrics.outputs import output_link
+from linkwright.metrics.quantities import shown
+
+HALVINGS = 50
+#: Transmission angle, rad, below which a position counts as a dead point.
+DEAD = 1e-6
+
+
+def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
+    """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
+    motion = analysis.motion
+    change = np.diff(motion.ok.astype(int))
+    where = np.flatnonzero(change)
+    inside = np.where(change[where] < 0, motion.time[where], motion.time[where + 1])
+    outside = np.where(change[where] < 0, motion.time[where + 1], motion.time[where])
+    if analysis.resolver.possible and len(where):
+        for _ in range(HALVINGS):
+            middle = 0.5 * (inside + outside)
+            good = analysis.resolver.motion(middle).ok
+            inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+    return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
+
+
+def intervals(analysis: Analysis) -> tuple[tuple[float, float], ...]:
+    """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
+    motion, found = analysis.motion, edges(analysis)
+    start, end = _ends(analysis)
+    if not found:
+        return ((start, end),) if motion.ok.all() else ()
+    times = [t for t, _ in found]
+    if found[0][1] < 0:
+        times.insert(0, start)
+    if len(times) % 2:
+        times.append(end)
+    pieces = list(zip(times[::2], times[1::2], strict=True))
+    if analysis.closed and len(pieces) > 1 and pieces[0][0] == start and pieces[-1][1] == end:
+        first = pieces.pop(0)
+        pieces[-1] = (pieces[-1][0], first[1] + end - start)
+    return tuple(pieces)
+
+
+def _ends(analysis: Analysis) -> tuple[float, float]:
+    positions = analysis.motion.positions
+    start, end = float(positions.time[0]), float(positions.time[-1])
+    if analysis.closed:
+        end = start + (positions.period or 0.0)
+    return start, end
+
+
+@METRICS.register("range_of_motion")
+class RangeOfMotion(Metric):
+    """Extent of every stretch of the input, within the cycle, in which the mechanism can be assembled."""
+
+    name = "range_of_motion"
+    dimension = "angle"
+    source = "assembly of the Assur groups; ends by halving"
+
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and analysis.motion.steps > 1 and analysis.resolver.possible
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        subject, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
+        for start, end in intervals(analysis):
+            first, last = analysis.resolver.input_at(start), analysis.resolver.input_at(end)
+            ends: dict[str, object] = {"start": shown(first, kind), "end": shown(last, kind)}
+            remarks = (Remark("range_of_motion.from_to", ends),)
+            yield self.value(analysis, subject, abs(last - first), dimension=kind, at=first, remarks=remarks)
+
+
+@METRICS.register("dead_point")
+class DeadPoint(Metric):
+    """Inputs at which a driver cannot move the mechanism: ends of the range, transmission angles of zero.
+
+    And, for each output with limit positions, the inputs at which that output could not drive the machine.
+    """
+
+    name = "dead_point"
+    dimension = "angle"
+    source = "IFToMM terminology: transmission angle zero"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
+        for q in self._of_driver(analysis):
+            remarks = (Remark("dead_point.driver", {"at": shown(q, kind)}, warning=True),)
+            yield self.value(analysis, driver, q, dimension=kind, at=q, remarks=remarks)
+        for output in analysis.outputs:
+            for limit in analysis.limits(output):
+                names: dict[str, object] = {"at": shown(limit.input, kind), "output": str(output)}
+                link = output_link(analysis.motion.mechanism, output)
+                remarks = (Remark("dead_point.output", names),)
+                yield self.value(analysis, link, limit.input, dimension=kind, at=limit.input, remarks=remarks)
+
+    def _of_driver(self, analysis: Analysis) -> list[float]:
+        if not analysis.resolver.possible:
+            return []
+        found = [analysis.resolver.input_at(time) for time, _ in edges(analysis)]
+        for group in dyads(analysis.motion):
+            low = analysis.extreme(lambda motion, group=group: transmission_angle(motion, group), "min")
+            if low is not None and low.value < DEAD:
+                found.append(low.input)
+        return _distinct(np.array(sorted(found)))
+
+
+def _distinct(values: Floats) -> list[float]:
+    """Sorted values, those within 1e-6 of the one before left out."""
+    return [float(v) for i, v in enumerate(values) if i == 0 or v - values[i - 1] > 1e-6]

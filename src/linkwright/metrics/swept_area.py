@@ -1,0 +1,38 @@
+"""Room that the mechanism needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
+from linkwright.metrics.plane import area, convex_hull
+from linkwright.metrics.quantities import shown
+
+
+@METRICS.register("swept_area")
+class SweptArea(Metric):
+    """Area of the convex hull of all points of the links over all positions, m²: an upper bound of the swept area."""
+
+    name = "swept_area"
+    dimension = "area"
+    source = "convex hull by Andrew's monotone chain"
+    better: ClassVar[Better | None] = "lower"
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        motion = analysis.motion
+        if not motion.ok.any():
+            return
+        moving = {name: [f"{name}.{point}" for point in link.points] for name, link in motion.mechanism.links.items()}
+        tracks = {name: np.vstack([motion.point(p).position[motion.ok] for p in points]) for name, points in moving.items()}
+        frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
+        everything = np.vstack([*tracks.values(), frame])
+        width, height = (shown(float(side), "length") for side in np.ptp(everything, axis=0))
+        remark = Remark("swept_area.box", {"width": width, "height": height})
+        whole = area(convex_hull(everything))
+        yield self.value(analysis, motion.mechanism.name, whole, remarks=(remark,), exact=False)
+        for name, points in tracks.items():
+            yield self.value(analysis, name, area(convex_hull(points)), exact=False)

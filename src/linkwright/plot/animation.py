@@ -1,0 +1,260 @@
+"""Moving drawings: SVG that moves by itself, GIF and MP4."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.drawing.draw import STEPS, Names, vector_groups
+from linkwright.plot.drawing.frames import frame_indices, usual_seconds
+from linkwright.plot.drawing.labels import Label, Obstacles, place, written
+from linkwright.plot.drawing.legend import legend
+from linkwright.plot.drawing.loads import load_marks, moving_springs
+from linkwright.plot.drawing.moving import moving_links, moving_vectors, shifting
+from linkwright.plot.drawing.names import point_labels
+from linkwright.plot.drawing.panel import Panel, panel
+from linkwright.plot.drawing.picture import Box, bounds, document
+from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.plot.drawing.vectors import Vectors, scale_of
+from linkwright.plot.drawing.video import gif, mp4
+from linkwright.plot.svg.element import Element, Floats, circle, group, number
+from linkwright.plot.svg.files import write_whole
+from linkwright.plot.svg.render import png
+from linkwright.words import LANGUAGES, say
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.forces import Forces
+
+Progress = Callable[[int, int], None]
+FILM_RATE = 25
+
+
+def animate(
+    source: Motion | Mechanism,
+    *,
+    traces: Sequence[str] = (),
+    velocities: Names = (),
+    accelerations: Names = (),
+    forces: Forces | bool | None = None,
+    reactions_of: Sequence[str] | None = None,
+    curves: Sequence[str] = (),
+    seconds: float | None = None,
+    frames: int = 60,
+    centres: bool = False,
+    labels: bool = True,
+    size: float | None = None,
+    language: str = "en",
+) -> Animation:
+    """A moving drawing of a cycle; an open cycle runs to and fro.
+
+    Args:
+        source: a motion, or a mechanism whose cycle is solved first.
+        traces: points whose paths are shown, with a dot that runs along.
+        velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
+        curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, a column of
+            ``motion.columns()`` or of the forces').
+        seconds: time of one cycle on the screen; default that of the motion, within 2 to 6 s.
+        frames: number of positions shown in one cycle.
+        labels: names of the points, moving with them.
+
+    Returns:
+        The animation, with ``.svg`` and ``.save``.
+
+    Raises:
+        LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
+    """
+    if language not in LANGUAGES:
+        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+    if not 2 <= frames <= 2000:
+        raise LinkwrightError(f"an animation of {frames} frames cannot be made; give 2 to 2000")
+    if seconds is not None and not 0.05 <= seconds <= 3600:
+        raise LinkwrightError(f"a cycle of {seconds} s cannot be shown; give 0.05 to 3600 s")
+    motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
+    run = frame_indices(motion, frames)
+    scene = laid_out(motion, run[0], centres=centres)
+    groups = vector_groups(motion, velocities, accelerations, forces, reactions_of)
+    families = [(family, scale_of(each, run)) for each in groups for family in each if family.largest(run) > 0]
+    return Animation(
+        scene=scene,
+        run=tuple(run),
+        seconds=seconds or usual_seconds(motion),
+        traces=tuple(traces),
+        families=tuple(families),
+        curves=tuple(curves),
+        forces=forces if not isinstance(forces, bool) else None,
+        labelled=labels,
+        size=size,
+        language=language,
+    )
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A moving drawing; ``svg`` moves by itself, ``save`` writes .svg, .gif or .mp4."""
+
+    scene: Scene
+    run: tuple[int, ...]
+    seconds: float
+    traces: tuple[str, ...]
+    families: tuple[tuple[Vectors, float], ...]
+    curves: tuple[str, ...]
+    forces: Forces | None
+    labelled: bool
+    size: float | None
+    language: str
+
+    @cached_property
+    def svg(self) -> str:
+        """SVG text that moves by itself in browsers, notebooks and readme files."""
+        scene, run, seconds = self.scene, self.run, self.seconds
+        content = scene.traces(self.traces)
+        content += moving_springs(scene, run, seconds)
+        content += moving_links(scene, run, seconds)
+        for name in self.traces:
+            content.append(group([shifting(self._track(name), seconds), circle((0, 0), 3.2, "lw-dot")]))
+        for family, scale in self.families:
+            content += moving_vectors(scene, family, scale, run, seconds)
+        for label, elements in self._labels:
+            shifts = self._track(label.text) - self._track(label.text)[0]
+            content.append(group([*([shifting(shifts, seconds)] if np.ptp(shifts) > 0 else []), *elements]))
+        content += self._still
+        if self._panel is not None:
+            x = [(self._panel.cursor_x(self._share(index)), 0.0) for index in run]
+            content.append(group([shifting(np.array(x), seconds), self._panel.cursor()]))
+        return document(content, self._box, self._title, self.size)
+
+    def frame(self, index: int) -> str:
+        """SVG text of the still picture at one position of the motion."""
+        scene = self.scene
+        content = scene.traces(self.traces)
+        content += load_marks(scene.machine, index, forces=False).elements
+        content += scene.at(index)
+        for name in self.traces:
+            x, y = scene.trace(name)[index]
+            content.append(circle((float(x), float(y)), 3.2, "lw-dot"))
+        for family, scale in self.families:
+            content += family.shape(index, scene.machine.view, scale).elements
+        for label, elements in self._labels:
+            x, y = self._place(label.text, index) - self._place(label.text, self.run[0])
+            content.append(group(elements, transform=f"translate({number(float(x))} {number(float(y))})"))
+        content += self._still
+        if self._panel is not None:
+            content.append(self._panel.cursor(self._panel.cursor_x(self._share(index))))
+        return document(content, self._box, self._title, self.size)
+
+    def save(
+        self,
+        path: str | Path,
+        *,
+        width: int = 640,
+        fonts: Sequence[str | Path] = (),
+        progress: Progress | None = None,
+    ) -> Path:
+        """Write it as .svg, .gif or .mp4, whole or not at all.
+
+        ``width``: pixels across of GIF and MP4; ``progress`` is called with the frames done and their number.
+        GIF needs ``linkwright[plot]``, MP4 ``linkwright[video]``. Raises LinkwrightError for another suffix, a
+        missing package or font, a folder that cannot be written.
+        """
+        suffix = Path(path).suffix.lower()
+        if suffix == ".svg":
+            return write_whole(path, self.svg.encode())
+        if suffix == ".gif":
+            run = list(self.run[:-1])
+            return write_whole(path, gif(self._pictures(run, width, fonts, progress), self.seconds / len(run)))
+        if suffix == ".mp4":
+            run = [self.run[k] for k in self._film()]
+            return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
+        raise LinkwrightError(f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4')
+
+    def _pictures(
+        self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None
+    ) -> Iterator[bytes]:
+        for done, index in enumerate(run, start=1):
+            yield png(self.frame(index), width=width, fonts=fonts)
+            if progress is not None:
+                progress(done, len(run))
+
+    def _film(self) -> list[int]:
+        count = max(2, round(self.seconds * FILM_RATE))
+        return [int(k * (len(self.run) - 1) / count) for k in range(count)]
+
+    def _place(self, point: str, index: int) -> Floats:
+        motion = self.scene.machine.motion
+        at: Floats = self.scene.machine.view.paper(motion.point(point).position[index])
+        return at
+
+    def _track(self, point: str) -> Floats:
+        motion = self.scene.machine.motion
+        return self.scene.machine.view.paper(motion.point(point).position[list(self.run)])
+
+    def _share(self, index: int) -> float:
+        return index / max(self.scene.machine.motion.steps - 1, 1)
+
+    @cached_property
+    def _title(self) -> str:
+        return say("drawing.animation", self.language, name=self.scene.machine.motion.mechanism.name)
+
+    @cached_property
+    def _ink(self) -> list[Floats]:
+        """Everything over the whole motion."""
+        ink = [line for index in self.run for line in self.scene.ink(index)]
+        ink += [line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink]
+        for family, scale in self.families:
+            ink += [
+                line for index in self.run for line in family.shape(index, self.scene.machine.view, scale).ink
+            ]
+        return ink
+
+    @cached_property
+    def _labels(self) -> list[tuple[Label, list[Element]]]:
+        if not self.labelled:
+            return []
+        machine = self.scene.machine
+        labels = list(point_labels(machine, self.run[0], qualified=True))
+        places = place(labels, Obstacles.of(self.scene.ink(self.run[0])))
+        return [(label, written(label.shortened(), each)) for label, each in zip(labels, places, strict=True)]
+
+    @cached_property
+    def _drawn_box(self) -> Box:
+        left, top, right, bottom = bounds(self._ink)
+        room = 18.0 if self.labelled else 0.0
+        return left - room, top - room, right + room, bottom + room
+
+    @cached_property
+    def _panel(self) -> Panel | None:
+        columns = dict(self.scene.machine.motion.columns())
+        if self.forces is not None:
+            columns |= self.forces.columns()
+        return panel(columns, self.curves, self._drawn_box) if self.curves else None
+
+    @cached_property
+    def _legend(self) -> tuple[list[Element], list[Floats]]:
+        box = self._drawn_box
+        if self._panel is not None:
+            box = bounds([np.reshape(box, (2, 2)), self._panel.extent])
+        return legend(self.families, box, self.language)
+
+    @cached_property
+    def _still(self) -> list[Element]:
+        return [*(self._panel.elements if self._panel is not None else ()), *self._legend[0]]
+
+    @cached_property
+    def _box(self) -> Box:
+        extent = [] if self._panel is None else [self._panel.extent]
+        return bounds([np.reshape(self._drawn_box, (2, 2)), *extent, *self._legend[1]])
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def __repr__(self) -> str:
+        return f"Animation({len(self.run) - 1} frames, {self.seconds:g} s)"

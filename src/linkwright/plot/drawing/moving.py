@@ -1,0 +1,75 @@
+"""Animated elements: the values of an attribute over the frames, in the language of SMIL."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from linkwright.plot.drawing.scene import Scene
+from linkwright.plot.drawing.vectors import Vectors
+from linkwright.plot.svg.element import Element, Floats, coordinates, element, group, number
+from linkwright.plot.symbols.arrow import arrow_points
+
+
+def animate_element(attribute: str, values: Sequence[str], seconds: float) -> Element:
+    """An ``animate`` element that runs for ever."""
+    return element("animate", {"attributeName": attribute, **_timing(values, seconds)})
+
+
+def shifting(shifts: Floats, seconds: float) -> Element:
+    """An animated shift (n, 2)."""
+    values = [f"{number(x)} {number(y)}" for x, y in shifts.tolist()]
+    return element("animateTransform", {"attributeName": "transform", "type": "translate", **_timing(values, seconds)})
+
+
+def turning(degrees: Floats, seconds: float) -> Element:
+    """An animated turn (n,), clockwise on the paper, after the shift."""
+    values = [number(each) for each in degrees.tolist()]
+    kind = {"attributeName": "transform", "type": "rotate", "additive": "sum"}
+    return element("animateTransform", {**kind, **_timing(values, seconds)})
+
+
+def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[Element]:
+    """The machine with every link moving over the frames."""
+    found: list[Element] = []
+    for layer, link, parts in scene.layered():
+        shapes = [each for part in parts for each in part.shape.elements]
+        if link == "frame":
+            found.append(group(shapes, f"lw-{layer}"))
+            continue
+        placed = scene.machine.placed[link]
+        origin = scene.machine.view.paper(placed.origin[list(frames)])
+        turn = -np.degrees(np.unwrap(np.arctan2(placed.direction[list(frames), 1], placed.direction[list(frames), 0])))
+        motion = [shifting(origin, seconds)]
+        if np.ptp(turn) > 0.005:
+            motion.append(turning(turn, seconds))
+        elif abs(turn[0]) > 0.005:
+            shapes = [group(shapes, transform=f"rotate({number(float(turn[0]))})")]
+        found.append(group([*motion, *shapes], f"lw-{layer}"))
+    return found
+
+
+def moving_vectors(scene: Scene, family: Vectors, scale: float, frames: Sequence[int], seconds: float) -> list[Element]:
+    """Arrows that follow their points and change with the motion."""
+    found: list[Element] = []
+    for name in family.values:
+        ends = [family.ends(name, index, scene.machine.view, scale) for index in frames]
+        shown = [(0.0 * scene.machine.view.paper(np.zeros(2)),) * 2 if each is None else each for each in ends]
+        pairs = [arrow_points((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))) for a, b in shown]
+        for kind, points in (("line", [p[0] for p in pairs]), ("head", [p[1] for p in pairs])):
+            texts = [coordinates(each) for each in points]
+            shape = element("polyline", {"class": f"{family.style}-{kind}", "points": texts[0]})
+            found.append(shape.holding(animate_element("points", texts, seconds)))
+    return found
+
+
+def moving_lines(style: str, lines: Sequence[Floats], seconds: float) -> Element:
+    """A polyline that changes its shape, such as a spring."""
+    texts = [coordinates(line) for line in lines]
+    shape = element("polyline", {"class": style, "points": texts[0]})
+    return shape.holding(animate_element("points", texts, seconds))
+
+
+def _timing(values: Sequence[str], seconds: float) -> dict[str, str]:
+    return {"values": ";".join(values), "dur": f"{seconds:.4g}s", "repeatCount": "indefinite"}

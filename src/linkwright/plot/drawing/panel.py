@@ -1,0 +1,79 @@
+"""Small curves under a moving drawing, with a cursor that runs with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.plot.drawing.picture import Box
+from linkwright.plot.svg.element import Element, Floats, element, path
+from linkwright.plot.svg.text import text_element, width
+from linkwright.plot.symbols.base import points
+from linkwright.registry import nearest
+
+HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves in rows under a box: still elements, extent, and the cursor's places."""
+
+    elements: tuple[Element, ...]
+    extent: Floats
+    left: float
+    width: float
+    top: float
+    bottom: float
+
+    def cursor_x(self, share: float) -> float:
+        """Where the cursor stands after a share of the motion."""
+        return self.left + share * self.width
+
+    def cursor(self, x: float = 0.0) -> Element:
+        """The cursor at x."""
+        return element("line", {"class": "lw-input-line", "x1": x, "x2": x, "y1": self.top, "y2": self.bottom})
+
+
+def panel(columns: Mapping[str, Floats], wanted: Sequence[str], box: Box) -> Panel | None:
+    """Rows of curves under the box; ``wanted``: names of columns, with or without the unit."""
+    if not wanted:
+        return None
+    left, span = box[0], max(box[2] - box[0], 260.0)
+    y = box[3] + GAP
+    elements: list[Element] = []
+    right = left + span
+    for name in wanted:
+        title = _find(columns, name)
+        elements += _row(title, columns[title], left, span, y)
+        right = max(right, left + width(title, SIZE))
+        y += HEIGHT + GAP
+    extent = points([(left, box[3] + GAP - 1.4 * SIZE), (right, y - GAP + SIZE)])
+    return Panel(tuple(elements), extent, left, span, box[3] + GAP, y - GAP)
+
+
+def _row(title: str, values: Floats, left: float, span: float, top: float) -> list[Element]:
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    reach = (high - low) or 1.0
+    x = left + span * np.arange(len(values)) / max(len(values) - 1, 1)
+    curve = np.stack([x, top + HEIGHT * (0.96 - 0.9 * (values - low) / reach)], axis=1)
+    frame = points([(left, top), (left, top + HEIGHT), (left + span, top + HEIGHT)])
+    elements = [path(frame, "lw-axis"), path(curve, "lw-trace")]
+    if low < 0 < high:
+        zero = top + HEIGHT * (0.96 - 0.9 * (0.0 - low) / reach)
+        elements.append(path(points([(left, zero), (left + span, zero)]), "lw-leader"))
+    text = f"{title.replace('_', ' ')}  {low:.4g} … {high:.4g}"
+    elements.append(text_element(left + 4.0, top - 4.0, text, "lw-value", SIZE))
+    return elements
+
+
+def _find(columns: Mapping[str, Floats], name: str) -> str:
+    for title in columns:
+        if name in (title, title.split(" [", 1)[0]):
+            return title
+    bare = [title.split(" [", 1)[0] for title in columns]
+    offer = nearest(name, bare)
+    hint = f'; did you mean "{offer}"?' if offer else ""
+    raise LinkwrightError(f'there is no result "{name}" to draw as a curve{hint}')

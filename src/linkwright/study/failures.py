@@ -1,0 +1,95 @@
+"""Designs that cannot move: how many, at which group, why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.sweep import sweep as engine_sweep
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.loads import sentence_of
+from linkwright.study.traced import Traced
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Designs that fail for one reason.
+
+    ``group``: the first group that fails (None where it is a load, or cannot be told); ``kind``: ``unreachable``,
+    ``singular``, ``load`` or ``followed``; ``designs``: their numbers; ``example``: what happens to the first one.
+    """
+
+    group: str | None
+    kind: str
+    designs: NDArray[np.intp]
+    example: str
+
+    @property
+    def count(self) -> int:
+        """How many designs fail in this way."""
+        return len(self.designs)
+
+
+def explained(
+    mechanism: Mechanism,
+    varied: Mapping[str, Floats],
+    ok: NDArray[np.bool_],
+    positions: int,
+    unloaded: Mapping[int, str],
+    limit: int,
+) -> tuple[Failure, ...]:
+    """The reasons of all failing designs, the most frequent first."""
+    failing = np.flatnonzero(~ok)
+    failing = failing[~np.isin(failing, list(unloaded))][:limit]
+    found = []
+    if unloaded:
+        numbers = np.array(sorted(unloaded), dtype=np.intp)
+        found.append(Failure(None, "load", numbers, unloaded[int(numbers[0])]))
+    if len(failing):
+        columns = {address: column[failing] for address, column in varied.items()}
+        found += _by_group(mechanism, columns, failing, positions)
+    return tuple(sorted(found, key=lambda failure: -failure.count))
+
+
+def _by_group(
+    mechanism: Mechanism, columns: Mapping[str, Floats], numbers: NDArray[np.intp], count: int
+) -> list[Failure]:
+    """Each design under the group that fails at most of its positions."""
+    traced = _traced(mechanism, columns, count)
+    if traced.solver.motion.next_states:
+        groups = [g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states]
+        sentence = sentence_of(traced, _changes(columns, 0))
+        return [Failure(groups[0], "followed", numbers, sentence)]
+    flags = traced.failure_flags()
+    program = Program.of(traced.solver.motion.trace, flags)
+    wanted = [Reduction(name, "sum") for name in program.output_names]
+    table = traced.table(program, columns)
+    results = engine_sweep(program, table, traced.positions.arrays, wanted, valid=None)
+    sums = np.stack([np.asarray(results[reduction.name], dtype=float) for reduction in wanted])
+    worst = np.argmax(sums, axis=0)
+    found = []
+    for place in np.unique(worst):
+        mine = np.flatnonzero(worst == place)
+        kind, _, group = wanted[place].output.partition(":")
+        sentence = sentence_of(traced, _changes(columns, int(mine[0])))
+        found.append(Failure(group, "unreachable" if kind == "out" else kind, numbers[mine], sentence))
+    return found
+
+
+def _traced(mechanism: Mechanism, columns: Mapping[str, Floats], count: int) -> Traced:
+    positions = over_cycle(mechanism, count)
+    if positions.count != count:
+        positions = over_cycle(mechanism, count - 1)
+    return Traced(mechanism, columns, positions)
+
+
+def _changes(columns: Mapping[str, Floats], index: int) -> dict[str, float]:
+    return {address: float(column[index]) for address, column in columns.items()}

@@ -1,0 +1,107 @@
+"""Which summaries of which outputs are wanted, and the engine's reductions they are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.reductions import Reduction
+from linkwright.errors import LinkwrightError
+from linkwright.registry import nearest
+from linkwright.study.named import Quantity
+
+Floats = NDArray[np.float64]
+
+#: Kinds of summaries, and the engine's reductions they need.
+KINDS: Mapping[str, tuple[str, ...]] = {
+    "min": ("min",),
+    "max": ("max",),
+    "mean": ("mean",),
+    "rms": ("rms",),
+    "range": ("min", "max"),
+    "peak": ("min", "max"),
+    "argmin": ("argmin",),
+    "argmax": ("argmax",),
+}
+_GROWING = frozenset({"min", "max", "range", "peak", "argmin", "argmax"})
+
+
+@dataclass(frozen=True)
+class Summary:
+    """One summary of one output over the cycle.
+
+    ``kind``: ``min``, ``max``, ``mean``, ``rms``; ``range`` = max - min (swing, stroke); ``peak`` = largest
+    absolute value; ``argmin``, ``argmax``: the first driver's coordinate (rad or m) of the extreme.
+    """
+
+    output: str
+    kind: str
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return f"{self.output} {self.kind}"
+
+
+def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
+    """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max.
+
+    Raises LinkwrightError for an unknown kind, and where nothing is asked.
+    """
+    if isinstance(outputs, str):
+        outputs = (outputs,)
+    found: dict[Summary, None] = {}
+    for each in outputs:
+        for summary in _one(each):
+            found[summary] = None
+    if not found:
+        raise LinkwrightError('no outputs are asked for; name some, such as "driver.effort rms"')
+    return tuple(found)
+
+
+def _one(each: str | tuple[str, str]) -> list[Summary]:
+    if isinstance(each, str):
+        output, _, kind = each.rpartition(" ")
+        if not output or kind not in KINDS:
+            output, dot, kind = each.rpartition(".")
+            if not dot or kind not in KINDS:
+                return [Summary(each, "min"), Summary(each, "max")]
+        return [Summary(output, kind)]
+    output, kind = each
+    if kind not in KINDS:
+        offer = nearest(kind, list(KINDS))
+        hint = f"did you mean {offer!r}?" if offer else f"use one of {', '.join(KINDS)}"
+        raise LinkwrightError(f"{output!r}: there is no summary {kind!r}; {hint}")
+    return [Summary(output, kind)]
+
+
+def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity]) -> list[Reduction]:
+    """The engine's reductions; raises LinkwrightError for a mean of what is known by its tangent only."""
+    found: dict[Reduction, None] = {}
+    for summary in summaries:
+        if quantities[summary.output].form != "plain" and summary.kind not in _GROWING:
+            raise LinkwrightError(
+                f"{summary.name!r}: an angle has {', '.join(sorted(_GROWING))} in a study; take one of these, or the "
+                "mean or rms of its rate"
+            )
+        for kind in KINDS[summary.kind]:
+            found[Reduction(summary.output, kind)] = None  # type: ignore[arg-type]
+    return list(found)
+
+
+def finished(
+    summary: Summary, quantity: Quantity, results: Mapping[str, NDArray[np.float64] | NDArray[np.int64]], input_: Floats
+) -> Floats:
+    """The summary (designs,) from the engine's reductions; NaN where no position counts."""
+    if summary.kind in ("argmin", "argmax"):
+        place = np.asarray(results[f"{summary.output}.{summary.kind}"], dtype=np.int64)
+        return np.where(place >= 0, input_[np.maximum(place, 0)], np.nan)
+    parts = [quantity.shown(np.asarray(results[f"{summary.output}.{k}"], dtype=float)) for k in KINDS[summary.kind]]
+    if summary.kind == "range":
+        return np.asarray(parts[1] - parts[0])
+    if summary.kind == "peak":
+        return np.maximum(np.abs(parts[0]), np.abs(parts[1]))
+    return np.array(parts[0])

@@ -1,0 +1,51 @@
+"""The command as a process: pipes, colours, what is imported."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+RUN = [sys.executable, "-c", "import sys; from linkwright.cli import main; sys.exit(main())"]
+
+
+def test_the_installed_command_runs() -> None:
+    script = Path(sys.executable).with_name("linkwright")
+    command = [str(script)] if script.exists() else RUN
+    done = subprocess.run(
+        [*command, "solve", "gallery:kite", "--at", "30 deg"], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("Kite linkage\n")
+    assert "\x1b" not in done.stdout
+
+
+def test_a_reader_that_leaves_is_no_error() -> None:
+    with subprocess.Popen(
+        [*RUN, "structure", "gallery:theo_jansen_leg", "--program"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.close()
+        complaint = process.stderr.read()
+    assert complaint == b""
+    assert process.returncode == 0
+
+
+def test_help_and_version_import_no_numpy() -> None:
+    program = (
+        "import sys; from linkwright.cli import main\n"
+        "main(['--help']); main(['--version']); main(['gallery']); main(['help', 'solve'])\n"
+        "sys.exit('numpy' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_narrow_encoding_does_not_break_the_output() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(
+        [*RUN, "solve", "gallery:kite", "--at", "30 deg"], capture_output=True, env=environment
+    )
+    assert done.returncode == 0, done.stderr
+    assert b"rad/s" in done.stdout
