@@ -90,6 +90,11 @@ def test_residuals_and_largest_forces_stand_beneath(capsys: pytest.CaptureFixtur
     assert "Check" not in capsys.readouterr().out
 
 
+def test_steps_have_a_limit(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", CRUSHER, "--steps", "100000000000"]) == 2
+    assert "at most" in capsys.readouterr().err
+
+
 def test_ranges_and_lists_of_inputs(capsys: pytest.CaptureFixture[str]) -> None:
     base = ["solve", "gallery:crank_rocker", "--json", "--at"]
     for text, degrees in (
@@ -170,6 +175,16 @@ def test_narrow_tables_say_what_is_left_out(
     assert "Left out for width: rocker" in shown
     pattern = shown.split('--columns "')[1].split('"')[0]
     assert main(["solve", CRUSHER, "--columns", pattern]) == 0
+
+
+def test_tables_keep_to_the_width_with_many_drivers(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "90")
+    assert main(["solve", "gallery:excavator", "--times", "0 s, 1 s"]) == 0
+    shown = capsys.readouterr().out
+    assert max(map(shown_width, shown.split("\n\n")[1].splitlines())) <= 90
+    assert "Left out for width: boom_lift" in shown
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -12,7 +12,7 @@ import linkwright
 
 ROOT = Path(linkwright.__file__).parent
 STAGES = (
-    ("errors", "units", "registry", "references", "gallery", "engine"),
+    ("errors", "units", "registry", "references", "words", "gallery", "engine"),
     ("model", "joints", "drivers", "loads"),
     ("structure",),
     ("groups",),

@@ -100,7 +100,7 @@ def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> li
 
 
 def fitting(
-    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int = 1
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int
 ) -> list[list[Column]]:
     """The first of the blocks (columns that belong together) that fit beside the fixed ones; at least ``least``."""
     used = sum(column_width(column, say) + len(GAP) for column in fixed) - len(GAP)

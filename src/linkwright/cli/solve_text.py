@@ -64,20 +64,21 @@ def _fitted(
     options: argparse.Namespace,
     session: Session,
 ) -> tuple[list[Column], str]:
-    """Between inputs and efforts the points that were asked for, then as many links as the width allows."""
+    """The points that were asked for or the first output, then efforts and links as the width allows."""
     last = efforts(solved, columns)
     asked = point_keys(solved.motion, options.points)
     ranked = blocks(solved, columns, asked)
-    points, others = ranked[: len(asked)], ranked[len(asked) :]
-    fixed = [*first, *last, *(column for block in points for column in block)]
-    kept = fitting(fixed, others, session.width, session.say, least=0 if points else 1)
-    names = {column.name for block in [*points, *kept] for column in block}
-    middle = [column for column in columns.values() if column.name in names]
-    left = list(dict.fromkeys(block[0].owner for block in others if block[0].name not in names))
+    least = max(len(asked), 1)
+    ranked = [*ranked[:least], *([last] if last else []), *ranked[least:]]
+    kept = fitting(first, ranked, session.width, session.say, least=least)
+    names = {column.name for block in kept for column in block}
+    efforts_shown = [column for column in last if column.name in names]
+    shown = [column for column in columns.values() if column.name in names and column.quantity != "effort"]
+    left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
     if not left:
-        return [*first, *middle, *last], ""
+        return [*first, *shown, *efforts_shown], ""
     sentence = session.say("solve.left_out", names=", ".join(left), one=left[0], total=len(columns))
-    return [*first, *middle, *last], sentence
+    return [*first, *shown, *efforts_shown], sentence
 
 
 def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.positions import inputs, quantities
+from linkwright.cli.positions import MOST, inputs, quantities
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
@@ -23,6 +23,8 @@ from linkwright.words import Say
 
 #: Steps of the grid on which largest values are sought, at least.
 FINE = 360
+#: Steps that are shown unless others are asked for.
+ROWS = 24
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,9 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tupl
         times = quantities(options.times, "time", say, "--times")
         motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
     else:
-        steps = options.steps or 24
+        steps = options.steps or ROWS
+        if steps > MOST:
+            raise UsageError(say("solve.too_many", steps=steps, most=MOST))
         share = -(-FINE // steps)
         motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)  # type: ignore[arg-type]
         return motion, np.arange(0, motion.steps, share)

@@ -1,119 +1,305 @@
 """Change points: positions where two assembly modes meet and the motion passes from one sign to the other.
 
 Between two positions of a cycle the square under a dyad's root may touch zero without crossing it, as in a
-parallelogram on the frame line. The motion goes on smoothly, the sign of the mode changes. Where the square
-falls below zero the mechanism cannot pass.
+parallelogram on the frame line. The motion goes on smoothly, the sign of the mode changes. The same happens
+where the outer pins of a dyad with two equal links meet. Where the square falls below zero the mechanism
+cannot pass: what lies beyond is another circuit (Suh & Radcliffe, Kinematics and Mechanisms Design, ch. 4;
+Erdman & Sandor, Mechanism Design, ch. 3).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from linkwright.kinematics.assembly import modal_groups
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.structure import Structure
 
-#: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone.
+#: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
+#: it changes more than that from one position to the next.
 NEAR = 0.02
-#: A refined minimum of the quality within this distance of zero is a touch.
+#: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
+#: as share of the largest one.
 TOUCH = 1e-11
+MEETING = 1e-18
+#: Positions this near to a change point (share of a step) are on it.
+ON_IT = 1e-5
+#: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
+LARGEST_STEP = 0.55
+
+Way = Callable[[Floats], Positions]
 
 
 @dataclass(frozen=True)
 class Passage:
-    """A refined minimum of a group's quality between the positions ``before`` and ``after``."""
+    """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass (``gap``).
+
+    It lies at ``share`` of the step from the position ``before`` to the position ``after``; ``quality`` is the
+    least square of the sine of the group's transmission angle there.
+    """
 
     group: str
     before: int
     after: int
     share: float
     quality: float
+    kind: Literal["change", "meeting", "gap"]
 
     @property
     def touches(self) -> bool:
-        """Whether both modes meet there."""
-        return abs(self.quality) <= TOUCH
+        """Whether the motion passes, with the other sign."""
+        return self.kind != "gap"
 
     @property
     def barred(self) -> bool:
         """Whether the group cannot be assembled there, though it can be before and after."""
-        return self.quality < -TOUCH
+        return self.kind == "gap"
+
+    @property
+    def place(self) -> float:
+        """Number of the position, counted on in between."""
+        return self.before + self.share
+
+
+def is_way(positions: Positions) -> bool:
+    """Whether the positions follow each other closely enough to be one motion."""
+    if positions.count < 3:
+        return False
+    steps = [
+        np.abs(np.diff(q)).max() for name, (q, *_) in positions.coordinates.items() if positions.rotary[name]
+    ]
+    return positions.closed or max(steps, default=0.0) <= LARGEST_STEP
 
 
 def passages(solver: MotionSolver, positions: Positions, states: Mapping[str, Floats]) -> list[Passage]:
-    """All places between solved positions where a group's quality comes to zero or below."""
-    groups = tuple(modal_groups(solver.structure))
-    if positions.count < 3 or not groups:
+    """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
+    if not is_way(positions):
         return []
-    names = tuple(f"quality:{group}" for group in groups)
-    ones = {
-        f"mode:{group}": np.full(positions.count, solver.assembly.modes[group]) for group in solver.flipping
-    }
-    quality = solver.evaluate(names, positions, states, ones)
-    found = []
-    for group, row in zip(groups, quality, strict=True):
-        for before, after in _valleys(row, positions.closed):
-            found.append(_refined(solver, positions, group, before, after))
-    return [p for p in found if p.touches or p.barred]
+    return _Search(solver, positions, states).found()
 
 
-def _valleys(row: Floats, closed: bool) -> list[tuple[int, int]]:
-    """Neighbouring positions between which a small minimum may lie."""
-    n = len(row)
-    valleys = []
-    for i in range(n):
-        left, right = i - 1, (i + 1) % n
-        if not closed and (i == 0 or i == n - 1):
-            continue
-        here = row[i]
-        if np.isfinite(here) and abs(here) < NEAR and here <= row[left] and here < row[right]:
-            valleys += [(left % n, i), (i, right)]
-    return valleys
-
-
-def _refined(solver: MotionSolver, positions: Positions, group: str, before: int, after: int) -> Passage:
-    """Minimum of the quality between two positions, by golden sections over blocks of shares."""
-    low, high = 0.0, 1.0
-    name = (f"quality:{group}",)
-    best, share = np.inf, 0.5
-    for _ in range(14):
-        shares = np.linspace(low, high, 17)
-        block = _block(positions, before, after, shares)
-        modes = {f"mode:{g}": np.ones(len(shares)) for g in solver.flipping}
-        quality = solver.evaluate(name, block, _no_states(solver, len(shares)), modes)[0]
-        place = int(np.nanargmin(quality)) if np.isfinite(quality).any() else 8
-        best, share = float(quality[place]), float(shares[place])
-        low, high = float(shares[max(place - 1, 0)]), float(shares[min(place + 1, 16)])
-    return Passage(group, before, after, share, best)
-
-
-def _no_states(solver: MotionSolver, count: int) -> dict[str, Floats]:
-    """Groups without closed form do not matter for the quality of the others that are refined."""
-    return {name: np.ones(count) for name in solver.motion.next_states}
-
-
-def _block(positions: Positions, before: int, after: int, shares: Floats) -> Positions:
-    mixed = {}
+def way(solver: MotionSolver, positions: Positions) -> Way:
+    """Positions at given places (numbers of positions, counted on in between), by the drivers' laws if those hold."""
+    mechanism, index = solver.mechanism, np.arange(positions.count + 1.0)
+    time = np.append(positions.time, positions.time[0] + (positions.period or 0.0))
+    known = at_times(mechanism, positions.time) if mechanism.drivers else positions
+    lawful = all(
+        np.allclose(q, known.coordinates[name][0], rtol=1e-9, atol=1e-12)
+        for name, (q, *_) in positions.coordinates.items()
+    )
+    if lawful and (np.diff(positions.time) != 0.0).all():
+        return lambda place: at_times(mechanism, np.interp(place, index, time))
+    rows = {}
     for name, (q, rate, second) in positions.coordinates.items():
-        a, b = q[before], q[after]
-        if after < before and positions.closed and positions.rotary[name]:
-            step = q[1] - q[0]
-            b = a + step
-        values = a + shares * (b - a)
-        mixed[name] = (values, np.full_like(values, rate[before]), np.full_like(values, second[before]))
-    return Positions(np.zeros(len(shares)), mixed, positions.rotary, False, None)
+        ahead = 2 * q[-1] - q[-2]
+        turns = np.round((ahead - q[0]) / (2 * np.pi)) if positions.rotary[name] else 0.0
+        rows[name] = [np.append(q, q[0] + 2 * np.pi * turns), np.append(rate, rate[0]), np.append(second, second[0])]
+
+    def mixed(place: Floats) -> Positions:
+        between = {name: tuple(np.interp(place, index, row) for row in each) for name, each in rows.items()}
+        return Positions(np.zeros(len(place)), between, positions.rotary, False, None)  # type: ignore[arg-type]
+
+    return mixed
 
 
-def signs(passing: list[Passage], modes: Mapping[str, float], count: int) -> dict[str, Floats]:
+class _Search:
+    """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
+
+    def __init__(self, solver: MotionSolver, positions: Positions, states: Mapping[str, Floats]) -> None:
+        self.base = solver.with_flips(()) if solver.flipping else solver
+        self.solver = self.base
+        self.positions = positions
+        self.states = states
+        self.passing: list[Passage] = []
+
+    @cached_property
+    def way(self) -> Way:
+        return way(self.base, self.positions)
+
+    def found(self) -> list[Passage]:
+        groups = list(modal_groups(self.base.structure))
+        names = tuple(name for group in groups for name in self._measures(group))
+        if not names:
+            return []
+        whole = np.arange(float(self.positions.count))
+        rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
+        for group in groups:
+            new = self._of_group(group, rows)
+            self.passing += new
+            if any(p.touches for p in new):
+                self.solver = self.base.with_flips({p.group for p in self.passing if p.touches})
+                rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
+        return self.passing
+
+    def _measures(self, group: str) -> list[str]:
+        facts = self.base.motion.placed[group].facts
+        return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
+
+    def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
+        found = []
+        quality, *distance = self._measures(group)
+        for low, high in self._valleys(rows[quality], NEAR):
+            place, least = self._lowest(quality, low, high)
+            if abs(least) <= TOUCH:
+                found.append(self._passage(group, self._centred(quality, place), least, "change"))
+            elif least < 0:
+                found.append(self._passage(group, place, least, "gap"))
+        for name in distance:
+            largest = float(np.nanmax(rows[name], initial=0.0))
+            for low, high in self._valleys(rows[name] / (largest or 1.0), NEAR):
+                place, least = self._lowest(name, low, high)
+                beside = self._evaluate((quality,), np.array([place - 1e-3, place + 1e-3]))[0]
+                if least <= MEETING * largest and (beside > TOUCH).all():
+                    found.append(self._passage(group, place, float(beside.min()), "meeting"))
+        return sorted(found, key=lambda p: p.place)
+
+    def _valleys(self, row: Floats, near: float) -> list[tuple[float, float]]:
+        """Stretches around a position with a small, locally smallest value."""
+        n, closed = len(row), self.positions.closed
+        infinite = np.array([np.inf])
+        left = np.concatenate([row[-1:] if closed else infinite, row[:-1]])
+        right = np.concatenate([row[1:], row[:1] if closed else infinite])
+        rises = [np.where(np.isfinite(side), side - row, 0.0) for side in (left, right)]
+        small = (row > -TOUCH) & (row < np.maximum(near, np.maximum(*rises)))
+        lowest = small & ~(left < row) & ~(right <= row)
+        first, last = (-1.0, float(n)) if closed else (0.0, n - 1.0)
+        return [(max(i - 1.0, first), min(i + 1.0, last)) for i in np.flatnonzero(lowest)]
+
+    def _lowest(self, name: str, low: float, high: float) -> tuple[float, float]:
+        """Place and value of the minimum, by sections over blocks of places."""
+        best, at = np.inf, 0.5 * (low + high)
+        for _ in range(16):
+            places = np.linspace(low, high, 17)
+            row = self._evaluate((name,), places)[0]
+            if not np.isfinite(row).any():
+                break
+            k = int(np.nanargmin(row))
+            if row[k] < best:
+                best, at = float(row[k]), float(places[k])
+            low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, 16)])
+        return at, best
+
+    def _centred(self, name: str, place: float) -> float:
+        """The zero of the root (which passes through zero in a straight line) from its values on both sides."""
+        for h in (1e-2, 1e-3):
+            a, b = np.sqrt(np.maximum(self._evaluate((name,), np.array([place - h, place + h]))[0], 0.0))
+            place += float(h * (a - b) / (a + b)) if a + b > 0 else 0.0
+        return place
+
+    def _passage(
+        self, group: str, place: float, quality: float, kind: Literal["change", "meeting", "gap"]
+    ) -> Passage:
+        n = self.positions.count
+        if abs(place - round(place)) < ON_IT:
+            place = float(round(place))
+        if self.positions.closed and place <= 0.0:
+            place += n
+        before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
+        return Passage(group, before, (before + 1) % n, place - before, quality, kind)
+
+    def _evaluate(self, names: tuple[str, ...], places: Floats, at_positions: bool = False) -> Floats:
+        n = self.positions.count
+        turn = places % n if self.positions.closed else np.clip(places, 0.0, n - 1.0)
+        positions = self.positions if at_positions else self.way(turn)
+        states = self.states
+        if states and not at_positions:
+            index = np.arange(n + 1.0)
+            states = {name: np.interp(turn, index, np.append(row, row[0])) for name, row in states.items()}
+        modes = {
+            f"mode:{group}": self._signs(group, turn) for group in self.solver.flipping
+        }
+        return self.solver.evaluate(names, positions, states, modes)
+
+    def _signs(self, group: str, place: Floats) -> Floats:
+        return _sign(self.passing, group, self.base.assembly.modes[group], place)
+
+
+def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) -> Floats:
+    sign = np.full(len(place), mode)
+    for p in passing:
+        if p.group == group and p.touches and p.place > 0.0:
+            sign = np.where(place > p.place, -sign, sign)
+    return sign
+
+
+def signs(passing: Sequence[Passage], modes: Mapping[str, float], count: int) -> dict[str, Floats]:
     """Sign of every flipping group's mode per position, the first position as the file says."""
-    found: dict[str, Floats] = {}
-    for group in dict.fromkeys(p.group for p in passing if p.touches):
-        row = np.full(count, modes[group])
-        for p in passing:
-            if p.group == group and p.touches and p.after > p.before and p.share > 0.0:
-                row[p.after :] *= -1.0
-        found[f"mode:{group}"] = row
-    return found
+    groups = dict.fromkeys(p.group for p in passing if p.touches)
+    place = np.arange(float(count))
+    return {f"mode:{group}": _sign(passing, group, modes[group], place) for group in groups}
+
+
+def closes(passing: Sequence[Passage]) -> bool:
+    """Whether every group is back in its first mode at the end of a closed cycle."""
+    groups = [p.group for p in passing if p.touches]
+    return all(groups.count(group) % 2 == 0 for group in groups)
+
+
+def cut_off(codes: Floats, passing: Sequence[Passage], positions: Positions) -> Floats:
+    """1 for solved positions that cannot be reached from the first solved one, because a gap or positions out of
+    reach lie in between, else 0; (n,). ``codes`` are the outcomes of the positions.
+
+    A closed cycle is followed backwards from its first position as well where positions fail visibly; beyond a
+    gap between two positions nothing counts as reached, since the driver cannot pass it.
+    """
+    n, good = len(codes), codes == 0
+    if not is_way(positions) or not good.any():
+        return np.zeros(n)
+    open_way = codes <= 0
+    bars = {p.before for p in passing if p.barred}
+    if open_way.all() and not bars:
+        return np.zeros(n)
+    first = int(np.flatnonzero(good)[0])
+    reached = np.zeros(n, dtype=bool)
+    for step in (1,) if bars else (1, -1):
+        here = first
+        while open_way[here] and not (reached[here] and here != first):
+            reached[here] = True
+            there = here + step
+            edge = here if step > 0 else there
+            if not positions.closed and not 0 <= there < n:
+                break
+            here = there % n
+            if edge % n in bars:
+                break
+    return np.where(good & ~reached, 1.0, 0.0)
+
+
+def mark_meetings(codes: Floats, passing: Sequence[Passage], structure: Structure) -> None:
+    """Outcomes of positions at which the outer pins of a group meet: singular."""
+    numbers = {group.name: number for number, group in enumerate(structure.groups, 1)}
+    for p in passing:
+        if p.kind == "meeting" and p.place.is_integer():
+            codes[int(p.place) % len(codes)] = -numbers[p.group]
+
+
+def notes(passing: Sequence[Passage], positions: Positions) -> tuple[str, ...]:
+    """What the user should know about change points and gaps between positions."""
+    said = [_note(p, positions) for p in passing]
+    if positions.closed and not closes(passing):
+        said.append(
+            "after one cycle the mechanism is in its other assembly mode: the motion repeats after two cycles"
+        )
+    return tuple(dict.fromkeys(said))
+
+
+def _note(p: Passage, positions: Positions) -> str:
+    name, (q, *_) = next(iter(positions.coordinates.items()))
+    ahead = q[p.after] if p.after > p.before else 2 * q[p.before] - q[p.before - 1]
+    place = float(q[p.before] + p.share * (ahead - q[p.before]))
+    where = f"{name} = " + (f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m")
+    group = f"group ({p.group.replace('+', ', ')})"
+    if p.kind == "change":
+        return f"change point of {group} at {where}: the motion goes on smoothly"
+    if p.kind == "meeting":
+        return f"the outer pins of {group} meet at {where}, where it could turn freely: the motion goes on smoothly"
+    return (
+        f"{group} cannot be assembled in a short stretch at {where}, between two positions: the mechanism cannot "
+        "pass there, and positions beyond it are not reached"
+    )

@@ -8,7 +8,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.kinematics.change_points import Passage, passages, signs
+from linkwright.kinematics.change_points import (
+    Passage,
+    cut_off,
+    mark_meetings,
+    notes,
+    passages,
+    signs,
+)
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
@@ -79,18 +86,19 @@ class MotionRun:
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
-        motion = self._evaluate(states, modes, _notes(found, self.positions))
+        motion = self._evaluate(states, modes, found)
         if failures == "raise" and not motion.ok.all():
             raise refusal(motion)
         return motion
 
     def _evaluate(
-        self, states: Mapping[str, Floats], modes: Mapping[str, Floats], notes: tuple[str, ...]
+        self, states: Mapping[str, Floats], modes: Mapping[str, Floats], found: list[Passage]
     ) -> Motion:
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
-        barred = np.zeros(self.positions.count)
+        mark_meetings(codes, found, self.solver.structure)
+        barred = cut_off(codes, found, self.positions)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
         values[:-1, (codes != 0) | (barred != 0)] = np.nan
@@ -101,26 +109,6 @@ class MotionRun:
             states=states,
             modes=modes,
             rows=Rows(values, {name: i for i, name in enumerate(names)}),
-            notes=notes,
+            notes=notes(found, self.positions),
             barred=barred,
         )
-
-
-def _notes(found: list[Passage], positions: Positions) -> tuple[str, ...]:
-    """What the user should know about change points and gaps between positions."""
-    notes = []
-    for p in found:
-        name = next(iter(positions.coordinates))
-        q = positions.coordinates[name][0]
-        place = q[p.before] + p.share * (q[p.after] - q[p.before]) if p.after > p.before else q[p.before]
-        where = f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m"
-        if p.touches:
-            notes.append(
-                f"change point of group ({p.group}) at {name} = {where}: the motion goes on smoothly"
-            )
-        else:
-            notes.append(
-                f"group ({p.group}) cannot be assembled in a short stretch at {name} = {where}, between two "
-                "solved positions: the mechanism cannot pass there"
-            )
-    return tuple(dict.fromkeys(notes))

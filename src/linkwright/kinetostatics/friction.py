@@ -14,7 +14,7 @@ from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.site import TracedSite
+from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
 
 
@@ -78,8 +78,7 @@ class FrictionTerms:
         size: Scalar = self.motion.trace.field_input(term.field)
         if not term.slides:
             return [Wrench(term.b, torque=size), Wrench(term.a, torque=-size)]
-        site = TracedSite(self.motion, None)  # type: ignore[arg-type]
-        direction, place, _ = site.guide(term.joint)
+        direction, place, _ = guide_state(self.motion, term.joint)
         force = Vec(direction.x * size, direction.y * size)
         return [Wrench(term.b, force, place), Wrench(term.a, -force, place)]
 

@@ -40,17 +40,15 @@ def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], s
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
     """Load magnitudes and angles that depend on the position."""
+    from linkwright.kinetostatics.signals import MotionSignals
+    from linkwright.loads.magnitude import evaluate
+
+    signals = MotionSignals(motion)
     fields: dict[str, Floats] = {}
     for name in solver.fields_needed():
         kind, _, key = name.partition(":")
         if kind == "load":
-            from linkwright.kinetostatics.signals import MotionSignals
-            from linkwright.loads.magnitude import evaluate
-
-            fields[name] = evaluate(motion.mechanism.loads[key], MotionSignals(motion))
-        elif kind == "angle":
-            a, b = key.split("|")
-            fields[name] = motion.link(b).angle - motion.link(a).angle
+            fields[name] = evaluate(motion.mechanism.loads[key], signals)
         elif kind == "friction":
             fields[name] = np.zeros(motion.steps)
     return fields

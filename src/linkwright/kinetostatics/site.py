@@ -9,13 +9,24 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
 
 
+def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
+    """Of a prismatic joint: the guide's unit vector, the block's point, the sliding velocity."""
+    prismatic = motion.mechanism.joints[joint]
+    assert isinstance(prismatic, PrismaticJoint)
+    guide, block = motion.states[prismatic.guide], motion.states[prismatic.block]
+    direction = guide.pose.spin(motion.dimensions.guide_direction(prismatic))
+    at = motion.dimensions.point(prismatic.block, prismatic.at)
+    place = block.pose.place + block.arm(at)
+    relative = block.velocity_of(at) - guide.velocity_at(place - guide.pose.place)
+    return direction, place, direction.dot(relative)
+
+
 class TracedSite:
     """One load's view; see :class:`linkwright.loads.site.Site`."""
 
     def __init__(self, motion: MotionTrace, load: Load) -> None:
         self.motion = motion
         self.load = load
-        self.asked: set[str] = set()
 
     def place(self, link: str, point: str) -> Vec:
         state = self.motion.states[link]
@@ -31,18 +42,8 @@ class TracedSite:
     def omega(self, link: str) -> Scalar:
         return self.motion.states[link].omega
 
-    def angle_between(self, a: str, b: str) -> Scalar:
-        return self.motion.trace.field_input(f"angle:{a}|{b}")
-
     def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
-        prismatic = self.motion.mechanism.joints[joint]
-        assert isinstance(prismatic, PrismaticJoint)
-        guide, block = self.motion.states[prismatic.guide], self.motion.states[prismatic.block]
-        direction = guide.pose.spin(self.motion.dimensions.guide_direction(prismatic))
-        arm = block.arm(self.motion.dimensions.point(prismatic.block, prismatic.at))
-        place = block.pose.place + arm
-        relative = block.velocity_at(arm) - guide.velocity_at(place - guide.pose.place)
-        return direction, place, direction.dot(relative)
+        return guide_state(self.motion, joint)
 
     def dimension(self, field: str) -> Scalar:
         return self.motion.dimensions(f"loads.{self.load.name}.{field}")

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias, overload
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.loads.signals import Limit
@@ -76,17 +77,21 @@ class Analysis:
         return positions.closed and positions.period is not None and span < positions.period * (1 - 1e-9)
 
     @property
+    def in_time(self) -> bool:
+        """Whether the positions are those of the drivers' laws at their times."""
+        return self.resolver.in_time
+
+    @property
     def whole(self) -> bool:
         """Whether the positions are one closed cycle and all are reached."""
         return self.closed and bool(self.motion.ok.all())
 
     def limits(self, output: Output) -> tuple[Limit, ...]:
-        """Limit positions of an output, by increasing time."""
+        """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
         if output not in self._limits:
-            from linkwright.kinematics.limits import limit_positions
-
-            found = [Limit(e.input, e.time, e.value, e.kind) for e in limit_positions(self.motion, output)]
-            self._limits[output] = tuple(sorted(found, key=lambda each: each.time))
+            found = limit_positions(self.motion, output) if self.in_time else ()
+            limits = [Limit(each.input, each.time, each.value, each.kind) for each in found]
+            self._limits[output] = tuple(sorted(limits, key=lambda each: each.time))
         return self._limits[output]
 
     def mean(self, values: Floats) -> float:

@@ -19,7 +19,8 @@ class Resolver:
     def __init__(self, motion: Motion, forces: Forces | None) -> None:
         self._motion = motion
         self._forces = forces
-        self.possible = _follows_laws(motion)
+        self.in_time = _follows_laws(motion)
+        self.possible = self.in_time and not motion.modes
 
     def at(self, time: Floats, of: str = "motion") -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s."""
@@ -59,8 +60,8 @@ class Resolver:
 
 
 def _follows_laws(motion: Motion) -> bool:
-    """Whether the positions are those of the drivers' laws at their times, without change points."""
-    if motion.modes or not motion.mechanism.drivers:
+    """Whether the positions are those of the drivers' laws at their times."""
+    if not motion.mechanism.drivers:
         return False
     try:
         expected = at_times(motion.mechanism, motion.time)

@@ -91,6 +91,7 @@ class Table:
     over: Literal["input", "time"] | Output
     x: tuple[float, ...]
     y: tuple[float, ...]
+    across: str = "angle"  # dimension of x
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ class TableField(Field):
             return None
         if not reader.increasing(node, place, "x", values["x"], values["y"], "y"):
             return None
-        return Table(over, values["x"], values["y"])
+        return Table(over, values["x"], values["y"], across)
 
     def _fields(self, across: str) -> dict[str, Field]:
         from linkwright.model.fields import Text
@@ -127,10 +128,9 @@ class TableField(Field):
         return shape
 
     def written(self, value: Any) -> Any:
-        across = {"input": "angle", "time": "time"}.get(str(value.over)) or value.over.dimension
         return {
             "over": str(value.over),
-            "x": [written_quantity(x, across) for x in value.x],
+            "x": [written_quantity(x, value.across) for x in value.x],
             "y": [written_quantity(y, self.dimension) for y in value.y],
         }
 
@@ -142,6 +142,7 @@ class InputPhase:
 
     start: float
     end: float
+    across: str = "angle"  # dimension of both
 
 
 @dataclass(frozen=True)
@@ -214,12 +215,14 @@ class PhaseField(Field):
         return {".input.0": value.start, ".input.1": value.end} if isinstance(value, InputPhase) else {}
 
     def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
-        return InputPhase(lookup(".input.0"), lookup(".input.1")) if isinstance(value, InputPhase) else value
+        if not isinstance(value, InputPhase):
+            return value
+        return InputPhase(lookup(".input.0"), lookup(".input.1"), value.across)
 
     def written(self, value: Any) -> Any:
         match value:
-            case InputPhase(start, end):
-                return {"input": [written_quantity(start, "angle"), written_quantity(end, "angle")]}
+            case InputPhase(start, end, across):
+                return {"input": [written_quantity(start, across), written_quantity(end, across)]}
             case MovingPhase(output, direction):
                 return {"moving": str(output), "direction": direction}
         return {"of": str(value.output), "from": value.start, "to": value.end}
@@ -231,7 +234,7 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
         if start == end:
             reader.error(node, place, "the phase begins where it ends", "give two different values", "range")
             return None
-        return InputPhase(start, end)
+        return InputPhase(start, end, reader.input_dimension())
     if "moving" in values:
         return MovingPhase(values["moving"], values["direction"])
     if values["from"] == values["to"]:

@@ -73,7 +73,9 @@ def animate(
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+        raise LinkwrightError(
+            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
+        )
     if not 2 <= frames <= 2000:
         raise LinkwrightError(f"an animation of {frames} frames cannot be made; give 2 to 2000")
     if seconds is not None and not 0.05 <= seconds <= 3600:
@@ -82,7 +84,9 @@ def animate(
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
     groups = vector_groups(motion, velocities, accelerations, forces, reactions_of)
-    families = [(family, scale_of(each, run)) for each in groups for family in each if family.largest(run) > 0]
+    families = [
+        (family, scale_of(each, run)) for each in groups for family in each if family.largest(run) > 0
+    ]
     return Animation(
         scene=scene,
         run=tuple(run),
@@ -170,11 +174,15 @@ class Animation:
             return write_whole(path, self.svg.encode())
         if suffix == ".gif":
             run = list(self.run[:-1])
-            return write_whole(path, gif(self._pictures(run, width, fonts, progress), self.seconds / len(run)))
+            return write_whole(
+                path, gif(self._pictures(run, width, fonts, progress), self.seconds / len(run))
+            )
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
             return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
-        raise LinkwrightError(f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4')
+        raise LinkwrightError(
+            f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4'
+        )
 
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None
@@ -208,7 +216,9 @@ class Animation:
     def _ink(self) -> list[Floats]:
         """Everything over the whole motion."""
         ink = [line for index in self.run for line in self.scene.ink(index)]
-        ink += [line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink]
+        ink += [
+            line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink
+        ]
         for family, scale in self.families:
             ink += [
                 line for index in self.run for line in family.shape(index, self.scene.machine.view, scale).ink

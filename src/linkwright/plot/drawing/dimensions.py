@@ -26,7 +26,9 @@ class Dimensioned:
     label: Label
 
 
-def dimension_lines(machine: Machine, wanted: Iterable[Dimension], index: int, ink: list[Floats]) -> list[Dimensioned]:
+def dimension_lines(
+    machine: Machine, wanted: Iterable[Dimension], index: int, ink: list[Floats]
+) -> list[Dimensioned]:
     """Dimension lines on the side where they cross least of what is drawn.
 
     ``wanted``: a link with a length (``crank``), or two points (``("O1", "O3")``).
@@ -37,7 +39,9 @@ def dimension_lines(machine: Machine, wanted: Iterable[Dimension], index: int, i
         shapes = [(SYMBOLS["dimension_line"](start=a, end=b, offset=offset), offset) for offset in _OFFSETS]
         taken = Obstacles.of([*ink, *(line for one in found for line in one.shape.ink)])
         shape, offset = min(shapes, key=lambda pair: _crossing(pair[0], taken) + 0.3 * abs(pair[1]))
-        found.append(Dimensioned(shape, Label(length_text(value), _middle(a, b, offset), "lw-value", 12.0, 5.0)))
+        found.append(
+            Dimensioned(shape, Label(length_text(value), _middle(a, b, offset), "lw-value", 12.0, 5.0))
+        )
     return found
 
 
@@ -51,7 +55,9 @@ def _ends(machine: Machine, wanted: Dimension, index: int) -> tuple[tuple[Vec, V
     if isinstance(wanted, str):
         names = list(mechanism.link(wanted.removesuffix(".length")).points)[:2]
         if len(names) < 2:
-            raise LinkwrightError(f'link "{wanted}" has one point, so it has no length; name two points instead')
+            raise LinkwrightError(
+                f'link "{wanted}" has one point, so it has no length; name two points instead'
+            )
         pair = [(wanted.removesuffix(".length"), name) for name in names]
     else:
         pair = [find_point(mechanism, name) for name in wanted]

@@ -81,7 +81,9 @@ def draw(
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+        raise LinkwrightError(
+            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
+        )
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     index = _index(motion, position)
     ghosts, ghost_style = _overlay(motion, overlay)
@@ -188,7 +190,11 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[int], s
 
 
 def vector_groups(
-    motion: Motion, velocities: Names, accelerations: Names, forces: Forces | bool | None, of: Sequence[str] | None
+    motion: Motion,
+    velocities: Names,
+    accelerations: Names,
+    forces: Forces | bool | None,
+    of: Sequence[str] | None,
 ) -> list[list[Vectors]]:
     """All vectors that a drawing shows, in groups of one scale."""
     found: list[list[Vectors]] = []

@@ -19,7 +19,9 @@ def frame_indices(motion: Motion, frames: int) -> list[int]:
     if motion.positions.closed and count == motion.steps:
         chosen = np.unique(np.linspace(0, count, min(frames, count) + 1).round().astype(int)) % count
         return [int(k) for k in chosen]
-    way = np.unique(np.linspace(start, stop - 1, min(max(frames // 2, 2), count)).round().astype(int)).tolist()
+    way = np.unique(
+        np.linspace(start, stop - 1, min(max(frames // 2, 2), count)).round().astype(int)
+    ).tolist()
     there_and_back = [*way, *way[-2::-1]]
     return there_and_back if len(there_and_back) > 1 else [start, start]
 

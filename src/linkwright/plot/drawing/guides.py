@@ -70,9 +70,13 @@ def _cylinder(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Pa
     length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
     piston = max(longest - 0.92 * length, short - length + 10.0)
     at = machine.local(joint.guide, joint.through)
-    rod = SYMBOLS["piston"](at=machine.local(joint.block, joint.at), along=block_direction(joint), length=piston)
+    rod = SYMBOLS["piston"](
+        at=machine.local(joint.block, joint.at), along=block_direction(joint), length=piston
+    )
     yield Part("bodies", joint.block, rod)
-    yield Part("blocks", joint.guide, SYMBOLS["barrel"](at=at, along=direction(machine, joint), length=length))
+    yield Part(
+        "blocks", joint.guide, SYMBOLS["barrel"](at=at, along=direction(machine, joint), length=length)
+    )
 
 
 def _block_on_guide(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Part]:

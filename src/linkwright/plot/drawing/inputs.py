@@ -41,7 +41,9 @@ def _turn(machine: Machine, driver: Driver, index: int) -> Part:
     at = machine.local(base, driver.joint)
     turn = _turned(machine.placed[base], index)
     middle = _free_angle(machine, driver.joint, index) - turn
-    on_block = any(driver.joint == j.at and j.block in machine.pins[driver.joint].links for j in machine.guides.values())
+    on_block = any(
+        driver.joint == j.at and j.block in machine.pins[driver.joint].links for j in machine.guides.values()
+    )
     arrow = SYMBOLS["crank_arrow"](
         at=at, radius=RADIUS + 6.0 * on_block, middle=middle, sweep=1.9, turning=sense(machine, driver)
     )

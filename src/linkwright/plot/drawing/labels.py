@@ -23,7 +23,7 @@ LEADER = 16.0
 
 @dataclass(frozen=True)
 class Label:
-    """A text for a place; ``clearance`` keeps it off the symbol there, ``anchors`` are places as good as the first."""
+    """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there."""
 
     text: str
     anchors: tuple[Vec, ...]
@@ -36,7 +36,6 @@ class Label:
     def extent(self) -> Vec:
         """Width and height of the text."""
         return name_width(self.text.rsplit(".", 1)[-1], self.size), 0.95 * self.size
-
 
     def shortened(self) -> Label:
         """The label with ``B`` instead of ``rocker.B``."""
@@ -80,7 +79,7 @@ class Obstacles:
         share = np.clip(np.minimum(last, 1.0) - np.maximum(first, 0.0), 0.0, None)
         touched = share > 0
         length: Floats = share * np.hypot(way[..., 0], way[..., 1]) + 4.0 * touched
-        return length.sum(axis=1)
+        return np.asarray(length.sum(axis=1))
 
 
 def candidates(label: Label) -> list[Candidate]:
@@ -92,7 +91,12 @@ def candidates(label: Label) -> list[Candidate]:
             for dx, dy in _WAYS:
                 gap = label.clearance + step
                 centre = (x + dx * (gap + width / 2 * abs(dx)), y + dy * (gap + height / 2 * abs(dy)))
-                box = (centre[0] - width / 2, centre[1] - height / 2, centre[0] + width / 2, centre[1] + height / 2)
+                box = (
+                    centre[0] - width / 2,
+                    centre[1] - height / 2,
+                    centre[0] + width / 2,
+                    centre[1] + height / 2,
+                )
                 liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2)
                 found.append(Candidate(box, 0.45 * step + liking + 1.5 * order, (x, y), step))
     return found
@@ -125,7 +129,7 @@ def _overlap(boxes: Floats, others: Floats) -> Floats:
     wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + 4.0
     high = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + 2.0
     shared: Floats = np.where((wide > 0) & (high > 0), wide * high, 0.0)
-    return shared.sum(axis=1)
+    return np.asarray(shared.sum(axis=1))
 
 
 def written(label: Label, chosen: Candidate) -> list[Element]:

@@ -14,7 +14,9 @@ from linkwright.words import say
 SIZE, ROW = 12.0, 19.0
 
 
-def legend(families: Sequence[tuple[Vectors, float]], box: Box, language: str) -> tuple[list[Element], list[Floats]]:
+def legend(
+    families: Sequence[tuple[Vectors, float]], box: Box, language: str
+) -> tuple[list[Element], list[Floats]]:
     """Rows below the drawing, and their extent."""
     elements: list[Element] = []
     extent: list[Floats] = []

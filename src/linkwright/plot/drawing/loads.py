@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.loads.base import Load
+from linkwright.loads.base import LinkPoint, Load
+from linkwright.loads.force import Force
+from linkwright.loads.torque import Torque
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
 from linkwright.plot.drawing.scene import Scene
@@ -23,19 +25,37 @@ def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
 
 def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
     """The symbol of one load; nothing for a kind that has none."""
-    if hasattr(load, "between"):
-        first, second = load.between
-        ends = (machine.paper(end.link, end.point, index) for end in (first, second))
-        return SYMBOLS[load.kind](**dict(zip(("start", "end"), ends, strict=True)))
-    if hasattr(load, "links"):
-        at = _common_pin(machine, load.links, index)
+    between: tuple[LinkPoint, LinkPoint] | None = getattr(load, "between", None)
+    links: tuple[str, str] | None = getattr(load, "links", None)
+    if between is not None:
+        start, end = (machine.paper(each.link, each.point, index) for each in between)
+        anchors = (_anchor(machine, each, start, end, index) for each in between)
+        return joined([SYMBOLS[load.kind](start=start, end=end), *anchors])
+    if links is not None:
+        at = _common_pin(machine, links, index)
         return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
-    if forces and load.kind == "torque":
-        at = _middle(machine, load.on, index)
-        return SYMBOLS["moment"](at=at, turning=_sign(load), style="lw-load")
-    way = push_direction(machine, load, index) if forces and load.kind == "force" else None
-    if way is None:
+    if forces and isinstance(load, Torque):
+        return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=_sign(load), style="lw-load")
+    if forces and isinstance(load, Force):
+        return _push(machine, load, index)
+    return EMPTY
+
+
+def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int) -> Shape:
+    """The wall that holds a spring at a point of the frame where no pin is."""
+    if end.link != "frame" or end.point in machine.pins:
         return EMPTY
+    at = machine.paper(end.link, end.point, index)
+    other = last if math.dist(at, first) < math.dist(at, last) else first
+    length = math.dist(at, other) or 1.0
+    return SYMBOLS["wall"](
+        at=at, toward=((at[0] - other[0]) / length, (at[1] - other[1]) / length), size=12.0
+    )
+
+
+def _push(machine: Machine, load: Force, index: int) -> Shape:
+    """An arrow whose point is where the force acts."""
+    way = push_direction(machine, load, index)
     x, y = machine.paper(load.on, load.at, index)
     on_block = any(j.block == load.on and j.at == load.at for j in machine.guides.values())
     gap = BLOCK_GAP if on_block else GAP
@@ -52,20 +72,18 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Ele
     return found
 
 
-def push_direction(machine: Machine, load: Load, index: int) -> Vec | None:
-    """Direction on the paper in which a force of positive magnitude pushes, turned round for a negative one."""
-    link = load.on
-    c, s = machine.placed[link].direction[index]
-    fixed, in_link, ray = (getattr(load, name, None) for name in ("direction", "in_link", "normal_to"))
-    if fixed is not None:
-        angle = float(fixed)
-    elif in_link is not None:
-        angle = math.atan2(s, c) + float(in_link)
-    elif ray is not None:
-        (px, py), (qx, qy) = (machine.motion.mechanism.link(link).points[name] for name in ray)
-        angle = math.atan2(s, c) + math.atan2(qy - py, qx - px) + math.pi / 2
+def push_direction(machine: Machine, load: Force, index: int) -> Vec:
+    """Direction on the paper in which a force pushes."""
+    c, s = machine.placed[load.on].direction[index]
+    if load.direction is not None:
+        angle = load.direction
+    elif load.components is not None and all(isinstance(each, float | int) for each in load.components):
+        angle = math.atan2(float(load.components[1]), float(load.components[0]))
+    elif ray := load.normal_to or load.along:
+        (px, py), (qx, qy) = (machine.motion.mechanism.link(load.on).points[name] for name in ray)
+        angle = math.atan2(s, c) + math.atan2(qy - py, qx - px) + (math.pi / 2 if load.normal_to else 0.0)
     else:
-        return None
+        angle = math.atan2(s, c) + (load.in_link or 0.0)
     sign = _sign(load) or 1
     return sign * math.cos(angle), -sign * math.sin(angle)
 

@@ -122,7 +122,12 @@ def _passing(machine: Machine, link: str, point: str) -> Floats | None:
 
 def support_direction(machine: Machine, point: str, joint: RevoluteJoint) -> Vec:
     """Direction of the ground under a fixed pivot: down, unless links reach there for most of the motion."""
-    choices: list[tuple[Vec, float]] = [((0.0, 1.0), 0.0), ((0.0, -1.0), 0.25), ((-1.0, 0.0), 0.3), ((1.0, 0.0), 0.3)]
+    choices: list[tuple[Vec, float]] = [
+        ((0.0, 1.0), 0.0),
+        ((0.0, -1.0), 0.25),
+        ((-1.0, 0.0), 0.3),
+        ((1.0, 0.0), 0.3),
+    ]
     reach = [_reaching(machine, link, point) for link in joint.links if link != "frame"]
     ways = np.concatenate([*reach, np.zeros((0, 2))])
 

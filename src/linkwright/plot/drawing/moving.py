@@ -20,7 +20,8 @@ def animate_element(attribute: str, values: Sequence[str], seconds: float) -> El
 def shifting(shifts: Floats, seconds: float) -> Element:
     """An animated shift (n, 2)."""
     values = [f"{number(x)} {number(y)}" for x, y in shifts.tolist()]
-    return element("animateTransform", {"attributeName": "transform", "type": "translate", **_timing(values, seconds)})
+    kind = {"attributeName": "transform", "type": "translate"}
+    return element("animateTransform", {**kind, **_timing(values, seconds)})
 
 
 def turning(degrees: Floats, seconds: float) -> Element:
@@ -40,7 +41,8 @@ def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[El
             continue
         placed = scene.machine.placed[link]
         origin = scene.machine.view.paper(placed.origin[list(frames)])
-        turn = -np.degrees(np.unwrap(np.arctan2(placed.direction[list(frames), 1], placed.direction[list(frames), 0])))
+        way = placed.direction[list(frames)]
+        turn = -np.degrees(np.unwrap(np.arctan2(way[:, 1], way[:, 0])))
         motion = [shifting(origin, seconds)]
         if np.ptp(turn) > 0.005:
             motion.append(turning(turn, seconds))
@@ -50,12 +52,14 @@ def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[El
     return found
 
 
-def moving_vectors(scene: Scene, family: Vectors, scale: float, frames: Sequence[int], seconds: float) -> list[Element]:
+def moving_vectors(
+    scene: Scene, family: Vectors, scale: float, frames: Sequence[int], seconds: float
+) -> list[Element]:
     """Arrows that follow their points and change with the motion."""
     found: list[Element] = []
     for name in family.values:
         ends = [family.ends(name, index, scene.machine.view, scale) for index in frames]
-        shown = [(0.0 * scene.machine.view.paper(np.zeros(2)),) * 2 if each is None else each for each in ends]
+        shown = [(np.zeros(2),) * 2 if each is None else each for each in ends]
         pairs = [arrow_points((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))) for a, b in shown]
         for kind, points in (("line", [p[0] for p in pairs]), ("head", [p[1] for p in pairs])):
             texts = [coordinates(each) for each in points]

@@ -11,7 +11,7 @@ from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.element import Floats
-from linkwright.plot.symbols.base import Vec
+from linkwright.plot.symbols.base import Vec, points
 
 LINK_SIZE = 12.0
 
@@ -47,7 +47,7 @@ def _middle_of_ink(scene: Scene, link: str, cloud: Floats) -> Floats:
     if not ink:
         return cloud
     everything = np.concatenate(ink)
-    return (everything.min(axis=0) + everything.max(axis=0))[None, :] / 2
+    return points([(everything.min(axis=0) + everything.max(axis=0)) / 2])
 
 
 def _anchors(cloud: Floats) -> tuple[Vec, ...]:

@@ -34,7 +34,9 @@ class Panel:
 
     def cursor(self, x: float = 0.0) -> Element:
         """The cursor at x."""
-        return element("line", {"class": "lw-input-line", "x1": x, "x2": x, "y1": self.top, "y2": self.bottom})
+        return element(
+            "line", {"class": "lw-input-line", "x1": x, "x2": x, "y1": self.top, "y2": self.bottom}
+        )
 
 
 def panel(columns: Mapping[str, Floats], wanted: Sequence[str], box: Box) -> Panel | None:

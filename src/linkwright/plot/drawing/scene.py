@@ -38,8 +38,13 @@ class Scene:
         """The elements of the machine at one position."""
         links = tuple(self.machine.motion.mechanism.links)
         return [
-            group((e for p in parts for e in p.shape.elements), f"lw-{layer}", transform=self._transform(link, index))
+            group(
+                (e for p in parts for e in p.shape.elements),
+                f"lw-{layer}",
+                transform=self._transform(link, index),
+            )
             for layer, link, parts in self.layered(links if moving_only else None)
+            if not (moving_only and layer == "marks")
         ]
 
     def ink(self, index: int, *, moving_only: bool = False) -> list[Floats]:
@@ -47,7 +52,7 @@ class Scene:
         return [
             moved(line, self.machine.view.transform(self.machine.placed[part.carrier], index))
             for part in self.parts
-            if not (moving_only and part.carrier == "frame")
+            if not (moving_only and (part.carrier == "frame" or part.layer == "marks"))
             for line in part.shape.ink
         ]
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.view import View
 from linkwright.plot.svg.element import Floats
@@ -56,7 +57,8 @@ class Vectors:
         """All arrows at one position; ``scale``: units of the paper per SI unit."""
         ends = [each for name in self.values if (each := self.ends(name, index, view, scale)) is not None]
         return joined(
-            SYMBOLS["arrow"](start=tuple(map(float, a)), end=tuple(map(float, b)), style=self.style) for a, b in ends
+            SYMBOLS["arrow"](start=tuple(map(float, a)), end=tuple(map(float, b)), style=self.style)
+            for a, b in ends
         )
 
 
@@ -118,10 +120,9 @@ def reactions(forces: Forces, names: Sequence[str] | None) -> Vectors:
 
 def _joint_place(motion: Motion, joint: str, on: str) -> Floats:
     found = motion.mechanism.joints[joint]
-    if isinstance(found, RevoluteJoint):
-        return _position(motion, f"{on}.{joint}")
-    block = found.joined[1]
-    return _position(motion, f"{block}.{found.at}")
+    if isinstance(found, PrismaticJoint | WeldJoint):
+        return _position(motion, f"{found.joined[1]}.{found.at}")
+    return _position(motion, f"{on}.{joint}")
 
 
 def _position(motion: Motion, name: str) -> Floats:

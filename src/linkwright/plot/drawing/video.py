@@ -20,7 +20,9 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     small = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures]
     stream = io.BytesIO()
     duration = max(20, round(1000 * seconds_per_frame))
-    small[0].save(stream, "GIF", save_all=True, append_images=small[1:], duration=duration, loop=0, optimize=False)
+    small[0].save(
+        stream, "GIF", save_all=True, append_images=small[1:], duration=duration, loop=0, optimize=False
+    )
     return stream.getvalue()
 
 
@@ -37,7 +39,9 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
         track: Any = None
         for each in frames:
             picture = Image.open(io.BytesIO(each)).convert("RGB")
-            even = picture.crop((0, 0, picture.width - picture.width % 2, picture.height - picture.height % 2))
+            even = picture.crop(
+                (0, 0, picture.width - picture.width % 2, picture.height - picture.height % 2)
+            )
             if track is None:
                 track = container.add_stream("libx264", rate=rate)
                 track.width, track.height, track.pix_fmt = even.width, even.height, "yuv420p"

@@ -41,7 +41,7 @@ class Placement:
 def placements(motion: Motion) -> dict[str, Placement]:
     """Placement of every link, the frame included."""
     still = np.zeros((motion.steps, 2))
-    found = {"frame": Placement(still, still + (1.0, 0.0))}
+    found = {"frame": Placement(still, still + np.array([1.0, 0.0]))}
     for name, link in motion.mechanism.links.items():
         direction = motion.link(name).direction
         point, (x, y) = next(iter(link.points.items()))
@@ -77,7 +77,9 @@ def moved(points: Floats, transform: tuple[float, float, float]) -> Floats:
     """Points of a link's piece of paper on the paper."""
     x, y, turn = transform
     c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
-    return np.stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1)
+    return np.stack(
+        [x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1
+    )
 
 
 def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
@@ -92,7 +94,9 @@ def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
     low, high = everything.min(axis=0), everything.max(axis=0)
     diagonal = float(np.hypot(*(high - low))) or 1.0
     scale = DIAGONAL / diagonal
-    shortest = min((length for link in mechanism.links.values() for length in _bars(link.points)), default=diagonal)
+    shortest = min(
+        (length for link in mechanism.links.values() for length in _bars(link.points)), default=diagonal
+    )
     scale *= float(np.clip(SHORTEST_BAR / (shortest * scale), 1.0, 1.6))
     return View(scale)
 

@@ -63,6 +63,8 @@ def check_fonts(text: str, given: Sequence[Path]) -> None:
     if given:
         return
     if needs_chinese(text) and not chinese_fonts(system_fonts()):
-        raise LinkwrightError(f"the picture has Chinese text, and no font with Chinese characters was found; {remedy}")
+        raise LinkwrightError(
+            f"the picture has Chinese text, and no font that can write it was found; {remedy}"
+        )
     if "<text" in text and not system_fonts():
         raise LinkwrightError(f"the picture has text, and no font was found; {remedy}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,10 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     try:
         return bytes(
             resvg_py.svg_to_bytes(
-                svg_string=svg, font_files=[str(file) for file in files], sans_serif_family="DejaVu Sans", **size
+                svg_string=svg,
+                font_files=[str(file) for file in files],
+                sans_serif_family="DejaVu Sans",
+                **size,
             )
         )
     except ValueError as problem:
@@ -39,17 +43,16 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
 def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
     """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package."""
     try:
-        import typst
+        typst: Any = importlib.import_module("typst")
     except ImportError:
         raise LinkwrightError("PDF pictures need typst; install linkwright[plot]") from None
     files = _font_files(fonts)
     check_fonts(svg, files)
-    source = "#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: \"svg\")\n"
-    made = typst.compile(
-        source.encode(), sys_inputs={"svg": svg}, font_paths=[str(file.parent) for file in files], format="pdf"
+    source = (
+        '#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")\n'
     )
-    assert isinstance(made, bytes)
-    return made
+    folders = [str(file.parent) for file in files]
+    return bytes(typst.compile(source.encode(), sys_inputs={"svg": svg}, font_paths=folders, format="pdf"))
 
 
 def save_picture(svg: str, path: str | Path, **options: Any) -> Path:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from linkwright.plot.svg.element import Element, element
+from linkwright.plot.svg.element import Attribute, Element, element
 
 NARROW = frozenset("iljtfrI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
@@ -45,5 +45,12 @@ def text_element(x: float, y: float, name: str, style: str, size: float, anchor:
     content: list[Element | str] = [stem]
     if index:
         content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.7 * size}, index))
-    place = {"class": style, "x": x, "y": y, "font-size": size}
-    return element("text", place | ({} if anchor == "start" else {"text-anchor": anchor}), *content)
+    side = None if anchor == "start" else anchor
+    place: dict[str, Attribute | None] = {
+        "class": style,
+        "x": x,
+        "y": y,
+        "font-size": size,
+        "text-anchor": side,
+    }
+    return element("text", place, *content)

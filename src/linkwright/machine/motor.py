@@ -1,0 +1,35 @@
+"""Motor power from the mean torque of a cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkwright.errors import LinkwrightError
+
+
+@dataclass(frozen=True)
+class Motor:
+    """``mean_torque`` N·m on the input and ``mean_power`` W there; ``power`` W that the motor must have."""
+
+    mean_torque: float
+    mean_power: float
+    efficiency: float
+    margin: float
+
+    @property
+    def power(self) -> float:
+        """margin · mean power / efficiency, W."""
+        return self.margin * self.mean_power / self.efficiency
+
+
+def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: float = 1.0) -> Motor:
+    """Motor for a mean torque (N·m) at a speed (rad/s) of the input.
+
+    ``efficiency`` of everything between motor and input, above 0 and up to 1; ``margin`` ≥ 1 on the power.
+    Raises LinkwrightError for values out of range.
+    """
+    if not 0 < efficiency <= 1:
+        raise LinkwrightError(f"the efficiency is {efficiency:g}; give a value above 0 and up to 1")
+    if not margin >= 1:
+        raise LinkwrightError(f"the margin on the motor's power is {margin:g}; give 1 or more")
+    return Motor(mean_torque, mean_torque * speed, efficiency, margin)

@@ -1,0 +1,49 @@
+"""All design numbers of a result, or those asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.table import MetricsTable
+
+
+def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -> MetricsTable:
+    """Design numbers of a motion, or of forces (which have those of the motion as well).
+
+    Args:
+        result: from ``solve_motion`` or ``solve_forces``.
+        names: which ones; None for all that apply. Asked for by name, a number that does not apply is an error.
+
+    Returns:
+        The table; extreme values are those of the continuous cycle, refined between the solved positions wherever
+        the positions follow the drivers' laws and pass no change point (``exact`` says so per value).
+
+    Raises:
+        UnknownName: there is no such number (the nearest one is offered).
+        LinkwrightError: a number that was asked for by name does not apply.
+    """
+    analysis = Analysis.of(result)
+    asked = None if names is None else [names] if isinstance(names, str) else list(names)
+    rows: list[MetricValue] = []
+    skipped: list[str] = []
+    for name in METRICS if asked is None else dict.fromkeys(asked):
+        metric = METRICS[name]()
+        if metric.applies(analysis):
+            rows += metric.evaluate(analysis)
+        elif asked is None:
+            skipped.append(name)
+        else:
+            raise LinkwrightError(_refusal(name, analysis))
+    return MetricsTable(analysis.motion.mechanism.name, rows, skipped)
+
+
+def _refusal(name: str, analysis: Analysis) -> str:
+    title = analysis.motion.mechanism.name
+    if METRICS[name].needs_forces and analysis.forces is None:
+        return f'"{name}" needs the joint forces of {title!r}; give it the result of solve_forces'
+    return f'"{name}" does not apply to {title!r}: {METRICS[name]().meaning}'

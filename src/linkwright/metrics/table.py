@@ -1,0 +1,130 @@
+"""The table of design numbers of a result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+from unicodedata import east_asian_width
+
+from linkwright.errors import LinkwrightError
+from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.registry import nearest
+from linkwright.words import say
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class MetricsTable(Sequence[MetricValue]):
+    """Values of design numbers, in rows.
+
+    ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
+    ``table.value("stroke")``: the governing value (the worst of its subjects where a direction is better, else the
+    only or first one). ``skipped``: names that were not asked for by name and do not apply.
+    """
+
+    def __init__(self, title: str, rows: Sequence[MetricValue], skipped: Sequence[str] = ()) -> None:
+        self.title = title
+        self.rows = tuple(rows)
+        self.skipped = tuple(skipped)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the numbers in the table, in order."""
+        return tuple(dict.fromkeys(row.metric for row in self.rows))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences about what needs attention, each with its subject."""
+        return self.warnings_in("en")
+
+    def warnings_in(self, language: str) -> tuple[str, ...]:
+        """The same in a language."""
+        return tuple(f"{row.subject}: {w.text(language)}" for row in self.rows for w in row.warnings)
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return self._of(key)
+        if isinstance(key, tuple):
+            return self._one(*key)
+        return self.rows[key]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[MetricValue]:
+        return iter(self.rows)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.names if isinstance(key, str) else key in self.rows
+
+    def value(self, name: str, subject: str | None = None) -> float:
+        """SI value of a number: of a subject, or the governing one. Raises LinkwrightError for unknown names."""
+        if subject is not None:
+            return self._one(name, subject).value
+        values = [row.value for row in self._of(name)]
+        better = METRICS[name].better
+        return values[0] if better is None else min(values) if better == "higher" else max(values)
+
+    def _of(self, name: str) -> tuple[MetricValue, ...]:
+        found = tuple(row for row in self.rows if row.metric == name)
+        if found:
+            return found
+        METRICS[name]
+        raise LinkwrightError(f'"{name}" is not in the table: it does not apply to {self.title!r}, or was not asked for')
+
+    def _one(self, name: str, subject: str) -> MetricValue:
+        rows = self._of(name)
+        for row in rows:
+            if row.subject == subject:
+                return row
+        subjects = [row.subject for row in rows]
+        offer = nearest(subject, subjects)
+        hint = f'did you mean "{offer}"?' if offer else f"there is {', '.join(subjects)}"
+        raise LinkwrightError(f'"{name}" has no value for "{subject}"; {hint}')
+
+    def text(self, language: str = "en") -> str:
+        """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
+        head = [say(f"metrics.column.{name}", language) for name in ("metric", "subject", "value", "unit", "at")]
+        lines = [head, *(self._cells(row, language) for row in self.rows)]
+        text = _aligned(lines, "<<><>")
+        warnings = [f"! {warning}" for warning in self.warnings_in(language)]
+        return "\n".join([self.title, "", *text, *([""] if warnings else []), *warnings])
+
+    def _cells(self, row: MetricValue, language: str) -> list[str]:
+        label = METRICS[row.metric]().label_in(language)
+        at = "" if row.at is None else shown(row.at, row.at_dimension)
+        value = number(row.value, row.dimension)
+        return [label, row.subject, value, shown_unit(row.dimension), at]
+
+    def data(self) -> list[dict[str, Any]]:
+        """Plain data, SI, one mapping per row."""
+        return [row.data() for row in self.rows]
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The rows as a table; needs pandas. Raises LinkwrightError without it."""
+        try:
+            import pandas
+        except ImportError:
+            raise LinkwrightError("tables need pandas; install it: pip install linkwright[notebook]") from None
+        return pandas.DataFrame(self.data())
+
+    def __repr__(self) -> str:
+        return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"
+
+
+def _aligned(rows: Sequence[Sequence[str]], align: str) -> list[str]:
+    widths = [max(_width(row[i]) for row in rows) for i in range(len(align))]
+    lines = []
+    for row in rows:
+        cells = []
+        for text, width, side in zip(row, widths, align, strict=True):
+            space = " " * (width - _width(text))
+            cells.append(space + text if side == ">" else text + space)
+        lines.append("  ".join(cells).rstrip())
+    return lines
+
+
+def _width(text: str) -> int:
+    return sum(2 if east_asian_width(character) in "WF" else 1 for character in text)

@@ -1,0 +1,95 @@
+"""Animations: frames, keyframes of the SVG, files."""
+
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.plot.animation import animate
+from linkwright.plot.drawing.frames import frame_indices
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def crusher() -> lw.Motion:
+    return lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=72)
+
+
+def test_closed_cycle_goes_round(crusher: lw.Motion) -> None:
+    run = frame_indices(crusher, 24)
+    assert run == [*range(0, 72, 3), 0]
+
+
+def test_open_cycle_goes_to_and_fro() -> None:
+    run = frame_indices(lw.solve_motion(lw.load("gallery:peaucellier"), steps=40), 20)
+    assert run == run[::-1] and run[0] == 0 and max(run) == 40
+
+
+def test_positions_that_were_not_reached_are_left_out() -> None:
+    motion = lw.solve_motion(lw.load("gallery:slider_crank_inline"), steps=20)
+    motion.__dict__["ok"] = np.array([3 <= k < 15 for k in range(20)])
+    assert set(frame_indices(motion, 60)) == set(range(3, 15))
+
+
+def test_keyframes_follow_the_links(crusher: lw.Motion) -> None:
+    root = ET.fromstring(animate(crusher, frames=24, labels=False).svg)
+    turns = [
+        [float(x) for x in e.get("values", "").split(";")]
+        for e in root.iter(f"{SVG}animateTransform")
+        if e.get("type") == "rotate"
+    ]
+    assert all(len(each) == 25 for each in turns)
+    crank = next(each for each in turns if abs(each[-1] - each[0]) > 300)
+    assert crank[-1] - crank[0] == pytest.approx(360.0, abs=0.02)  # the crank turns clockwise
+    jaw = np.degrees(crusher.link("jaw").angle)[[*range(0, 72, 3), 0]]
+    assert any(np.allclose(np.diff(each), -np.diff(jaw), atol=0.02) for each in turns)
+    assert {e.get("repeatCount") for e in root.iter(f"{SVG}animateTransform")} == {"indefinite"}
+
+
+def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
+    forces = lw.solve_forces(crusher)
+    animation = animate(crusher, traces=("B",), forces=forces, curves=("jaw.angle",), frames=12, seconds=3)
+    root = ET.fromstring(animation.svg)
+    durations = {e.get("dur") for e in root.iter() if e.get("dur")}
+    assert durations == {"3s"}
+    assert any(e.get("class") == "lw-dot" for e in root.iter())
+    assert any(e.get("attributeName") == "points" for e in root.iter(f"{SVG}animate"))
+    assert any("jaw.angle [rad]" in "".join(e.itertext()) for e in root.iter(f"{SVG}text"))
+    assert ET.fromstring(animation.frame(30)).get("viewBox") == root.get("viewBox")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"frames": 1}, "1 frames"),
+        ({"seconds": 0.0}, "0.0 s"),
+        ({"traces": ("Q",)}, "Q"),
+        ({"curves": ("jaw.angel",)}, "jaw.angle"),
+    ],
+)
+def test_what_is_refused(crusher: lw.Motion, options: dict[str, object], words: str) -> None:
+    with pytest.raises(lw.LinkwrightError, match=re.escape(words)):
+        _ = animate(crusher, **options).svg  # type: ignore[arg-type]
+
+
+def test_files(crusher: lw.Motion, tmp_path: Path) -> None:
+    pytest.importorskip("resvg_py")
+    image = pytest.importorskip("PIL.Image")
+    animation = animate(crusher, frames=6, seconds=0.4)
+    seen: list[tuple[int, int]] = []
+    animation.save(tmp_path / "a.gif", width=160, progress=lambda done, count: seen.append((done, count)))
+    assert seen == [(k, 6) for k in range(1, 7)]
+    with image.open(tmp_path / "a.gif") as picture:
+        assert picture.n_frames == 6 and picture.width == 160
+    av = pytest.importorskip("av")
+    animation.save(tmp_path / "a.mp4", width=161)
+    with av.open(str(tmp_path / "a.mp4")) as film:
+        assert film.streams.video[0].width == 160
+        assert sum(1 for _ in film.decode(video=0)) == 10
+    assert {file.name for file in tmp_path.iterdir()} == {"a.gif", "a.mp4"}
+    with pytest.raises(lw.LinkwrightError, match="no kind of animation"):
+        animation.save(tmp_path / "a.avi")
