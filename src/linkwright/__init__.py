@@ -1,21 +1,68 @@
 """Linkwright: analysis and design of planar machines."""
 
-from linkwright.errors import Finding as Finding
-from linkwright.errors import LinkwrightError as LinkwrightError
-from linkwright.errors import ModelError as ModelError
-from linkwright.kinematics import Motion as Motion
-from linkwright.kinematics import PositionError as PositionError
-from linkwright.kinematics import solve_motion as solve_motion
-from linkwright.kinetostatics import Balancing as Balancing
-from linkwright.kinetostatics import Forces as Forces
-from linkwright.kinetostatics import balance as balance
-from linkwright.kinetostatics import solve_forces as solve_forces
-from linkwright.model.file import check as check
-from linkwright.model.file import load as load
-from linkwright.model.file import loads as loads
-from linkwright.model.mechanism import Mechanism as Mechanism
-from linkwright.structure import Structure as Structure
-from linkwright.structure import StructureError as StructureError
-from linkwright.structure import structure as structure
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.errors import Finding as Finding
+    from linkwright.errors import LinkwrightError as LinkwrightError
+    from linkwright.errors import ModelError as ModelError
+    from linkwright.kinematics import Motion as Motion
+    from linkwright.kinematics import Outcome as Outcome
+    from linkwright.kinematics import PositionError as PositionError
+    from linkwright.kinematics import solve_motion as solve_motion
+    from linkwright.kinematics.input_range import input_range as input_range
+    from linkwright.kinematics.limits import LimitPosition as LimitPosition
+    from linkwright.kinematics.limits import limit_positions as limit_positions
+    from linkwright.kinetostatics.balancing import Balancing as Balancing
+    from linkwright.kinetostatics.balancing import balance as balance
+    from linkwright.kinetostatics.forces import Forces as Forces
+    from linkwright.kinetostatics.forces import solve_forces as solve_forces
+    from linkwright.machine import SteadyRunning as SteadyRunning
+    from linkwright.machine import TorqueCurve as TorqueCurve
+    from linkwright.machine import steady_running as steady_running
+    from linkwright.metrics import MetricsTable as MetricsTable
+    from linkwright.metrics import metrics as metrics
+    from linkwright.model.build import Model as Model
+    from linkwright.model.file import check as check
+    from linkwright.model.file import dump as dump
+    from linkwright.model.file import gallery_names as gallery_names
+    from linkwright.model.file import load as load
+    from linkwright.model.file import loads as loads
+    from linkwright.model.file import read_document as read_document
+    from linkwright.model.mechanism import Mechanism as Mechanism
+    from linkwright.model.schema import json_schema as json_schema
+    from linkwright.structure import Structure as Structure
+    from linkwright.structure import StructureError as StructureError
+    from linkwright.structure import structure as structure
+    from linkwright.study.designs import Sweep as Sweep
+    from linkwright.study.designs import sweep as sweep
+    from linkwright.study.prepared import Prepared as Prepared
+    from linkwright.study.prepared import prepare as prepare
+    from linkwright.study.sensitivity import Sensitivity as Sensitivity
+    from linkwright.study.sensitivity import sensitivity as sensitivity
 
 __version__ = "0.1.0"
+
+#: Public names by the module that has them.
+PUBLIC = {
+    "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
+    "linkwright.kinematics": ("Motion", "Outcome", "PositionError", "solve_motion"),
+    "linkwright.kinematics.input_range": ("input_range",),
+    "linkwright.kinematics.limits": ("LimitPosition", "limit_positions"),
+    "linkwright.kinetostatics.balancing": ("Balancing", "balance"),
+    "linkwright.kinetostatics.forces": ("Forces", "solve_forces"),
+    "linkwright.machine": ("SteadyRunning", "TorqueCurve", "steady_running"),
+    "linkwright.metrics": ("MetricsTable", "metrics"),
+    "linkwright.model.build": ("Model",),
+    "linkwright.model.file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
+    "linkwright.model.mechanism": ("Mechanism",),
+    "linkwright.model.schema": ("json_schema",),
+    "linkwright.structure": ("Structure", "StructureError", "structure"),
+    "linkwright.study.designs": ("Sweep", "sweep"),
+    "linkwright.study.prepared": ("Prepared", "prepare"),
+    "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
+}
+
+offer(__name__, PUBLIC)

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 RUN = [sys.executable, "-c", "import sys; from linkwright.cli import main; sys.exit(main())"]
 
 
@@ -49,3 +51,21 @@ def test_a_narrow_encoding_does_not_break_the_output() -> None:
     )
     assert done.returncode == 0, done.stderr
     assert b"rad/s" in done.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+@pytest.mark.parametrize(
+    ("setting", "coloured"), [({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)]
+)
+def test_colours_only_on_a_terminal_that_wants_them(setting: dict[str, str], coloured: bool) -> None:
+    environment = {**os.environ, "TERM": "xterm", **setting}
+    if "NO_COLOR" not in setting:
+        environment.pop("NO_COLOR", None)
+    main_end, far_end = os.openpty()
+    with subprocess.Popen([*RUN, "gallery", "list", "kite"], stdout=far_end, env=environment) as process:
+        os.close(far_end)
+        shown = os.read(main_end, 10_000)
+    os.close(main_end)
+    assert process.returncode == 0
+    assert (b"\x1b[1mkite" in shown) == coloured
+    assert b"kite" in shown

@@ -42,11 +42,13 @@ def test_drawing_needs_nothing_from_outside(motion: lw.Motion) -> None:
     assert style is not None and "url(" not in (style.text or "") and "@import" not in (style.text or "")
 
 
-def test_labels_keep_clear_of_each_other(motion: lw.Motion) -> None:
+def test_labels_keep_clear_of_lines_and_of_each_other(motion: lw.Motion) -> None:
     for index in np.flatnonzero(motion.ok)[:: max(1, int(motion.ok.sum()) // 3)]:
         scene = laid_out(motion, int(index))
         labels = [*point_labels(scene.machine, int(index)), *link_labels(scene, int(index))]
-        boxes = np.array([each.box for each in place(labels, Obstacles.of(scene.ink(int(index))))])
+        ink = Obstacles.of(scene.ink(int(index)))
+        boxes = np.array([each.box for each in place(labels, ink)])
+        assert not [label.text for label, under in zip(labels, ink.under(boxes), strict=True) if under > 0]
         for k, box in enumerate(boxes):
             others = np.delete(boxes, k, axis=0)
             wide = np.minimum(box[2], others[:, 2]) - np.maximum(box[0], others[:, 0])

@@ -12,13 +12,13 @@ import linkwright
 
 ROOT = Path(linkwright.__file__).parent
 STAGES = (
-    ("errors", "units", "registry", "references", "words", "gallery", "engine"),
+    ("errors", "units", "registry", "lazy", "references", "words", "gallery", "engine"),
     ("model", "joints", "drivers", "loads"),
     ("structure",),
     ("groups",),
     ("kinematics",),
     ("kinetostatics",),
-    ("metrics", "machine"),
+    ("metrics", "machine", "worked"),
     ("study", "synthesis", "cams", "parts"),
     ("report", "plot", "export"),
     ("cli", "server"),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.plot.animation import animate
 from linkwright.plot.drawing import Drawing, draw
 from linkwright.plot.drawing.limits import limit_positions
 from linkwright.plot.drawing.vectors import round_length, with_unit
@@ -196,6 +197,36 @@ driver: {turn: bar, about: O, speed: 1 rad/s}
     title = ET.fromstring(drawing.svg).find(f"{SVG}title")
     assert title is not None and title.text is not None and 'a < b & "c" </svg>' in title.text
     assert "铰链α" in texts(drawing)
+
+
+WELDED = """
+format: 1
+name: Weld, spring, damper, torque
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m], H: [5 m, 2 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 3.5 m}
+  arm: {points: [B, Q], length: 1.4 m}
+  rocker: {points: [O2, Q], length: 2.6 m, also: {R: [1.2 m, 0 m]}}
+joints:
+  fixed: {kind: weld, links: [coupler, arm], at: B, angle: 60 deg}
+driver: {turn: crank, about: O1, speed: 10 rad/s}
+loads:
+  pull: {kind: spring, between: [frame.H, rocker.R], stiffness: 100 N/m, free_length: 1 m}
+  brake: {kind: damper, between: [frame.O1, coupler.B], damping: 100 N·s/m}
+  drag: {kind: torque, on: rocker, magnitude: -3 N·m}
+  coil: {kind: torsion_spring, links: [frame, crank], stiffness: 3 N·m/rad, free_angle: 0 deg}
+"""
+
+
+def test_weld_springs_and_torques_have_symbols() -> None:
+    found = classes(draw(lw.loads(WELDED)))
+    assert found.count("lw-weld") == 1
+    assert found.count("lw-spring") == 1 + 4 + 1
+    assert found.count("lw-load-head") == 1
+    animation = animate(lw.loads(WELDED), frames=6)
+    moving = [e for e in ET.fromstring(animation.svg).iter(f"{SVG}polyline") if e.get("class") == "lw-spring"]
+    assert len(moving) == 1 + 4 + 1
 
 
 def test_size_is_the_longer_side(crusher: lw.Motion) -> None:

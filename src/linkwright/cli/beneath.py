@@ -105,7 +105,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         places = [say("solve.at", place=input_text(solved, place, degrees=degrees)) for place in (high, low)]
         said = say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
                    high_at=places[0], low_at=places[1])  # fmt: skip
-        if solved.whole_cycle and solved.motion.ok.all():
+        if solved.motion.positions.closed and solved.motion.ok.all():
             said += say("solve.effort_mean", mean=number(float(values[:-1].mean())), unit=unit)
         rows.append(said)
     return rows

@@ -65,24 +65,14 @@ def _output_guides(mechanism: Mechanism) -> list[str]:
 
 
 def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
-    """Links joined to the frame by a pin, the last solved first; then the others; driven and sliding ones last."""
+    """Links that turn: those joined to the frame, the last solved first; then the others; driven ones last."""
     order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
     driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
-    sliding = {
-        link
-        for joint in mechanism.joints.values()
-        if isinstance(joint, PrismaticJoint) and "frame" in joint.joined
-        for link in joint.joined
-    }
-    hinged = {
-        link for joint in mechanism.joints.values() if "frame" in joint.joined for link in joint.joined
-    } - sliding
+    at_frame = [joint for joint in mechanism.joints.values() if "frame" in joint.joined]
+    sliding = {link for joint in at_frame if isinstance(joint, PrismaticJoint) for link in joint.joined}
+    hinged = {link for joint in at_frame for link in joint.joined}
 
     def rank(link: str) -> int:
-        if link in sliding:
-            return 3
-        if link in driven:
-            return 2
-        return 0 if link in hinged else 1
+        return 2 if link in driven else 0 if link in hinged else 1
 
-    return sorted(order, key=rank)
+    return sorted((link for link in order if link not in sliding), key=rank)

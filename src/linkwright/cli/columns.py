@@ -103,10 +103,10 @@ def fitting(
     fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int
 ) -> list[list[Column]]:
     """The first of the blocks (columns that belong together) that fit beside the fixed ones; at least ``least``."""
-    used = sum(column_width(column, say) + len(GAP) for column in fixed) - len(GAP)
+    used = total_width(fixed, say)
     chosen: list[list[Column]] = []
     for block in blocks:
-        wide = sum(column_width(column, say) + len(GAP) for column in block)
+        wide = len(GAP) + total_width(block, say)
         if len(chosen) >= least and used + wide > width:
             break
         used += wide
@@ -114,9 +114,18 @@ def fitting(
     return chosen
 
 
-def column_width(column: Column, say: Say) -> int:
-    """Cells that a column takes in the table, under its own words."""
-    return max(shown_width(text) for text in [*column.cells(), label(column, say), column.unit])
+def total_width(columns: Sequence[Column], say: Say) -> int:
+    """Cells that columns take side by side, under their owners and words."""
+    widths = _widths(columns, say)
+    _owner_line(columns, widths)
+    return sum(widths) + len(GAP) * (len(widths) - 1)
+
+
+def _widths(columns: Sequence[Column], say: Say) -> list[int]:
+    return [
+        max(shown_width(text) for text in [*column.cells(), label(column, say), column.unit])
+        for column in columns
+    ]
 
 
 def label(column: Column, say: Say) -> str:
@@ -131,10 +140,7 @@ def table(columns: Sequence[Column], say: Say) -> list[str]:
     """Lines of the table: owners, quantities, units, values."""
     labels = [label(column, say) for column in columns]
     cells = [column.cells() for column in columns]
-    widths = [
-        max(shown_width(text) for text in [*body, name, column.unit])
-        for body, name, column in zip(cells, labels, columns, strict=True)
-    ]
+    widths = _widths(columns, say)
     owners = _owner_line(columns, widths)
     lines = [owners] if owners.strip() else []
     for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
@@ -145,7 +151,7 @@ def table(columns: Sequence[Column], say: Say) -> list[str]:
 
 
 def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
-    """Names over the columns that belong to them; a name wider than its columns makes the last one wider."""
+    """Names over the columns that belong to them; a name wider than its columns widens the first of them."""
     parts: list[str] = []
     start = 0
     while start < len(columns):
@@ -158,7 +164,8 @@ def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
         if lacking > 0:
             widths[start] += lacking
             span += lacking
-        rule = f" {owner} " if owner and span >= shown_width(owner) + 4 else owner
+        wide = owner and end - start > 1 and span >= shown_width(owner) + 4
+        rule = f" {owner} " if wide else owner
         parts.append(_ruled(rule, span) if rule != owner else padded(owner, span, ">"))
         start = end
     return GAP.join(parts).rstrip()

@@ -36,7 +36,6 @@ class Solved:
     rows: NDArray[np.intp]
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
-    whole_cycle: bool = False
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -75,8 +74,7 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
             forces = solve_forces(motion, static=options.static)
         except LinkwrightError as error:
             trouble = error
-    cycle = options.at is None and options.times is None
-    return Solved(motion, forces, rows, tuple(warnings), trouble, cycle)
+    return Solved(motion, forces, rows, tuple(warnings), trouble)
 
 
 def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:

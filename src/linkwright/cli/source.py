@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.file import _read, read_text
+from linkwright.model.file import read_source, read_text
 from linkwright.model.mechanism import Mechanism
 
 
 def read_model(source: str) -> tuple[Mechanism, list[Finding]]:
     """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError."""
-    mechanism, findings = read_text(*_read(source))
+    mechanism, findings = read_text(*read_source(source))
     if mechanism is None:
         raise ModelError(findings)
     return mechanism, findings

@@ -15,7 +15,7 @@ from typing import Protocol
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.registry import Registry
-from linkwright.units import format
+from linkwright.units import number
 
 
 @dataclass(frozen=True)
@@ -73,4 +73,4 @@ DYADS: Registry[type[Dyad]] = Registry("Assur group", "linkwright.groups")
 
 def shown_length(value: float) -> str:
     """A length as sentences print it."""
-    return format(value, "length")
+    return f"{number(value, 7)} m"

@@ -99,7 +99,11 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
     for name, (q, rate, second) in positions.coordinates.items():
         ahead = 2 * q[-1] - q[-2]
         turns = np.round((ahead - q[0]) / (2 * np.pi)) if positions.rotary[name] else 0.0
-        rows[name] = [np.append(q, q[0] + 2 * np.pi * turns), np.append(rate, rate[0]), np.append(second, second[0])]
+        rows[name] = [
+            np.append(q, q[0] + 2 * np.pi * turns),
+            np.append(rate, rate[0]),
+            np.append(second, second[0]),
+        ]
 
     def mixed(place: Floats) -> Positions:
         between = {name: tuple(np.interp(place, index, row) for row in each) for name, each in rows.items()}
@@ -152,7 +156,8 @@ class _Search:
                 found.append(self._passage(group, place, least, "gap"))
         for name in distance:
             largest = float(np.nanmax(rows[name], initial=0.0))
-            for low, high in self._valleys(rows[name] / (largest or 1.0), NEAR):
+            near = rows[name] < NEAR * largest
+            for low, high in self._valleys(rows[name], NEAR * largest) if near.any() else ():
                 place, least = self._lowest(name, low, high)
                 beside = self._evaluate((quality,), np.array([place - 1e-3, place + 1e-3]))[0]
                 if least <= MEETING * largest and (beside > TOUCH).all():
@@ -211,9 +216,7 @@ class _Search:
         if states and not at_positions:
             index = np.arange(n + 1.0)
             states = {name: np.interp(turn, index, np.append(row, row[0])) for name, row in states.items()}
-        modes = {
-            f"mode:{group}": self._signs(group, turn) for group in self.solver.flipping
-        }
+        modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.flipping}
         return self.solver.evaluate(names, positions, states, modes)
 
     def _signs(self, group: str, place: Floats) -> Floats:
@@ -228,10 +231,10 @@ def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) ->
     return sign
 
 
-def signs(passing: Sequence[Passage], modes: Mapping[str, float], count: int) -> dict[str, Floats]:
-    """Sign of every flipping group's mode per position, the first position as the file says."""
+def signs(passing: Sequence[Passage], modes: Mapping[str, float], place: Floats | int) -> dict[str, Floats]:
+    """Sign of every flipping group's mode at places (or a count of positions), the first one as the file says."""
     groups = dict.fromkeys(p.group for p in passing if p.touches)
-    place = np.arange(float(count))
+    place = np.arange(float(place)) if isinstance(place, int) else place
     return {f"mode:{group}": _sign(passing, group, modes[group], place) for group in groups}
 
 
@@ -271,11 +274,11 @@ def cut_off(codes: Floats, passing: Sequence[Passage], positions: Positions) -> 
     return np.where(good & ~reached, 1.0, 0.0)
 
 
-def mark_meetings(codes: Floats, passing: Sequence[Passage], structure: Structure) -> None:
-    """Outcomes of positions at which the outer pins of a group meet: singular."""
+def mark_singular(codes: Floats, passing: Sequence[Passage], structure: Structure) -> None:
+    """Makes the outcome of positions at which a group's modes or outer pins meet singular, in place."""
     numbers = {group.name: number for number, group in enumerate(structure.groups, 1)}
     for p in passing:
-        if p.kind == "meeting" and p.place.is_integer():
+        if p.touches and p.place.is_integer():
             codes[int(p.place) % len(codes)] = -numbers[p.group]
 
 

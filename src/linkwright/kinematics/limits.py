@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
+from linkwright.kinematics.rank import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import nearest
@@ -87,7 +89,7 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
 
 
 class Between:
-    """A motion evaluated at times between its positions, in the same assembly."""
+    """A motion evaluated at times between its positions, in the same assembly, through its change points."""
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
@@ -99,16 +101,42 @@ class Between:
                     "way between them; find limit positions in a motion over a cycle or at times"
                 )
 
+    @cached_property
+    def passing(self) -> list[Passage]:
+        """Change points of the motion."""
+        motion = self.motion
+        if not motion.modes:
+            return []
+        return [p for p in passages(motion.solver, motion.positions, motion.states) if p.touches]
+
+    @property
+    def closes(self) -> bool:
+        """Whether the last position is followed by the first, in the same assembly."""
+        return self.motion.positions.closed and closes(self.passing)
+
     def evaluate(self, names: tuple[str, ...], before: Indices, time: Floats) -> Floats:
-        """Outputs of the program (names, m) at times a little after the positions ``before``; NaN off reach."""
+        """Outputs of the program (names, m) at times a little after the positions ``before``; NaN out of reach."""
         motion = self.motion
         positions = at_times(motion.mechanism, time)
-        modes = {name: row[before] for name, row in motion.modes.items()}
-        values = motion.solver.evaluate(
-            (*names, "outcome"), positions, self._states(positions, before), modes, motion.design
-        )
-        values[:-1, values[-1] != 0] = np.nan
-        return np.asarray(values[:-1])
+        modes = motion.modes and signs(self.passing, motion.solver.assembly.modes, self.place(time))
+        states = self._states(positions, before)
+        return motion.solver.evaluate(names, positions, states, modes, motion.design)
+
+    def place(self, time: Floats) -> Floats:
+        """Number of the position at these times, counted on in between."""
+        known = self.motion.time
+        if self.motion.positions.closed:
+            known = np.append(known, known[0] + (self.motion.positions.period or 0.0))
+        direction = 1.0 if known[-1] >= known[0] else -1.0
+        return np.interp(direction * time, direction * known, np.arange(float(len(known))))
+
+    def touch(self, low: float, high: float) -> float | None:
+        """The time of a change point between two times, if there is one."""
+        ends = self.place(np.array([low, high]))
+        for p in self.passing:
+            if ends[0] - 1e-3 <= p.place <= ends[1] + 1e-3:
+                return low + (high - low) * float((p.place - ends[0]) / (ends[1] - ends[0] or 1.0))
+        return None
 
     def _states(self, positions: Positions, before: Indices) -> dict[str, Floats]:
         if not self.motion.states:
@@ -116,8 +144,8 @@ class Between:
         found = {name: np.empty(positions.count) for name in self.motion.states}
         for k, index in enumerate(before):
             moved = self._moved(int(index), float(positions.time[k]))
-            for name in found:
-                found[name][k] = moved[name]
+            for name, row in found.items():
+                row[k] = moved[name]
         return found
 
     def _moved(self, index: int, time: float) -> dict[str, float]:
@@ -131,9 +159,7 @@ class Between:
     @cached_property
     def _follower(self) -> Follower:
         motion = self.motion
-        return Follower(
-            motion.mechanism, motion.structure, motion.solver.assembly, motion.design.parameters
-        )
+        return Follower(motion.mechanism, motion.structure, motion.solver.assembly, motion.design.parameters)
 
 
 @dataclass
@@ -168,9 +194,14 @@ class _Search:
         self.value_names, self.rate_names = _program_names(motion.mechanism, output)
         self.between = Between(motion)
         positions = motion.positions
-        self.period = positions.period if positions.closed else None
+        self.period = positions.period if self.between.closes else None
         self.count = positions.count
-        if self.period is not None and abs(motion.time[-1] - motion.time[0]) > self.period * (1 - 1e-9):
+        self.singular = motion.outcome_codes < 0
+        if (
+            positions.closed
+            and positions.period
+            and abs(motion.time[-1] - motion.time[0]) > positions.period * (1 - 1e-9)
+        ):
             self.count -= 1
 
     def limits(self) -> tuple[LimitPosition, ...]:
@@ -207,21 +238,20 @@ class _Search:
         a, b = rate[first], rate[last % self.count]
         everything = Brackets(first, span, zero, one, a, b)
         turning = np.sign(a) != np.sign(b)
-        dips = everything.of(
-            ~turning & _dips(a, b, second[first] * span, second[last % self.count] * span)
-        )
+        dips = everything.of(~turning & _dips(a, b, second[first] * span, second[last % self.count] * span))
         halves = self._split(dips, still) if len(dips.before) else []
         return _joined([everything.of(turning), *halves])
 
     def _neighbours(self, rate: Floats) -> Indices:
         """Pairs of positions next to each other with a rate; the second may be counted past the last one."""
-        moving = np.flatnonzero(rate != 0.0)
+        known = np.isfinite(rate)
+        moving = np.flatnonzero(known & (rate != 0.0))
         if self.period is not None and len(moving):
             moving = np.append(moving, moving[0] + self.count)
         pairs = np.stack([moving[:-1], moving[1:]], axis=1)
-        there = np.isfinite(np.append(rate, rate))
+        there = np.tile(known | self.singular[: self.count], 2)
         whole = [bool(there[i : j + 1].all()) for i, j in pairs]
-        return pairs[np.array(whole, dtype=bool)]
+        return np.asarray(pairs[np.array(whole, dtype=bool)])
 
     def _time(self, index: Indices) -> Floats:
         lap = (index >= self.count) * (self.period or 0.0)
@@ -250,7 +280,7 @@ class _Search:
         return self.between.evaluate(self.rate_names, brackets.before, time)
 
     def _refined(self, brackets: Brackets) -> Floats:
-        """Shares where the rate is zero, by Newton's steps that stay inside the brackets; NaN at a pole."""
+        """Shares where the rate is zero, by Newton's steps inside the brackets; NaN where it is not (a pole)."""
         low, high = brackets.low.copy(), brackets.high.copy()
         a, b = brackets.rate_low, brackets.rate_high
         here = low + (high - low) * a / (a - b)
@@ -266,8 +296,16 @@ class _Search:
             before, here = np.abs(there - here), there
             if (before <= FINE).all():
                 break
-        pole = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
-        return np.where(pole, np.nan, here)
+        lost = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
+        for k in np.flatnonzero(lost):
+            here[k] = self._at_touch(brackets, int(k))
+        return here
+
+    def _at_touch(self, brackets: Brackets, k: int) -> float:
+        """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""
+        start, span = float(self.motion.time[brackets.before[k]]), float(brackets.span[k])
+        touch = self.between.touch(start + span * brackets.low[k], start + span * brackets.high[k])
+        return np.nan if touch is None else (touch - start) / span
 
     def _positions(self, brackets: Brackets, share: Floats) -> tuple[LimitPosition, ...]:
         brackets, share = brackets.of(np.isfinite(share)), share[np.isfinite(share)]
@@ -307,12 +345,6 @@ def _program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...
             return (f"s:{output.owner}",), (f"sv:{output.owner}", f"sa:{output.owner}")
     key = f"{canonical(mechanism, *find_point(mechanism, output.owner))}.{output.kind}"
     return (f"p:{key}",), (f"v:{key}", f"a:{key}")
-
-
-def mechanism_size(mechanism: Mechanism) -> float:
-    """Largest coordinate of a point on a link, m."""
-    links = [mechanism.frame, *mechanism.links.values()]
-    return max([abs(c) for link in links for point in link.points.values() for c in point] + [1e-12])
 
 
 def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:

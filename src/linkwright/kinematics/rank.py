@@ -79,7 +79,9 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     Systems, ch. 5). Raises LinkwrightError if the position is not solved.
     """
     if not motion.ok[index]:
-        raise LinkwrightError(f"position {index} is not solved, so its Jacobian has no rank; choose another one")
+        raise LinkwrightError(
+            f"position {index} is not solved, so its Jacobian has no rank; choose another one"
+        )
     mechanism = motion.mechanism
     system = ConstraintSystem(mechanism)
     here = coordinates(motion, index)
@@ -122,7 +124,7 @@ class ConstraintSystem:
         left = frozenset(without)
         self.mechanism = mechanism
         self.links = [name for name in mechanism.links if name not in left]
-        self.size = _size(mechanism)
+        self.size = mechanism_size(mechanism)
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
         self._joints = [
             (joint, kept)
@@ -231,7 +233,7 @@ class _Pose:
 def coordinates(motion: Motion, index: int) -> Floats:
     """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
     mechanism, found = motion.mechanism, []
-    size = _size(mechanism)
+    size = mechanism_size(mechanism)
     for name, link in mechanism.links.items():
         c, s = motion.link(name).direction[index]
         point, (px, py) = next(iter(link.points.items()))
@@ -244,7 +246,7 @@ def _drawn(mechanism: Mechanism) -> Floats | None:
     drawing = Drawing(mechanism)
     if not drawing:
         return None
-    size, found = _size(mechanism), []
+    size, found = mechanism_size(mechanism), []
     for name, link in mechanism.links.items():
         angle = drawing.angle(name)
         places = ((p, drawing.points.get(f"{name}.{p}", drawing.points.get(p))) for p in link.points)
@@ -257,7 +259,8 @@ def _drawn(mechanism: Mechanism) -> Floats | None:
     return np.array(found)
 
 
-def _size(mechanism: Mechanism) -> float:
+def mechanism_size(mechanism: Mechanism) -> float:
+    """Largest coordinate of a point on its link, m."""
     links = [mechanism.frame, *mechanism.links.values()]
     return max([abs(c) for link in links for point in link.points.values() for c in point] + [1e-12])
 
@@ -298,13 +301,13 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
     mobility = full.freedoms - _rank(full, x, zero)[0]
     keep = {name for driver in mechanism.drivers.values() for name in (driver.link, driver.relative_to)}
     spare: list[str] = []
-    for name in reversed(mechanism.links):
+    for name in reversed(list(mechanism.links)):
         if name in keep or _deficit(full, x, spare, zero) == 0:
             continue
         trial = [*spare, name]
-        if _mobility_without(full, x, trial, zero) == mobility and _deficit(
-            full, x, trial, zero
-        ) < _deficit(full, x, spare, zero):
+        if _mobility_without(full, x, trial, zero) == mobility and _deficit(full, x, trial, zero) < _deficit(
+            full, x, spare, zero
+        ):
             spare = trial
     return tuple(spare)
 
@@ -389,7 +392,11 @@ def _reason(
             f"remove {'them' if many else 'it'}"
         )
     if guides:
-        return f"the guides {', '.join(guides)} close a loop that already prevents rotation ({listed})"
+        many = len(guides) > 1
+        return (
+            f"the guide{'s' if many else ''} {', '.join(guides)} close{'' if many else 's'} a loop in which rotation "
+            f"is already prevented ({listed})"
+        )
     return f"passive constraints ({listed}) demand what other joints already demand, by the special lengths"
 
 
@@ -403,8 +410,4 @@ def _gaping(
         f"Grübler gives {count}; the links do not fit together near the drawing: at best a gap of "
         f"{format(gap * system.size, 'length')} is left, so no link is redundant there"
     )
-    return RankReport(
-        rank, system.freedoms, system.freedoms - count, count, redundant, (), False, said
-    )
-
-
+    return RankReport(rank, system.freedoms, system.freedoms - count, count, redundant, (), False, said)

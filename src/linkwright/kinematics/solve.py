@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright.kinematics.change_points import (
     Passage,
     cut_off,
-    mark_meetings,
+    mark_singular,
     notes,
     passages,
     signs,
@@ -97,7 +97,7 @@ class MotionRun:
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
-        mark_meetings(codes, found, self.solver.structure)
+        mark_singular(codes, found, self.solver.structure)
         barred = cut_off(codes, found, self.positions)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)

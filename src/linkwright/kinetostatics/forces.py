@@ -15,7 +15,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.balance import balance_residual
+from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
@@ -136,7 +136,7 @@ class Forces:
 
     @cached_property
     def balance_residual(self) -> Floats:
-        """Largest gap in the balance of any link, (n,) N, put together again from the results; see ``balance``."""
+        """Largest gap in the balance of any link, (n,) N, put together again from the results; see ``link_balance``."""
         return balance_residual(self)
 
     @cached_property

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.machine.integral import Floats, extremes
+from linkwright.machine.integral import Floats, Function, extremes
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
@@ -49,10 +49,14 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
             f"{'rise' if work.total > 0 else 'fall'} from cycle to cycle; make their mean torques equal "
             f"({driver.mean:.6g} N·m and {load.mean:.6g} N·m)"
         )
-    edges = work.edges
-    low, high = extremes(work, edges[:-1], edges[1:])
-    angle = np.union1d(np.linspace(excess.start, excess.start + excess.period, 361), [low[0], high[0]])
-    return EnergyFluctuation(high[1] - low[1], low[0], high[0], angle, work(angle), work.total)
+    return of_energy(work, work.edges, balance=work.total)
+
+
+def of_energy(energy: Function, edges: Floats, *, balance: float) -> EnergyFluctuation:
+    """The fluctuation of an excess energy E(θ), smooth between ``edges``, which span one period."""
+    low, high = extremes(energy, edges[:-1], edges[1:])
+    angle = np.union1d(np.linspace(edges[0], edges[-1], 361), [low[0], high[0]])
+    return EnergyFluctuation(high[1] - low[1], low[0], high[0], angle, energy(angle), balance)
 
 
 def fluctuation_from_areas(

@@ -10,9 +10,14 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
-#: A cell is halved while its two halves change its integral by more than this share of the whole.
-FINE = 1e-13
+POINTS = 8
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
+ORDERS = np.arange(POINTS)
+#: From values at the nodes to coefficients of Legendre polynomials, (orders, nodes).
+TO_LEGENDRE = (ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS
+#: A cell is halved while that changes its integral, or while its last two orders have more than their share, of the
+#: whole.
+FINE, TAIL = 1e-13, 1e-11
 HALVINGS = 44
 
 
@@ -20,51 +25,64 @@ class Antiderivative:
     """W(x), the integral of a function from ``start`` to x, for start ≤ x ≤ end.
 
     Gauss-Legendre of eight points in cells that are halved until the halves agree, so that a jump costs some forty
-    halvings of its cell and no accuracy. ``knots``: places where the function may kink or jump, if they are known.
+    halvings of its cell and no accuracy; between, the polynomials through the same points.
+    ``knots``: places where the function may kink or jump, if they are known.
     """
 
-    def __init__(self, function: Function, start: float, end: float, *, cells: int = 120, knots: Floats | None = None) -> None:
+    def __init__(
+        self, function: Function, start: float, end: float, *, cells: int = 120, knots: Floats | None = None
+    ) -> None:
         self._function = function
         edges = np.linspace(start, end, cells + 1)
         if knots is not None:
             edges = np.unique(np.append(edges, knots[(knots > start) & (knots < end)]))
-        self.low, parts = self._refined(edges[:-1], edges[1:])
+        self.low, self._orders = self._refined(edges[:-1], edges[1:])
         self.high = np.append(self.low[1:], end)
+        parts = (self.high - self.low) * self._orders[:, 0]
         self._before = np.concatenate([[0.0], np.cumsum(parts)])
         self.total = float(self._before[-1])
 
     def __call__(self, x: Floats) -> Floats:
         """W at places within the range, (n,)."""
         cell = np.clip(np.searchsorted(self.low, x, "right") - 1, 0, len(self.low) - 1)
-        return np.asarray(self._before[cell] + self._gauss(self.low[cell], x))
+        half = 0.5 * (self.high[cell] - self.low[cell])
+        place = np.clip((x - self.low[cell]) / half - 1.0, -1.0, 1.0)
+        known = np.polynomial.legendre.legvander(place, POINTS)
+        gained = np.concatenate([place[:, None] + 1.0, (known[:, 2:] - known[:, :-2]) / (2 * ORDERS[1:] + 1)], axis=1)
+        return np.asarray(self._before[cell] + half * (gained * self._orders[cell]).sum(axis=1))
 
     @property
     def edges(self) -> Floats:
         """Ends of all cells."""
         return np.append(self.low, self.high[-1])
 
-    def _gauss(self, low: Floats, high: Floats) -> Floats:
+    def _legendre(self, low: Floats, high: Floats) -> Floats:
+        """Coefficients of the function in cells, (cells, orders)."""
         half, middle = 0.5 * (high - low), 0.5 * (high + low)
         values = self._function((middle[:, None] + half[:, None] * NODES).ravel()).reshape(len(low), -1)
-        return np.asarray(half * (values @ WEIGHTS))
+        return np.asarray(values @ TO_LEGENDRE.T)
 
     def _refined(self, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-        parts = self._gauss(low, high)
-        done_low, done_parts = [], []
-        scale = float(np.abs(parts).sum())
+        orders = self._legendre(low, high)
+        scale = float(((high - low) * np.abs(orders[:, 0])).sum())
+        kept_low, kept = [], []
         for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            left, right = self._gauss(low, middle), self._gauss(middle, high)
-            good = ~(np.abs(left + right - parts) > FINE * scale)
-            done_low += [low[good], middle[good]]
-            done_parts += [left[good], right[good]]
-            low, high = np.append(low[~good], middle[~good]), np.append(middle[~good], high[~good])
-            parts = np.append(left[~good], right[~good])
+            middle, width = 0.5 * (low + high), high - low
+            halves = self._legendre(np.append(low, middle), np.append(middle, high))
+            left, right = np.split(halves, 2)
+            change = width * np.abs(0.5 * (left[:, 0] + right[:, 0]) - orders[:, 0])
+            tail = width * np.abs(halves[:, -2:]).sum(axis=1).reshape(2, -1).max(axis=0)
+            good = ~((change > FINE * scale) | (tail > TAIL * scale))
+            kept_low += [low[good], middle[good]]
+            kept += [left[good], right[good]]
+            again = ~good
+            low, high = np.append(low[again], middle[again]), np.append(middle[again], high[again])
+            orders = np.concatenate([left[again], right[again]])
             if not len(low):
                 break
-        starts, values = np.concatenate([*done_low, low]), np.concatenate([*done_parts, parts])
-        order = np.argsort(starts, kind="stable")
-        return starts[order], values[order]
+        starts, coefficients = np.concatenate([*kept_low, low]), np.concatenate([*kept, orders])
+        by_place = np.argsort(starts, kind="stable")
+        return starts[by_place], coefficients[by_place]
 
 
 def extremes(function: Function, low: Floats, high: Floats) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -117,11 +117,8 @@ def _linear(x: Floats, y: Floats, theta: Floats) -> Floats:
 
 
 def _expression(text: str) -> Callable[[Floats], Floats]:
-    from linkwright.model.expressions import array_functions, parse_expression
+    from linkwright.model.expressions import array_functions, parse
 
-    read = parse_expression(text)
-    unknown = sorted(read.names - {"theta"})
-    if unknown:
-        raise LinkwrightError(f'"{text}" uses {unknown[0]!r}; a torque curve is an expression of theta (rad)')
+    read = parse(text, ("theta",))
     functions = array_functions()
     return lambda theta: np.broadcast_to(np.asarray(read.evaluate({"theta": theta}, functions), float), theta.shape)

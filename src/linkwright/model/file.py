@@ -25,7 +25,7 @@ def load(source: str | Path) -> Mechanism:
 
     Raises ModelError with all findings where the file cannot be used.
     """
-    text, name = _read(source)
+    text, name = read_source(source)
     return loads(text, name)
 
 
@@ -43,7 +43,7 @@ def loads(text: str, name: str = "<text>") -> Mechanism:
 def check(source: str | Path) -> list[Finding]:
     """All findings about a model file, errors and warnings; never raises for bad content."""
     try:
-        text, name = _read(source)
+        text, name = read_source(source)
     except ModelError as error:
         return list(error.findings)
     return read_text(text, name)[1]
@@ -51,7 +51,7 @@ def check(source: str | Path) -> list[Finding]:
 
 def read_document(source: str | Path) -> Document:
     """A model file that can be changed and saved with its comments and order. Raises ModelError."""
-    text, name = _read(source)
+    text, name = read_source(source)
     return Document(text, name, read_text)
 
 
@@ -84,7 +84,7 @@ def gallery_names() -> list[str]:
     )
 
 
-def _read(source: str | Path) -> tuple[str, str]:
+def read_source(source: str | Path) -> tuple[str, str]:
     """Text of a source, and the name of the file for findings."""
     if isinstance(source, str) and source.startswith(GALLERY):
         return _read_gallery(source.removeprefix(GALLERY))

@@ -14,19 +14,19 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.drawing.draw import STEPS, Names, vector_groups
+from linkwright.plot.drawing.draw import STEPS, Names, solved, vector_groups
 from linkwright.plot.drawing.frames import frame_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.legend import legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
-from linkwright.plot.drawing.moving import moving_links, moving_vectors, shifting
+from linkwright.plot.drawing.moving import moving_links, moving_vectors, shift_text, shifted
 from linkwright.plot.drawing.names import point_labels
 from linkwright.plot.drawing.panel import Panel, panel
 from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Vectors, scale_of
 from linkwright.plot.drawing.video import gif, mp4
-from linkwright.plot.svg.element import Element, Floats, circle, group, number
+from linkwright.plot.svg.element import Element, Floats, circle, group
 from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.render import png
 from linkwright.words import LANGUAGES, say
@@ -83,7 +83,8 @@ def animate(
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
-    groups = vector_groups(motion, velocities, accelerations, forces, reactions_of)
+    known = solved(motion, forces)
+    groups = vector_groups(motion, velocities, accelerations, known, reactions_of)
     families = [
         (family, scale_of(each, run)) for each in groups for family in each if family.largest(run) > 0
     ]
@@ -94,7 +95,7 @@ def animate(
         traces=tuple(traces),
         families=tuple(families),
         curves=tuple(curves),
-        forces=forces if not isinstance(forces, bool) else None,
+        forces=known,
         labelled=labels,
         size=size,
         language=language,
@@ -124,16 +125,16 @@ class Animation:
         content += moving_springs(scene, run, seconds)
         content += moving_links(scene, run, seconds)
         for name in self.traces:
-            content.append(group([shifting(self._track(name), seconds), circle((0, 0), 3.2, "lw-dot")]))
+            content.append(shifted(self._track(name), seconds, [circle((0, 0), 3.2, "lw-dot")]))
         for family, scale in self.families:
             content += moving_vectors(scene, family, scale, run, seconds)
         for label, elements in self._labels:
             shifts = self._track(label.text) - self._track(label.text)[0]
-            content.append(group([*([shifting(shifts, seconds)] if np.ptp(shifts) > 0 else []), *elements]))
+            content.append(shifted(shifts, seconds, elements))
         content += self._still
         if self._panel is not None:
             x = [(self._panel.cursor_x(self._share(index)), 0.0) for index in run]
-            content.append(group([shifting(np.array(x), seconds), self._panel.cursor()]))
+            content.append(shifted(np.array(x), seconds, [self._panel.cursor()]))
         return document(content, self._box, self._title, self.size)
 
     def frame(self, index: int) -> str:
@@ -148,8 +149,8 @@ class Animation:
         for family, scale in self.families:
             content += family.shape(index, scene.machine.view, scale).elements
         for label, elements in self._labels:
-            x, y = self._place(label.text, index) - self._place(label.text, self.run[0])
-            content.append(group(elements, transform=f"translate({number(float(x))} {number(float(y))})"))
+            shift = self._place(label.text, index) - self._place(label.text, self.run[0])
+            content.append(group(elements, transform=shift_text(shift)))
         content += self._still
         if self._panel is not None:
             content.append(self._panel.cursor(self._panel.cursor_x(self._share(index))))

@@ -1,4 +1,8 @@
 """Many designs of one mechanism: repeated solving, sweeps, sensitivities, comparison, parameter studies."""
 
+from linkwright.study.designs import Sweep as Sweep
+from linkwright.study.designs import sweep as sweep
 from linkwright.study.prepared import Prepared as Prepared
 from linkwright.study.prepared import prepare as prepare
+from linkwright.study.sensitivity import Sensitivity as Sensitivity
+from linkwright.study.sensitivity import sensitivity as sensitivity

@@ -31,14 +31,22 @@ TURNING = 1.9 * np.pi
 class Traced:
     """Programs of one mechanism for outputs in the user's words.
 
-    ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form.
+    ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form;
+    ``turning``: angles of links that turn through may be asked.
     """
 
     def __init__(
-        self, mechanism: Mechanism, free: Iterable[str], positions: Positions, *, iterations: int = 1
+        self,
+        mechanism: Mechanism,
+        free: Iterable[str],
+        positions: Positions,
+        *,
+        iterations: int = 1,
+        turning: bool = False,
     ) -> None:
         self.mechanism = mechanism
         self.positions = positions
+        self.turning = turning
         self.solver = MotionSolver(mechanism, frozenset(free))
         self.solver.iterations = iterations
         self.forces = ForceSolver(self.solver)
@@ -90,18 +98,23 @@ class Traced:
         return flags
 
     def _middle(self, link: str) -> float:
-        """The middle of a link's swing in the mechanism as it is."""
+        """The direction that is farthest from where the link never points: the middle of its swing."""
         angle = self.nominal.link(link).angle
         angle = angle[np.isfinite(angle)]
         if not len(angle):
             return 0.0
         low, high = float(angle.min()), float(angle.max())
-        if high - low > TURNING:
+        if high - low <= TURNING:
+            return 0.5 * (low + high)
+        if not self.turning:
             raise LinkwrightError(
                 f"{link!r} turns through, so its angle has no smallest and largest value; ask for "
                 f"{link}.angular_velocity instead"
             )
-        return 0.5 * (low + high)
+        around = np.sort(angle % (2 * np.pi))
+        gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
+        widest = int(np.argmax(gaps))
+        return float(around[widest] + 0.5 * gaps[widest] - np.pi)
 
 
 def _not(mask: Mask) -> Mask:

@@ -91,8 +91,9 @@ def draw(
     sheet = Sheet(scene, index)
     sheet.ghosts(ghosts, ghost_style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
-    families = vector_groups(motion, velocities, accelerations, forces, reactions_of)
-    sheet.machine(pushes=forces is None or forces is False)
+    known = solved(motion, forces)
+    families = vector_groups(motion, velocities, accelerations, known, reactions_of)
+    sheet.machine(pushes=known is None)
     sheet.vectors(families)
     sheet.dimensions(dimensions)
     sheet.labels(labels)
@@ -193,7 +194,7 @@ def vector_groups(
     motion: Motion,
     velocities: Names,
     accelerations: Names,
-    forces: Forces | bool | None,
+    forces: Forces | None,
     of: Sequence[str] | None,
 ) -> list[list[Vectors]]:
     """All vectors that a drawing shows, in groups of one scale."""
@@ -202,14 +203,18 @@ def vector_groups(
         names = all_points(motion.mechanism) if wanted is True else tuple(wanted or ())
         if names:
             found.append([point_vectors(motion, names, kind)])
-    if forces is not None and forces is not False:
-        solved = _solved(motion) if forces is True else forces
-        same_motion(motion, solved)
-        found.append([reactions(solved, of), loads(solved)])
+    if forces is not None:
+        found.append([reactions(forces, of), loads(forces)])
     return found
 
 
-def _solved(motion: Motion) -> Forces:
-    from linkwright.kinetostatics.forces import solve_forces
+def solved(motion: Motion, forces: Forces | bool | None) -> Forces | None:
+    """The forces of this motion: given, solved now (True), or none."""
+    if forces is None or forces is False:
+        return None
+    if forces is True:
+        from linkwright.kinetostatics.forces import solve_forces
 
-    return solve_forces(motion)
+        return solve_forces(motion)
+    same_motion(motion, forces)
+    return forces

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from linkwright.plot.svg.element import Element, Floats, element
-from linkwright.plot.svg.text import name_width, text_element
+from linkwright.plot.svg.text import name_width, split_index, text_element
 from linkwright.plot.symbols.base import Vec
 
 _STEPS = (0.0, 5.0, 11.0, 19.0, 30.0, 44.0)
@@ -35,11 +35,21 @@ class Label:
     @property
     def extent(self) -> Vec:
         """Width and height of the text."""
-        return name_width(self.text.rsplit(".", 1)[-1], self.size), 0.95 * self.size
+        return name_width(self.short, self.size), (0.95 + self.drop) * self.size
+
+    @property
+    def short(self) -> str:
+        """``B`` of ``rocker.B``."""
+        return self.text.rsplit(".", 1)[-1]
+
+    @property
+    def drop(self) -> float:
+        """How far an index hangs below the line, in sizes."""
+        return 0.18 if split_index(self.short)[1] else 0.0
 
     def shortened(self) -> Label:
         """The label with ``B`` instead of ``rocker.B``."""
-        return replace(self, text=self.text.rsplit(".", 1)[-1])
+        return replace(self, text=self.short)
 
 
 @dataclass(frozen=True)
@@ -143,6 +153,6 @@ def written(label: Label, chosen: Candidate) -> list[Element]:
         share = label.clearance / (math.hypot(dx, dy) or 1.0)
         end = (chosen.anchor[0] - share * dx, chosen.anchor[1] - share * dy)
         found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
-    baseline = bottom - 0.14 * label.size
+    baseline = bottom - (0.14 + label.drop) * label.size
     found.append(text_element((left + right) / 2, baseline, label.text, label.style, label.size, "middle"))
     return found

@@ -77,8 +77,8 @@ def push_direction(machine: Machine, load: Force, index: int) -> Vec:
     c, s = machine.placed[load.on].direction[index]
     if load.direction is not None:
         angle = load.direction
-    elif load.components is not None and all(isinstance(each, float | int) for each in load.components):
-        angle = math.atan2(float(load.components[1]), float(load.components[0]))
+    elif load.components is not None:
+        angle = math.atan2(load.components[1], load.components[0])
     elif ray := load.normal_to or load.along:
         (px, py), (qx, qy) = (machine.motion.mechanism.link(load.on).points[name] for name in ray)
         angle = math.atan2(s, c) + math.atan2(qy - py, qx - px) + (math.pi / 2 if load.normal_to else 0.0)

@@ -17,15 +17,25 @@ def animate_element(attribute: str, values: Sequence[str], seconds: float) -> El
     return element("animate", {"attributeName": attribute, **_timing(values, seconds)})
 
 
-def shifting(shifts: Floats, seconds: float) -> Element:
-    """An animated shift (n, 2)."""
+def shifted(shifts: Floats, seconds: float, content: Sequence[Element]) -> Element:
+    """A group whose shift (n, 2) is animated; without animation it stands at the first."""
+    if np.ptp(shifts, axis=0).max() < 0.005:
+        return group(content, transform=shift_text(shifts[0]))
+    return group([_shifting(shifts, seconds), *content], transform=shift_text(shifts[0]))
+
+
+def shift_text(shift: Floats) -> str:
+    """A shift as the text of a ``transform`` attribute."""
+    return f"translate({number(float(shift[0]))} {number(float(shift[1]))})"
+
+
+def _shifting(shifts: Floats, seconds: float) -> Element:
     values = [f"{number(x)} {number(y)}" for x, y in shifts.tolist()]
     kind = {"attributeName": "transform", "type": "translate"}
     return element("animateTransform", {**kind, **_timing(values, seconds)})
 
 
-def turning(degrees: Floats, seconds: float) -> Element:
-    """An animated turn (n,), clockwise on the paper, after the shift."""
+def _turning(degrees: Floats, seconds: float) -> Element:
     values = [number(each) for each in degrees.tolist()]
     kind = {"attributeName": "transform", "type": "rotate", "additive": "sum"}
     return element("animateTransform", {**kind, **_timing(values, seconds)})
@@ -43,12 +53,13 @@ def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[El
         origin = scene.machine.view.paper(placed.origin[list(frames)])
         way = placed.direction[list(frames)]
         turn = -np.degrees(np.unwrap(np.arctan2(way[:, 1], way[:, 0])))
-        motion = [shifting(origin, seconds)]
         if np.ptp(turn) > 0.005:
-            motion.append(turning(turn, seconds))
-        elif abs(turn[0]) > 0.005:
-            shapes = [group(shapes, transform=f"rotate({number(float(turn[0]))})")]
-        found.append(group([*motion, *shapes], f"lw-{layer}"))
+            still = f"{shift_text(origin[0])} rotate({number(float(turn[0]))})"
+            moves = [_shifting(origin, seconds), _turning(turn, seconds)]
+            found.append(group([*moves, *shapes], f"lw-{layer}", transform=still))
+        else:
+            turned = group(shapes, f"lw-{layer}", transform=f"rotate({number(float(turn[0]))})")
+            found.append(shifted(origin, seconds, [turned]))
     return found
 
 

@@ -16,7 +16,7 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     except ImportError:
         raise LinkwrightError("GIF animations need Pillow; install linkwright[plot]") from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
-    palette = pictures[0].quantize(colors=128)
+    palette = pictures[0].quantize(colors=64)
     small = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures]
     stream = io.BytesIO()
     duration = max(20, round(1000 * seconds_per_frame))

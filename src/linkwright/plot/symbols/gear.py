@@ -10,31 +10,45 @@ from numpy.typing import ArrayLike
 from linkwright.plot.svg.element import circle, path
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, ring
 
+PITCH, TALL, DEEP = 11.0, 3.2, 3.6
+_TOOTH = np.array([(-0.5, -1.0), (-0.32, -1.0), (-0.16, 1.0), (0.16, 1.0), (0.32, -1.0)])
+
 
 @SYMBOLS.register("gear")
 def gear(*, at: Vec = (0.0, 0.0), radius: float = 40.0, turned: float = 0.0, inside: bool = False) -> Shape:
-    """A gear: its pitch circle as a chain line and short teeth across it; ``inside`` for a ring gear."""
-    count = max(12, round(2 * math.pi * radius / 9))
-    teeth = []
-    outer, inner = (3.5, -2.5) if not inside else (-3.5, 2.5)
-    for angle in turned + 2 * math.pi * np.arange(count) / count:
-        ray = (math.cos(angle), math.sin(angle))
-        teeth.append(path(placed([(radius + inner, 0), (radius + outer, 0)], at, ray), "lw-tooth"))
-    return Shape((circle(at, radius, "lw-pitch"), *teeth), (ring(at, radius, 36),))
+    """A gear: teeth on its pitch circle, a chain line; ``inside`` for the teeth of a ring gear.
+
+    The teeth show that it is a gear; their number is not the gear's.
+    """
+    count = max(12, round(2 * math.pi * radius / PITCH))
+    step = 2 * math.pi / count
+    angle = (turned + step * (np.arange(count)[:, None] + _TOOTH[None, :, 0])).ravel()
+    height = np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
+    r = radius + height
+    outline = np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
+    rim = (circle(at, radius + 4 * DEEP, "lw-support"),) if inside else ()
+    teeth = path(outline, "lw-gear", closed=True)
+    return Shape((*rim, teeth, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
 
 
 @SYMBOLS.register("rack")
 def rack(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), start: float = -50.0, end: float = 50.0) -> Shape:
-    """A rack: its pitch line and teeth."""
-    count = max(4, round((end - start) / 9))
+    """A rack: teeth on its pitch line, to the left of ``along`` on the paper."""
+    count = max(3, round((end - start) / PITCH))
+    step = (end - start) / count
+    x = (start + step * (np.arange(count)[:, None] + 0.5 + _TOOTH[None, :, 0])).ravel()
+    y = np.tile(np.where(_TOOTH[:, 1] > 0, -TALL, DEEP), count)
+    back = [(end, DEEP), (end, 3 * DEEP), (start, 3 * DEEP)]
+    outline = placed(np.vstack([np.stack([x, y], axis=1), back]), at, along)
     line = placed([(start, 0), (end, 0)], at, along)
-    marks = start + (np.arange(count) + 0.5) * (end - start) / count
-    teeth = [path(placed([(x, -3), (x, 3)], at, along), "lw-tooth") for x in marks]
-    return Shape((path(line, "lw-pitch"), *teeth), (line,))
+    return Shape((path(outline, "lw-gear", closed=True), path(line, "lw-pitch")), (outline, line))
 
 
 @SYMBOLS.register("cam")
-def cam(*, profile: ArrayLike = ((20.0, 0.0), (0.0, 20.0), (-20.0, 0.0), (0.0, -34.0))) -> Shape:
+def cam(
+    *,
+    profile: ArrayLike = ((20.0, 0.0), (15.0, 14.0), (0.0, 20.0), (-15.0, 14.0), (-20.0, 0.0), (0.0, -36.0)),
+) -> Shape:
     """A cam: its closed profile, filled."""
     outline = points(profile)
     return Shape((path(outline, "lw-plate", closed=True),), (np.vstack([outline, outline[:1]]),))

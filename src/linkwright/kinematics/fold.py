@@ -1,0 +1,91 @@
+"""The fold at the end of an input's range: where the Jacobian of all joints and drivers becomes singular."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.rank import ConstraintSystem, Numbers, coordinates
+from linkwright.kinematics.solver import MotionSolver
+
+#: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.
+CLOSED = 1e-12
+STEPS = 25
+
+
+def fold(solver: MotionSolver, positions: Positions, driver: str) -> float | None:
+    """The driver's coordinate (rad or m) at the fold nearest to the last of some positions; None if not found.
+
+    Newton's method on the joints, the other drivers' coordinates, J v = 0 and |v| = 1, in the coordinates x of
+    all links and the direction v in which they can still move while all drivers stand still (Govaerts, Numerical
+    Methods for Bifurcations of Dynamical Equilibria, ch. 4). Its derivatives are exact, by complex steps.
+    """
+    from linkwright.kinematics.solve import MotionRun
+
+    motion = MotionRun(solver, positions).solve("mark")
+    if not motion.ok[-1]:
+        return None
+    start = coordinates(motion, -1)
+    search = _Fold(ConstraintSystem(solver.mechanism), driver, start)
+    x = search.solve(start)
+    if x is None:
+        return None
+    value = float(search.coordinate(driver, x))
+    if not positions.rotary[driver]:
+        return value * search.system.size
+    near = float(positions.coordinates[driver][0][-1])
+    return value + 2 * math.pi * round((near - value) / (2 * math.pi))
+
+
+class _Fold:
+    def __init__(self, system: ConstraintSystem, driver: str, start: Floats) -> None:
+        self.system = system
+        self.drivers = list(system.mechanism.drivers)
+        self.held = {name: self.coordinate(name, start) for name in self.drivers if name != driver}
+
+    def coordinate(self, driver: str, x: Numbers) -> float:
+        """A driver's coordinate; lengths over the size."""
+        return float(np.real(self.system.driver_row(driver, x).value))
+
+    def solve(self, start: Floats) -> Floats | None:
+        """Coordinates of all links at the fold."""
+        x = start
+        v = np.linalg.svd(self._jacobian(x))[2][-1]
+        normal = v.copy()
+        for _ in range(STEPS):
+            gap = np.concatenate([self._position(x), self._jacobian(x) @ v, [normal @ v - 1.0]])
+            step = np.linalg.lstsq(self._derivative(x, v, normal), gap, rcond=None)[0]
+            x, v = x - step[: len(x)], v - step[len(x) :]
+            if not np.isfinite(x).all() or np.abs(x - start).max() > 0.5:
+                return None
+            if np.abs(step).max() < 1e-13:
+                break
+        left = max(np.abs(self._position(x)).max(), np.abs(self._jacobian(x) @ v).max())
+        return x if left < CLOSED else None
+
+    def _position(self, x: Floats) -> Floats:
+        held = [self.system.driver_row(name, x).value - q for name, q in self.held.items()]
+        return np.concatenate([self.system.residual(x), held])
+
+    def _jacobian(self, x: Numbers) -> Numbers:
+        return self.system.matrix(
+            [*self.system.rows(x), *(self.system.driver_row(n, x) for n in self.drivers)]
+        )
+
+    def _held_jacobian(self, x: Floats) -> Floats:
+        rows = [*self.system.rows(x), *(self.system.driver_row(name, x) for name in self.held)]
+        return np.asarray(self.system.matrix(rows))
+
+    def _derivative(self, x: Floats, v: Floats, normal: Floats) -> Floats:
+        n, h = len(x), 1e-30
+        bend = np.stack([np.imag(self._jacobian(x + 1j * h * unit) @ v) / h for unit in np.eye(n)], axis=1)
+        top = self._held_jacobian(x)
+        return np.block(
+            [
+                [top, np.zeros_like(top)],
+                [bend, self._jacobian(x)],
+                [np.zeros((1, n)), normal[None, :]],
+            ]
+        )

@@ -1,0 +1,332 @@
+"""The range of a driver that cannot turn fully: followed from the start both ways, both ends refined."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.assembly import modal_groups
+from linkwright.kinematics.change_points import mark_singular, passages, signs
+from linkwright.kinematics.continuation import Follower
+from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
+from linkwright.kinematics.fold import fold
+from linkwright.kinematics.rank import mechanism_size
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
+from linkwright.structure.group import Group
+
+#: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
+#: sliding one is followed, in sizes.
+STEP = math.radians(1.0)
+SLIDE_STEP = 1.0 / 100
+FARTHEST = 20.0
+#: How near (rad, or share of the size) the end of a group without closed form is known before Newton's method.
+COARSE = 1e-6
+
+
+@dataclass(frozen=True)
+class RangeEnd:
+    """One end of a range: ``value`` rad or m; the ``group`` that stops there and ``how`` (``stretched``, …).
+
+    ``precision``: bound of the error of ``value`` that the search left, rad or m.
+    """
+
+    value: float
+    group: str
+    how: str
+    precision: float
+
+
+@dataclass(frozen=True)
+class InputRange:
+    """Where a driver can go from the starting position without dismantling.
+
+    ``full``: a turning driver turns fully (a sliding one goes at least 20 times the mechanism's size); ``start``
+    and ``end`` are then None where no end was found. Angles in rad, displacements in m.
+    """
+
+    driver: str
+    link: str
+    rotary: bool
+    low: RangeEnd | None
+    high: RangeEnd | None
+
+    @property
+    def full(self) -> bool:
+        """Whether the driver finds no end."""
+        return self.low is None and self.high is None
+
+    @property
+    def start(self) -> float | None:
+        """The smaller end, rad or m."""
+        return None if self.low is None else self.low.value
+
+    @property
+    def end(self) -> float | None:
+        """The larger end, rad or m."""
+        return None if self.high is None else self.high.value
+
+    def explain(self) -> str:
+        """The range in a sentence."""
+        verb = "turn" if self.rotary else "slide"
+        if self.full:
+            way = "turn fully" if self.rotary else "slide without finding an end"
+            return f"the {self.link} can {way}"
+        parts = []
+        if self.low is not None:
+            parts.append(f"from {_shown(self.low.value, self.rotary)}")
+        if self.high is not None:
+            parts.append(f"to {_shown(self.high.value, self.rotary)}")
+        return f"the {self.link} can {verb} {' '.join(parts)}; {self._ends()}"
+
+    def _ends(self) -> str:
+        low, high = self.low, self.high
+        if low is not None and high is not None and (low.group, low.how) == (high.group, high.how):
+            return f"at both ends {low.group} {low.how}"
+        said = [
+            f"at {_shown(end.value, self.rotary)} {end.group} {end.how}"
+            for end in (low, high)
+            if end is not None
+        ]
+        return ", ".join(said)
+
+
+def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
+    """The range of a driver's coordinate that can be reached from the starting position on the same circuit.
+
+    The other drivers stay at their starting coordinates. Where a dyad limits, the end is the zero of the square
+    under its root, to rounding; where a group without closed form limits, the point at which the Jacobian of
+    all joints and drivers becomes singular (a fold), to rounding as well if Newton's method finds it, else as
+    far as continuation goes; ``RangeEnd.precision`` says which.
+
+    Raises:
+        LinkwrightError: no such driver, or the mechanism cannot be assembled at any starting coordinate.
+        StructureError, AssemblyError: the model is not determined or cannot be put together.
+    """
+    name = driver or next(iter(mechanism.drivers), None)
+    if name is None or name not in mechanism.drivers:
+        offer = nearest(str(driver), list(mechanism.drivers))
+        hint = f"; did you mean {offer!r}?" if offer else ""
+        raise LinkwrightError(f"{mechanism.name!r} has no driver{f' {driver!r}' if driver else ''}{hint}")
+    search = _Search(mechanism, name)
+    high = search.end(1.0)
+    low = search.end(-1.0) if high is not None or not search.rotary else None
+    return InputRange(name, mechanism.drivers[name].link, search.rotary, low, high)
+
+
+def range_sentence(mechanism: Mechanism) -> str:
+    """The first driver's range as a sentence for a refusal; empty where there is none to tell. Never raises."""
+    try:
+        return input_range(mechanism).explain()
+    except (LinkwrightError, ArithmeticError, ValueError):
+        return ""
+
+
+@dataclass(frozen=True)
+class _Stop:
+    """Between the coordinates ``good`` and ``bad``, the state and the signs of modes at ``good``."""
+
+    good: float
+    bad: float
+    state: Mapping[str, float]
+    modes: Mapping[str, float]
+
+
+class _Search:
+    def __init__(self, mechanism: Mechanism, driver: str) -> None:
+        self.mechanism = mechanism
+        self.driver = driver
+        self.solver = MotionSolver(mechanism)
+        self.base = self._at_start()
+        self.rotary = self.base.rotary[driver]
+        self.size = mechanism_size(mechanism)
+        self.modal = list(modal_groups(self.solver.structure))
+        self.begin = self._beginning()
+
+    # where to begin -------------------------------------------------------------------------------
+    def _at_start(self) -> Positions:
+        try:
+            begin = time_span(self.mechanism)[0]
+        except CycleError:
+            begin = 0.0
+        return at_times(self.mechanism, [begin])
+
+    def positions(self, q: Floats) -> Positions:
+        """Positions with the driver at ``q`` and the others at their start."""
+        none = np.zeros(len(q))
+        rows = {
+            name: (q if name == self.driver else np.full(len(q), row[0][0]), none, none)
+            for name, row in self.base.coordinates.items()
+        }
+        return Positions(none, rows, self.base.rotary, False, None)
+
+    def _beginning(self) -> float:
+        nominal = float(self.base.coordinates[self.driver][0][0])
+        drawn = self.solver.assembly.inputs[self.driver]
+        near = np.arange(0.0, np.pi, STEP) if self.rotary else np.arange(0.0, 1.0, SLIDE_STEP) * self.size
+        around = np.stack([nominal + near, nominal - near], axis=1).ravel()
+        for q in ([nominal], [drawn], around):
+            positions = self.positions(np.asarray(q))
+            states = self.solver.states(positions)
+            if states and len(q) > 1:
+                continue
+            codes = self.solver.evaluate(("outcome",), positions, states, {})[0]
+            good = np.flatnonzero((codes == 0) & _finite(states, len(q)))
+            if len(good):
+                return float(q[good[0]])
+        raise LinkwrightError(
+            f"{self.mechanism.name!r} cannot be assembled at any coordinate of driver {self.driver!r} near "
+            f"{_shown(nominal, self.rotary)}, so it has no range; check the dimensions"
+        )
+
+    # one direction --------------------------------------------------------------------------------
+    def end(self, direction: float) -> RangeEnd | None:
+        """The end in one direction; None if there is none."""
+        stop = self._stop(direction)
+        if stop is None:
+            return None
+        rough = COARSE * (1.0 if self.rotary else self.size) if stop.state else 0.0
+        good, bad = self._narrowed(stop, rough)
+        group, how = self._reason(stop, good, bad)
+        value = None
+        if stop.state and not self._closed_form(group):
+            value = fold(self.solver, self.positions(np.array([self.begin, good])), self.driver)
+        if value is not None and min(good, bad) - rough <= value <= max(good, bad) + rough:
+            precision = 1e-14 * (1.0 + abs(value))
+        else:
+            good, bad = self._narrowed(replace(stop, good=good, bad=bad, state=self._state(stop, good)), 0.0)
+            value, precision = good, abs(bad - good) + 4e-16 * (abs(good) + 1.0)
+        return RangeEnd(value, f"group {group.signature} ({', '.join(group.links)})", how, precision)
+
+    def _stop(self, direction: float) -> _Stop | None:
+        step, span = (STEP, 2 * np.pi) if self.rotary else (SLIDE_STEP * self.size, FARTHEST * self.size)
+        q = self.begin + direction * step * np.arange(round(span / step) + 1.0)
+        positions = self.positions(q)
+        states = self.solver.states(positions)
+        found = passages(self.solver, positions, states)
+        modes = signs(found, self.solver.assembly.modes, len(q))
+        sines = self._sines(positions, states)
+        codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
+        mark_singular(codes, found, self.solver.structure)
+        fine = (codes <= 0) & _finite(states, len(q)) & (sines > 0).all(axis=0)
+        gaps = [(p.before, float(np.interp(p.place, np.arange(len(q)), q))) for p in found if p.barred]
+        last = int(np.argmin(fine)) - 1 if not fine.all() else len(q) - 1
+        bad = q[last + 1] if last < len(q) - 1 else None
+        for before, place in gaps:
+            if before <= last and (bad is None or abs(place - self.begin) < abs(bad - self.begin)):
+                last, bad = before, place
+        if bad is None:
+            return None
+        state = {name: float(row[last]) for name, row in states.items()}
+        return _Stop(
+            float(q[last]), float(bad), state, {name: float(row[last]) for name, row in modes.items()}
+        )
+
+    def _solver(self, modes: Mapping[str, object]) -> MotionSolver:
+        return self.solver.with_flips(name.removeprefix("mode:") for name in modes) if modes else self.solver
+
+    def _sines(self, positions: Positions, states: Mapping[str, Floats]) -> Floats:
+        """Sines between guides of groups with one mode, positive as at the beginning; (groups, n)."""
+        placed = self.solver.motion.placed
+        names = tuple(f"fact:{name}|sine" for name, group in placed.items() if "sine" in group.facts)
+        if not names:
+            return np.ones((1, positions.count))
+        rows = self.solver.evaluate(names, positions, states, {})
+        first = self.positions(np.array([self.begin]))
+        return np.asarray(rows * np.sign(self.solver.evaluate(names, first, self.solver.states(first), {})))
+
+    # refinement -----------------------------------------------------------------------------------
+    def _narrowed(self, stop: _Stop, distance: float) -> tuple[float, float]:
+        """The last coordinate that can be assembled and the first that cannot, next to each other, or within a
+        distance."""
+        good, bad = stop.good, stop.bad
+        count = 3 if stop.state else 17
+        for _ in range(60):
+            q = np.linspace(good, bad, count)
+            fine = self._fine(stop, q)
+            fine[0], fine[-1] = True, False
+            k = int(np.argmin(fine))
+            if q[k - 1] == good and q[k] == bad:
+                break
+            good, bad = float(q[k - 1]), float(q[k])
+            if abs(bad - good) < distance:
+                break
+        return good, bad
+
+    def _fine(self, stop: _Stop, q: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        positions = self.positions(q)
+        states = self._states(stop, q)
+        solver, modes = self._solver(stop.modes), {n: np.full(len(q), v) for n, v in stop.modes.items()}
+        fine = _finite(states, len(q)) & (self._sines(positions, states) > 0).all(axis=0)
+        if self.modal:
+            names = tuple(f"quality:{name}" for name in self.modal)
+            fine &= (solver.evaluate(names, positions, states, modes) > 0).all(axis=0)
+        return np.asarray(fine)
+
+    def _states(self, stop: _Stop, q: Floats) -> dict[str, Floats]:
+        if not stop.state:
+            return {}
+        follower, rows = self._follower, []
+        for there in q:
+            way = self.positions(np.array([stop.good, there]))
+            reached = follower._step(way, 0, 1, [stop.state[name] for name in follower.names])
+            rows.append(reached or [np.nan] * len(follower.names))
+        return dict(zip(follower.names, np.array(rows).T, strict=True))
+
+    def _state(self, stop: _Stop, q: float) -> dict[str, float]:
+        return {name: float(row[0]) for name, row in self._states(stop, np.array([q])).items()}
+
+    @cached_property
+    def _follower(self) -> Follower:
+        solver = self.solver
+        return Follower(self.mechanism, solver.structure, solver.assembly, solver.nominal.parameters)
+
+    # why --------------------------------------------------------------------------------------------
+    def _reason(self, stop: _Stop, good: float, bad: float) -> tuple[Group, str]:
+        """The group that stops, and what is the matter with it."""
+        groups = {group.name: group for group in self.solver.structure.groups}
+        ends = self.positions(np.array([good, bad]))
+        states = self._states(stop, np.array([good, bad]))
+        solver, modes = self._solver(stop.modes), {n: np.full(2, v) for n, v in stop.modes.items()}
+        placed = solver.motion.placed
+        names = tuple(f"quality:{name}" for name, p in placed.items() if p.facts and p.dyad is not None)
+        quality = solver.evaluate(names, ends, states, modes)
+        least = {name.removeprefix("quality:"): row[0] for name, row in zip(names, quality, strict=True)}
+        stuck = min(least, key=least.__getitem__, default=None)
+        newton = [name for name, p in placed.items() if p.group.unknowns and p.dyad is None]
+        if stuck is None or (newton and not _finite(states, 2)[1] and least[stuck] > 1e-9):
+            return groups[newton[0]], "is singular"
+        facts = tuple(placed[stuck].facts)
+        row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
+        return groups[stuck], _how(groups[stuck].signature, dict(zip(facts, map(float, row), strict=True)))
+
+    def _closed_form(self, group: Group) -> bool:
+        return self.solver.motion.placed[group.name].dyad is not None
+
+
+def _how(signature: str, facts: Mapping[str, float]) -> str:
+    if {"distance²", "first²", "second²"} <= set(facts):
+        distance, a, b = (math.sqrt(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
+        return "is stretched" if abs(distance - a - b) < abs(distance - abs(a - b)) else "is folded"
+    said: dict[str, str] = {
+        "RRP": "has its link perpendicular to the guide",
+        "RPR": "has its outer pins as close as the offset of the guide allows",
+    }
+    return said.get(signature, "has its guides parallel")
+
+
+def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    fine = np.ones(count, dtype=bool)
+    for row in states.values():
+        fine &= np.isfinite(row)
+    return fine
+
+
+def _shown(value: float, rotary: bool) -> str:
+    return f"{math.degrees(value):.4f}°" if rotary else f"{value:.6g} m"

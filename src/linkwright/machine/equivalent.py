@@ -1,0 +1,146 @@
+"""Equivalent moment of inertia and equivalent torque on the input link."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.integral import Function
+from linkwright.machine.torque_curve import TURN, TorqueCurve
+from linkwright.metrics.resolve import Resolver
+
+
+def equivalent_inertia(motion: Motion) -> Floats:
+    """J_e = Σ (m v² + J ω²)/ω₁², (n,) kg·m²: the inertia on the first driver's link of equal kinetic energy.
+
+    v of the mass centres, ω of all moving links, ω₁ the driver's rate. For a sliding driver an equivalent mass, kg.
+    NaN where the driver stands still.
+    """
+    total = np.zeros(motion.steps)
+    for name, link in motion.mechanism.links.items():
+        if link.mass:
+            total += link.mass * (motion.link(name).centre.velocity ** 2).sum(axis=1)
+        if link.inertia:
+            total += link.inertia * motion.link(name).angular_velocity ** 2
+    with np.errstate(all="ignore"):
+        return np.asarray(total / _rates(motion)[0] ** 2)
+
+
+def inertia_slope(motion: Motion) -> Floats:
+    """dJ_e/dφ, (n,) kg·m²/rad, exact: 2 (Σ (m v·a + J ω α) - J_e ω₁ ε₁)/ω₁³."""
+    total = np.zeros(motion.steps)
+    for name, link in motion.mechanism.links.items():
+        if link.mass:
+            centre = motion.link(name).centre
+            total += link.mass * (centre.velocity * centre.acceleration).sum(axis=1)
+        if link.inertia:
+            turning = motion.link(name)
+            total += link.inertia * turning.angular_velocity * turning.angular_acceleration
+    rate, second = _rates(motion)
+    with np.errstate(all="ignore"):
+        return np.asarray(2.0 * (total - equivalent_inertia(motion) * rate * second) / rate**3)
+
+
+def equivalent_torque(forces: Forces) -> Floats:
+    """M_e, (n,) N·m: the driver's effort against all loads, gravity and friction, inertia left out.
+
+    M_e = T - (J_e ε + ½ dJ_e/dφ ω²); positive along the driver's coordinate. Loads that depend on the speed, and
+    friction, are those at the speed that was solved.
+    """
+    torque = forces.input_torque
+    if forces.static:
+        return torque
+    rate, second = _rates(forces.motion)
+    motion = forces.motion
+    return np.asarray(torque - equivalent_inertia(motion) * second - 0.5 * inertia_slope(motion) * rate**2)
+
+
+@dataclass(frozen=True)
+class Equivalent:
+    """A machine reduced to its input, over one closed cycle in the direction in which it runs.
+
+    ``angle`` (n,) rad: turned by the input from the cycle's begin, always growing; ``inertia`` (n,) kg·m² and
+    ``slope`` (n,) dJ/dangle; ``torque`` (n,) N·m that resists, positive where the machine needs driving;
+    ``speed`` rad/s > 0, the mean one; ``inertia_at`` and ``load`` give both at any angle.
+    """
+
+    angle: Floats
+    inertia: Floats
+    slope: Floats
+    torque: Floats
+    speed: float
+    period: float
+    start: float
+    direction: float
+    inertia_at: Function = field(repr=False)
+    load: TorqueCurve = field(repr=False)
+
+    def input_at(self, angle: float) -> float:
+        """The input's coordinate, rad, at an angle turned."""
+        return self.start + self.direction * angle
+
+
+def equivalent(forces: Forces) -> Equivalent:
+    """Reduces a machine to its input link.
+
+    Raises LinkwrightError where the cycle is not closed, the input does not turn at constant speed, or there are
+    several drivers: a flywheel on the input then has no meaning.
+    """
+    motion = forces.motion
+    rate = _steady_rate(motion)
+    direction = float(np.sign(rate))
+    period = abs(rate) * (motion.positions.period or 0.0)
+    begin, resolver = float(motion.time[0]), Resolver(motion, forces)
+    if not resolver.possible:
+        raise LinkwrightError(
+            f"the positions of {motion.mechanism.name!r} pass a change point or follow no law in time, so the machine "
+            "cannot be evaluated between them; solve its cycle without change points first"
+        )
+
+    def time(angle: Floats) -> Floats:
+        return np.asarray(begin + angle / abs(rate))
+
+    def torque_at(angle: Floats) -> Floats:
+        return direction * equivalent_torque(resolver.at(time(angle), "forces"))
+
+    return Equivalent(
+        angle=abs(rate) * (motion.time - begin),
+        inertia=equivalent_inertia(motion),
+        slope=direction * inertia_slope(motion),
+        torque=direction * equivalent_torque(forces),
+        speed=abs(rate),
+        period=period,
+        start=float(motion.input[0]),
+        direction=direction,
+        inertia_at=lambda angle: equivalent_inertia(resolver.at(time(angle))),
+        load=TorqueCurve(torque_at, period),
+    )
+
+
+def _steady_rate(motion: Motion) -> float:
+    """The input's constant speed, rad/s."""
+    name = motion.mechanism.name
+    if len(motion.mechanism.drivers) != 1 or not next(iter(motion.positions.rotary.values())):
+        raise LinkwrightError(
+            f"a flywheel and the speed over the cycle need one turning driver; {name!r} has another kind or number"
+        )
+    rate = _rates(motion)[0]
+    if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
+        raise LinkwrightError(f"the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law")
+    turned = abs(rate[0]) * (motion.positions.period or 0.0)
+    if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
+        raise LinkwrightError(f"the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns")
+    if not motion.ok.all():
+        raise LinkwrightError(f"{name!r} does not reach all positions of its cycle, so it cannot run steadily")
+    return float(rate[0])
+
+
+def _rates(motion: Motion) -> tuple[Floats, Floats]:
+    """Rate and second derivative of the first driver's coordinate, (n,) each."""
+    _, rate, second = next(iter(motion.positions.coordinates.values()))
+    return rate, second

@@ -1,0 +1,176 @@
+"""Steady running of a machine: motor, flywheel, and the speed that results."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.energy import EnergyFluctuation, of_energy
+from linkwright.machine.equivalent import Equivalent, equivalent
+from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
+from linkwright.machine.integral import Antiderivative, Floats
+from linkwright.machine.motor import Motor, motor
+from linkwright.machine.speed import SpeedCurve, speed_of
+from linkwright.machine.torque_curve import TorqueCurve
+
+#: A mean torque below this share of the largest one is zero.
+NOTHING = 1e-9
+
+
+@dataclass(frozen=True)
+class SteadyRunning:
+    """A machine over one cycle of steady running with a flywheel.
+
+    ``required`` δ; ``flywheel`` J, kg·m² on the crank, by J = ΔE/(δ ω²) - mean J_e (the machine's own inertia is
+    counted: its mean); ``exact_flywheel`` the J with which the true speed fluctuates by just δ; ``shaft_flywheel``
+    the exact one on a shaft ``ratio`` times as fast; ``speed`` over the cycle with the approximate flywheel, so
+    ``speed.fluctuation`` is what the formula really reaches; ``exact_speed`` with the exact one; ``own`` δ by the
+    formula without a flywheel.
+    """
+
+    equivalent: Equivalent = field(repr=False)
+    energy: EnergyFluctuation = field(repr=False)
+    motor: Motor
+    required: float
+    ratio: float
+    flywheel: float
+    exact_flywheel: float
+    speed: SpeedCurve = field(repr=False)
+    exact_speed: SpeedCurve = field(repr=False)
+
+    @property
+    def mean_torque(self) -> float:
+        """Mean torque that the machine needs, N·m."""
+        return self.motor.mean_torque
+
+    @property
+    def shaft_flywheel(self) -> float:
+        """The exact flywheel on the faster shaft, kg·m²."""
+        return on_faster_shaft(self.exact_flywheel, self.ratio)
+
+    @property
+    def own(self) -> float:
+        """Speed fluctuation by the formula without any flywheel."""
+        return speed_fluctuation(self.energy.value, self.equivalent.speed, float(self.equivalent.inertia.mean()))
+
+    def data(self) -> dict[str, float]:
+        """The numbers, SI."""
+        reduced = self.equivalent
+        return {
+            "speed": reduced.speed,
+            "mean_torque": self.mean_torque,
+            "mean_power": self.motor.mean_power,
+            "motor_power": self.motor.power,
+            "energy_fluctuation": self.energy.value,
+            "energy_lowest_at": reduced.input_at(self.energy.low),
+            "energy_highest_at": reduced.input_at(self.energy.high),
+            "equivalent_inertia_smallest": float(reduced.inertia.min()),
+            "equivalent_inertia_largest": float(reduced.inertia.max()),
+            "required_fluctuation": self.required,
+            "flywheel": self.flywheel,
+            "reached_fluctuation": self.speed.fluctuation,
+            "exact_flywheel": self.exact_flywheel,
+            "shaft_flywheel": self.shaft_flywheel,
+        }
+
+
+def steady_running(
+    forces: Forces,
+    *,
+    fluctuation: float,
+    ratio: float = 1.0,
+    efficiency: float = 1.0,
+    margin: float = 1.0,
+) -> SteadyRunning:
+    """Motor, flywheel and true speed of a machine driven by a constant torque.
+
+    Args:
+        forces: over a closed cycle of one turning driver of constant speed.
+        fluctuation: required coefficient of speed fluctuation δ.
+        ratio: speed of the flywheel's shaft over the crank's.
+        efficiency, margin: see :func:`~linkwright.machine.motor.motor`.
+
+    The energy fluctuation is that of the driver torque at constant speed, inertia of the links included.
+    Raises LinkwrightError for δ ≤ 0, a mean torque of zero, or a cycle that is not closed.
+    """
+    reduced = equivalent(forces)
+    flywheel_inertia(1.0, reduced.speed, fluctuation)
+    mean = reduced.load.mean
+    _require_load(mean, reduced, forces)
+    work = TorqueCurve.constant(mean, period=reduced.period).minus(reduced.load).work
+    energy = _at_constant_speed(reduced, work)
+    formula = flywheel_inertia(
+        energy.value, reduced.speed, fluctuation, present=float(np.mean(reduced.inertia))
+    )
+    exact = _exact(reduced, work, fluctuation, formula)
+    return SteadyRunning(
+        equivalent=reduced,
+        energy=energy,
+        motor=motor(mean, reduced.speed, efficiency=efficiency, margin=margin),
+        required=fluctuation,
+        ratio=ratio,
+        flywheel=formula,
+        exact_flywheel=exact,
+        speed=_with_flywheel(reduced, work, formula),
+        exact_speed=_with_flywheel(reduced, work, exact),
+    )
+
+
+def _at_constant_speed(reduced: Equivalent, work: Antiderivative) -> EnergyFluctuation:
+    """Fluctuation of ∫ (mean - T) dφ, T the driver torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
+
+    def energy(angle: Floats) -> Floats:
+        kinetic = 0.5 * reduced.inertia_at(angle) * reduced.speed**2
+        return np.asarray(work(angle) - kinetic)
+
+    return of_energy(energy, work.edges, balance=work.total)
+
+
+def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
+    largest = float(np.abs(forces.input_torque).max())
+    if abs(mean) <= NOTHING * largest or largest == 0:
+        raise LinkwrightError(
+            f"the mean torque of {forces.mechanism.name!r} over its cycle is zero: no work is done, so there is no "
+            "motor to choose and no flywheel to lay out; give the machine a load (loads: …)"
+        )
+    if mean < 0:
+        raise LinkwrightError(
+            f"the mean torque of {forces.mechanism.name!r} over its cycle is {mean:.6g} N·m: the loads drive the "
+            "machine instead of resisting; check the direction of the loads"
+        )
+
+
+def _with_flywheel(reduced: Equivalent, work: Antiderivative, flywheel: float) -> SpeedCurve:
+    def total(angle: Floats) -> Floats:
+        return flywheel + reduced.inertia_at(angle)
+
+    return speed_of(work, total, reduced.speed, motor_torque=reduced.load.mean)
+
+
+def _exact(reduced: Equivalent, work: Antiderivative, required: float, first: float) -> float:
+    """Flywheel with which the true fluctuation is the required one, by secant steps; zero where none is needed."""
+
+    def reached(flywheel: float) -> float | None:
+        try:
+            return _with_flywheel(reduced, work, flywheel).fluctuation
+        except LinkwrightError:
+            return None
+
+    alone = reached(0.0)
+    if alone is not None and alone <= required:
+        return 0.0
+    present = float(np.mean(reduced.inertia))
+    here = max(first, 0.1 * present)
+    for _ in range(60):
+        found = reached(here)
+        if found is None:
+            here = 2.0 * here + present
+            continue
+        following = (here + present) * found / required - present
+        if abs(following - here) <= 1e-12 * (here + present):
+            return following
+        here = max(following, 1e-3 * here)
+    return here

@@ -1,0 +1,123 @@
+"""The true speed over the cycle, by the equation of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.machine.integral import Antiderivative, Floats, Function, extremes
+from linkwright.machine.torque_curve import TorqueCurve
+
+
+@dataclass(frozen=True)
+class SpeedCurve:
+    """Speed of the input over one period of steady running.
+
+    ``angle`` (n,) rad turned and ``speed`` (n,) rad/s there, both ends of the period among them; ``mean`` the angle
+    of the period over its time; ``slowest`` and ``fastest``: (angle, speed); ``motor_torque`` the constant one, N·m;
+    ``acceleration(angle)`` rad/s².
+    """
+
+    angle: Floats
+    speed: Floats
+    mean: float
+    slowest: tuple[float, float]
+    fastest: tuple[float, float]
+    motor_torque: float
+    at: Function = field(repr=False)
+
+    @property
+    def fluctuation(self) -> float:
+        """Coefficient of speed fluctuation really reached, (ω_max - ω_min)/ω_mean."""
+        return (self.fastest[1] - self.slowest[1]) / self.mean
+
+    @property
+    def periodicity(self) -> float:
+        """Speed at the end of the period over the speed at its begin, less 1."""
+        return float(self.speed[-1] / self.speed[0] - 1.0)
+
+
+def true_speed(
+    load: TorqueCurve,
+    inertia: Callable[[Floats], Floats] | float,
+    speed: float,
+    *,
+    driver: TorqueCurve | None = None,
+    steps: int = 360,
+) -> SpeedCurve:
+    """Speed over the cycle from d(½ J ω²)/dφ = T_driver - T_load, periodic, with the mean speed ``speed``.
+
+    ½ J(φ) ω² = E0 + ∫ (T_driver - T_load) dφ, torques depending on the angle only; E0 follows from the mean speed,
+    period over ∮ dφ/ω. Exact for these torques: no small fluctuation is assumed.
+
+    Args:
+        load: resisting torque, N·m, over the angle turned.
+        inertia: total J, kg·m², constant or a function of the angle (n,) -> (n,).
+        speed: mean speed, rad/s, above zero.
+        driver: driving torque; a constant one that balances the load where left out.
+
+    Raises:
+        LinkwrightError: torques that do not balance, or a machine that would stop within its cycle.
+    """
+    from linkwright.machine.energy import energy_fluctuation
+
+    if not speed > 0:
+        raise LinkwrightError(f"the mean speed is {speed:g} rad/s; give a value above zero")
+    given = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
+    if driver is not None:
+        energy_fluctuation(driver, load)
+    total = inertia if callable(inertia) else _constant(inertia)
+    return speed_of(given.minus(load).work, total, speed, motor_torque=given.mean, steps=steps)
+
+
+def speed_of(
+    work: Antiderivative, total: Function, speed: float, *, motor_torque: float, steps: int = 360
+) -> SpeedCurve:
+    """The same from the excess work over one period, J."""
+    start, period = float(work.edges[0]), float(work.edges[-1] - work.edges[0])
+    grid = start + period * np.arange(4 * steps) / (4 * steps)
+    energy = _initial_energy(work(grid), total(grid), speed)
+
+    def at(angle: Floats) -> Floats:
+        return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
+
+    edges = np.union1d(work.edges, np.linspace(start, start + period, steps + 1))
+    slowest, fastest = extremes(at, edges[:-1], edges[1:])
+    angle = np.linspace(start, start + period, steps + 1)
+    return SpeedCurve(angle, at(angle), speed, slowest, fastest, motor_torque, at)
+
+
+def _constant(inertia: float) -> Function:
+    if not inertia > 0:
+        raise LinkwrightError(f"the moment of inertia is {inertia:g} kg·m²; give a value above zero")
+    return lambda angle: np.full(angle.shape, float(inertia))
+
+
+def _initial_energy(work: Floats, inertia: Floats, speed: float) -> float:
+    """E0 with which the mean of 1/ω over equal steps of the angle is 1/speed, by safeguarded Newton steps."""
+    if not (inertia > 0).all():
+        raise LinkwrightError("the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel")
+    low = -float(work.min())
+    high = 0.5 * speed * speed * float(inertia.max()) + low
+    energy = high
+
+    def slowness(value: float) -> tuple[float, float]:
+        root = np.sqrt(0.5 * inertia / (value + work))
+        return float(root.mean()) - 1.0 / speed, float((-0.5 * root / (value + work)).mean())
+
+    for _ in range(200):
+        with np.errstate(all="ignore"):
+            gap, slope = slowness(energy)
+        low, high = (energy, high) if gap > 0 else (low, energy)
+        newton = energy - gap / slope
+        following = newton if low < newton < high else 0.5 * (low + high)
+        if abs(following - energy) <= 1e-15 * (abs(energy) + high):
+            return following
+        energy = following
+    raise LinkwrightError(
+        "the kinetic energy does not suffice to carry the machine over its cycle at this mean speed: it would stop; "
+        "add a flywheel or raise the speed"
+    )

@@ -1,0 +1,241 @@
+"""Derivatives of outputs and of their summaries over the cycle with respect to dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.sweep import Backend
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.explain import refusal
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.named import Quantity
+from linkwright.study.slopes import Slopes
+from linkwright.study.summary import KINDS, Summary
+from linkwright.study.traced import Traced
+from linkwright.study.vary import checked_addresses
+
+if TYPE_CHECKING:
+    import pandas
+
+Floats = NDArray[np.float64]
+Way = Literal["auto", "forward", "reverse"]
+
+#: From this number of dimensions on, the gradient of a summary is found by a reverse sweep.
+REVERSE_PAYS = 6
+
+
+@dataclass(eq=False)
+class Sensitivity:
+    """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
+
+    ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked
+    with a kind (``driver.effort rms``) a number and a gradient: :meth:`value`, :meth:`gradient`.
+    """
+
+    mechanism: Mechanism
+    by: tuple[str, ...]
+    input: Floats
+    curves: Mapping[str, Floats] = field(repr=False)
+    slopes: Mapping[tuple[str, str], Floats] = field(repr=False)
+    values: Mapping[Summary, float] = field(default_factory=dict)
+    gradients: Mapping[Summary, Floats] = field(default_factory=dict)
+    quantities: Mapping[str, Quantity] = field(default_factory=dict, repr=False)
+
+    def curve(self, output: str) -> Floats:
+        """An output over the positions, (n,)."""
+        self._asked(output)
+        return self.curves[output]
+
+    def slope(self, output: str, by: str) -> Floats:
+        """Derivative of an output with respect to a dimension at fixed input, (n,)."""
+        self._asked(output)
+        if by not in self.by:
+            raise LinkwrightError(f"{by!r} is not among the dimensions {', '.join(self.by)}")
+        return self.slopes[output, by]
+
+    def value(self, output: str, kind: str | None = None) -> float:
+        """A summary over the cycle."""
+        return self.values[self._summary(output, kind)]
+
+    def gradient(self, output: str, kind: str | None = None) -> dict[str, float]:
+        """Derivatives of a summary by dimension."""
+        row = self.gradients[self._summary(output, kind)]
+        return dict(zip(self.by, row.tolist(), strict=True))
+
+    def relative(self, output: str, kind: str | None = None) -> dict[str, float]:
+        """Change in percent of a summary per percent of each dimension: (p/y)·dy/dp; NaN where y is zero."""
+        summary = self._summary(output, kind)
+        value, nominal = self.values[summary], self.mechanism.dimensions()
+        if value == 0.0:
+            return dict.fromkeys(self.by, float("nan"))
+        return {by: nominal[by] * slope / value for by, slope in self.gradient(output, kind).items()}
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Summaries in rows, dimensions in columns; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        table = {"value": np.array(list(self.values.values()))}
+        table |= {by: np.array([row[i] for row in self.gradients.values()]) for i, by in enumerate(self.by)}
+        frame = dataframe(table)
+        frame.index = [summary.name for summary in self.gradients]  # type: ignore[assignment]
+        return frame
+
+    def _asked(self, output: str) -> None:
+        if output not in self.curves:
+            raise LinkwrightError(f"no curve of {output!r} was asked for; there is {', '.join(self.curves) or 'none'}")
+
+    def _summary(self, output: str, kind: str | None) -> Summary:
+        found = split(output if kind is None else (output, kind))
+        if not isinstance(found, Summary) or found not in self.values:
+            raise LinkwrightError(
+                f"no summary {output!r} was asked for; there is {', '.join(s.name for s in self.values) or 'none'}"
+            )
+        return found
+
+
+def sensitivity(
+    mechanism: Mechanism,
+    *,
+    of: Iterable[str | tuple[str, str]],
+    by: Iterable[str],
+    steps: int = 360,
+    way: Way = "auto",
+    backend: Backend = "auto",
+) -> Sensitivity:
+    """Exact derivatives of outputs, and of their summaries over the cycle, with respect to dimensions.
+
+    Args:
+        mechanism: where the derivatives are taken.
+        of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
+            max, mean, rms, range, peak; the extremes are those of the positions.
+        by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
+        steps: positions over the cycle.
+        way: ``forward`` carries a derivative per dimension along with every line of the program, ``reverse`` sweeps
+            back from a summary to all dimensions at once; ``auto`` chooses.
+        backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
+
+    Returns:
+        The derivatives at fixed input; those of loads that follow the motion (ramps between limit positions, tables,
+        expressions) are included by the chain rule.
+
+    Raises:
+        LinkwrightError: unknown names (nearest ones offered); friction, for which there is no derivative.
+        PositionError: the mechanism does not pass its cycle.
+
+    Where the size of a vector is zero its derivative is taken as zero.
+    """
+    positions = over_cycle(mechanism, steps)
+    dimensions = checked_addresses(mechanism, by)
+    if not dimensions:
+        raise LinkwrightError("no dimension is given to differentiate by; name some, such as by=['crank.length']")
+    _refuse_input(dimensions)
+    asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
+    if not asked:
+        raise LinkwrightError('no outputs are asked for; name some, such as "driver.effort rms"')
+    traced = Traced(mechanism, dimensions, positions, turning=True)
+    if not traced.nominal.ok.all():
+        raise refusal(traced.nominal)
+    return _Derivation(traced, dimensions, asked, way, backend).result()
+
+
+def split(each: str | tuple[str, str]) -> str | Summary:
+    """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
+    from linkwright.study.summary import wanted
+
+    output = each if isinstance(each, str) else None
+    found = wanted([each])
+    if len(found) == 2 and output is not None:
+        return output
+    if found[0].kind in ("argmin", "argmax"):
+        raise LinkwrightError(f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme")
+    return found[0]
+
+
+def _refuse_input(by: Iterable[str]) -> None:
+    for address in by:
+        if address.startswith("cycle.") or address.endswith(".start"):
+            raise LinkwrightError(
+                f"{address} moves the positions of the input; derivatives are taken at fixed input, so leave it out"
+            )
+
+
+class _Derivation:
+    """The work of one call."""
+
+    def __init__(
+        self, traced: Traced, by: tuple[str, ...], asked: list[str | Summary], way: Way, backend: Backend
+    ) -> None:
+        self.traced, self.by, self.asked = traced, by, asked
+        names = [each.output if isinstance(each, Summary) else each for each in asked]
+        self.quantities = traced.quantities(names)
+        self.work = Slopes(traced, self.quantities, by, backend)
+        self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
+
+    def result(self) -> Sensitivity:
+        alone = [each for each in self.asked if isinstance(each, str)]
+        summaries = [each for each in self.asked if isinstance(each, Summary)]
+        slopes: dict[tuple[str, str], Floats] = {}
+        curves: dict[str, Floats] = {}
+        for name in alone:
+            curves[name] = self._curve(name)
+            slopes |= {(name, by): row for by, row in zip(self.by, self.work.forward(name), strict=True)}
+        values = {summary: self._value(summary) for summary in summaries}
+        gradients = {summary: self._gradient(summary) for summary in summaries}
+        input_ = self.traced.nominal.input if self.traced.mechanism.drivers else np.zeros(1)
+        return Sensitivity(
+            self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities
+        )
+
+    def _curve(self, name: str) -> Floats:
+        """Values of an output; an angle as the motion gives it, continuous over the positions."""
+        owner, _, part = name.rpartition(".")
+        if part == "angle" and owner in self.traced.mechanism.links:
+            return self.traced.nominal.link(owner).angle
+        return self.quantities[name].shown(self.work.values(name))
+
+    def _value(self, summary: Summary) -> float:
+        curve = self._curve(summary.output)
+        found = {
+            "mean": lambda: curve.mean(),
+            "rms": lambda: np.sqrt((curve * curve).mean()),
+            "min": lambda: curve.min(),
+            "max": lambda: curve.max(),
+            "range": lambda: np.ptp(curve),
+            "peak": lambda: np.abs(curve).max(),
+        }
+        assert summary.kind in KINDS
+        return float(found[summary.kind]())
+
+    def _gradient(self, summary: Summary) -> Floats:
+        """Derivatives of a summary, as a weighted sum of those at the positions."""
+        weights = self._weights(summary)
+        if self.back:
+            found = self.work.reverse(summary.output, weights)
+            if np.isfinite(found).all():
+                return found
+        return np.asarray(self.work.forward(summary.output) @ weights)
+
+    def _weights(self, summary: Summary) -> Floats:
+        """Derivative of the summary by the value at every position."""
+        curve = self._curve(summary.output)
+        n = len(curve)
+        if summary.kind == "mean":
+            return np.full(n, 1.0 / n)
+        if summary.kind == "rms":
+            value = self._value(summary)
+            return curve / (n * value) if value > 0.0 else np.zeros(n)
+        weights = np.zeros(n)
+        if summary.kind == "peak":
+            place = int(np.abs(curve).argmax())
+            weights[place] = 1.0 if curve[place] >= 0.0 else -1.0
+        if summary.kind in ("max", "range"):
+            weights[int(curve.argmax())] += 1.0
+        if summary.kind in ("min", "range"):
+            weights[int(curve.argmin())] -= 1.0 if summary.kind == "range" else -1.0
+        return weights

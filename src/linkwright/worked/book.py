@@ -1,0 +1,216 @@
+"""The solved position as symbols: every quantity of the mechanism with its name and its value."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.weld import WeldJoint
+from linkwright.kinematics.drawing import guide_angle
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import canonical
+from linkwright.structure.group import TreeJoint
+from linkwright.words import Say
+from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, number, symbol
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A point: its key, the label that the reader sees, where it is and how it moves."""
+
+    key: str
+    label: str
+    place: Pair
+    velocity: Pair
+    acceleration: Pair
+    fixed: bool
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A guide: unit vector, displacement with rates; ``sign`` -1 where the chain runs from block to guide."""
+
+    joint: str
+    along: Pair
+    s: Term
+    rate: Term
+    second: Term
+
+
+class Book:
+    """Symbols of one position of a motion; links are numbered in the order of the file, the frame is 0."""
+
+    def __init__(self, motion: Motion, index: int, say: Say) -> None:
+        self.motion = motion
+        self.mechanism = motion.mechanism
+        self.index = index
+        self.say = say
+        self.numbers = {"frame": 0} | {name: i for i, name in enumerate(self.mechanism.links, 1)}
+        self._spots: dict[str, Spot] = {}
+
+    # links --------------------------------------------------------------------------------
+    def angle_of(self, link: str) -> float:
+        """Angle of a link's x axis, degrees, -180 to 180."""
+        x, y = self.motion.link(link).direction[self.index]
+        return math.degrees(math.atan2(y, x))
+
+    def turn(self, link: str) -> Term:
+        """φ of a link; nothing for the frame."""
+        if link == "frame":
+            return ZERO
+        n = self.numbers[link]
+        return symbol(f"φ{n}", rf"\varphi_{{{n}}}", self.angle_of(link), degrees=True)
+
+    def omega(self, link: str) -> Term:
+        """ω of a link."""
+        return self._rate(link, "ω", r"\omega", "angular_velocity")
+
+    def alpha(self, link: str) -> Term:
+        """α of a link."""
+        return self._rate(link, "α", r"\alpha", "angular_acceleration")
+
+    def _rate(self, link: str, plain: str, latex: str, name: str) -> Term:
+        if link in self.resting:
+            return ZERO
+        n = self.numbers[link]
+        value = float(getattr(self.motion.link(link), name)[self.index])
+        return symbol(f"{plain}{n}", f"{latex}_{{{n}}}", value)
+
+    @cached_property
+    def resting(self) -> frozenset[str]:
+        """Links that cannot turn: the frame, and what guides and welds hang on it."""
+        found = {"frame"}
+        for _ in self.mechanism.links:
+            for joint in self.mechanism.joints.values():
+                if not isinstance(joint, RevoluteJoint) and found & set(joint.joined):
+                    found |= set(joint.joined)
+        if not self.mechanism.drivers:
+            found |= set(self.mechanism.links)
+        return frozenset(found)
+
+    # points -------------------------------------------------------------------------------
+    def spot(self, link: str, point: str) -> Spot:
+        """A point of a link; ``@centre`` is its mass centre."""
+        key = f"{link}.@centre" if point == "@centre" else canonical(self.mechanism, link, point)
+        if key not in self._spots:
+            self._spots[key] = self._make(key, link, point)
+        return self._spots[key]
+
+    def _make(self, key: str, link: str, point: str) -> Spot:
+        label = self._label(key, link, point)
+        joint = self.mechanism.joints.get(key)
+        fixed = link == "frame" or (isinstance(joint, RevoluteJoint) and "frame" in joint.links)
+        if fixed:
+            x, y = self.mechanism.frame.points[point]
+            return Spot(key, label, Pair(*self._coordinates(label, x, y)), NOWHERE, NOWHERE, True)
+        at = self.motion.point_of(key)
+        place = Pair(*self._coordinates(label, *at.position[self.index]))
+        if not self.mechanism.drivers:
+            return Spot(key, label, place, NOWHERE, NOWHERE, False)
+        rates = [
+            Pair(*(symbol(f"{letter}_{label}{c}", rf"{letter}_{{{tex(label)}{c}}}", float(v)) for c, v in parts))
+            for letter, parts in (
+                ("v", zip("xy", at.velocity[self.index], strict=True)),
+                ("a", zip("xy", at.acceleration[self.index], strict=True)),
+            )
+        ]
+        return Spot(key, label, place, rates[0], rates[1], False)
+
+    @staticmethod
+    def _coordinates(label: str, x: float, y: float) -> list[Term]:
+        named = zip("xy", (float(x), float(y)), strict=True)
+        return [symbol(f"{c}_{label}", rf"{c}_{{{tex(label)}}}", value) for c, value in named]
+
+    def _label(self, key: str, link: str, point: str) -> str:
+        if point == "@centre":
+            taken = any(f"G{self.numbers[link]}" in each.points for each in self._links)
+            return f"G{self.numbers[link]}" + ("*" if taken else "")
+        if key == point:
+            return point
+        owners = [each.name for each in self._links if point in each.points]
+        return point if len(owners) == 1 else key
+
+    @cached_property
+    def _links(self) -> list[object]:
+        return [self.mechanism.frame, *self.mechanism.links.values()]
+
+    def local(self, link: str, point: str) -> complex:
+        """A point in the axes of its link."""
+        part = self.mechanism.link(link)
+        return complex(*(part.centre if point == "@centre" else part.points[point]))
+
+    def arm(self, link: str, start: str, end: str) -> Pair:
+        """From one point of a link to another, in the axes of the link; known zeros left out."""
+        d = self.local(link, end) - self.local(link, start)
+        a, b = (self.spot(link, name).label for name in (start, end))
+        size = abs(d)
+        found = []
+        for letter, value in (("u", d.real), ("w", d.imag)):
+            zero = abs(value) <= 1e-14 * size
+            found.append(ZERO if zero else symbol(f"{letter}_{a}{b}", rf"{letter}_{{{tex(a)}{tex(b)}}}", value))
+        return Pair(*found)
+
+    # guides and drivers -------------------------------------------------------------------
+    def slide(self, joint: str) -> Slide:
+        """A guide in this position."""
+        prismatic = self.mechanism.joints[joint]
+        assert isinstance(prismatic, PrismaticJoint)
+        at = self.motion.joint(joint)
+        direction = math.radians(self.angle_of(prismatic.guide)) + guide_angle(self.mechanism, prismatic)
+        along = complex(np.cos(direction), np.sin(direction))
+        terms = []
+        for c, value in (("x", along.real), ("y", along.imag)):
+            level = prismatic.guide in self.resting and abs(value) < 1e-15
+            terms.append(ZERO if level else symbol(f"n_{joint},{c}", rf"n_{{{tex(joint)},{c}}}", value))
+        moves = bool(self.mechanism.drivers)
+        rates = [
+            symbol(f"s{mark}_{joint}", rf"{accent}{{s}}_{{{tex(joint)}}}", float(values[self.index]))
+            for mark, accent, values in (("'", r"\dot", at.velocity), ("''", r"\ddot", at.acceleration))
+        ]
+        s = symbol(f"s_{joint}", f"s_{{{tex(joint)}}}", float(at.displacement[self.index]))
+        return Slide(joint, Pair(*terms), s, *(rates if moves else [ZERO, ZERO]))
+
+    def guide_angle(self, step: TreeJoint) -> Term:
+        """Direction of a guide in the axes of the link that carries it."""
+        prismatic = self.mechanism.joints[step.joint]
+        assert isinstance(prismatic, PrismaticJoint)
+        return self.degrees(guide_angle(self.mechanism, prismatic))
+
+    def drive(self, name: str) -> tuple[Term, Term, Term]:
+        """Coordinate of a driver with its rates."""
+        q, rate, second = (float(row[self.index]) for row in self.motion.positions.coordinates[name])
+        turning = self.motion.positions.rotary[name]
+        mark = "" if len(self.mechanism.drivers) == 1 else f"_{name}"
+        sub = "" if not mark else f"_{{{tex(name)}}}"
+        shown = math.degrees(q) if turning else q
+        return (
+            symbol(f"q{mark}", f"q{sub}", shown, degrees=turning),
+            symbol(f"q'{mark}", rf"\dot{{q}}{sub}", rate),
+            ZERO if second == 0.0 else symbol(f"q''{mark}", rf"\ddot{{q}}{sub}", second),
+        )
+
+    def turned(self, step: TreeJoint) -> Term:
+        """Angle of the child's axes against the parent's, for a guide or a weld."""
+        joint = self.mechanism.joints[step.joint]
+        if isinstance(joint, WeldJoint):
+            return self.degrees(joint.angle if step.child == joint.links[1] else -joint.angle)
+        assert isinstance(joint, PrismaticJoint)
+        turn = guide_angle(self.mechanism, joint) - joint.block_angle
+        return self.degrees(turn if step.child == joint.block else -turn)
+
+    @staticmethod
+    def degrees(radians: float) -> Term:
+        """A given angle as a plain number of degrees."""
+        value = math.degrees(radians)
+        return ZERO if value == 0.0 else number(float(f"{value:.13g}"), degrees=True)
+
+
+def tex(name: str) -> str:
+    """A name inside a formula."""
+    plain = name.replace("_", r"\_")
+    return plain if len(name) == 1 else rf"\mathrm{{{plain}}}"

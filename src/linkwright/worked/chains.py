@@ -1,0 +1,255 @@
+"""A group's chains as a textbook walks them: from a point that is known, through pins and guides, to the cut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.worked.book import Book, Slide, Spot
+from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term
+
+
+@dataclass
+class Piece:
+    """Part of a chain in which nothing turns against anything else, from ``start`` to ``end``.
+
+    ``link`` tells how it turns; ``slides`` with the sign of the direction in which they move the end.
+    """
+
+    link: str
+    start: Spot
+    end: Spot
+    slides: list[tuple[TreeJoint, Slide, int]] = field(default_factory=list)
+
+    @property
+    def arm(self) -> Pair:
+        """From start to end, frame axes."""
+        return NOWHERE if self.start.key == self.end.key else self.end.place - self.start.place
+
+
+@dataclass
+class Turn:
+    """A pin of a chain: the joint, its place, and where the part that it turns ends (next free pin, or the cut)."""
+
+    step: TreeJoint
+    pivot: Spot
+    tip: Spot
+
+    @property
+    def arm(self) -> Pair:
+        """What the pin turns, frame axes."""
+        return self.tip.place - self.pivot.place
+
+
+@dataclass
+class Chain:
+    """A chain from a solved link to one end of a cut (or to any point of its last link)."""
+
+    base: Spot
+    pieces: list[Piece]
+    free: list[Turn]
+    driven: list[Turn]
+    owned: list[bool]
+
+    def slides(self) -> Iterator[tuple[TreeJoint, Slide, int, str]]:
+        """All guides with sign and the link whose turning they follow."""
+        for piece in self.pieces:
+            for step, slide, sign in piece.slides:
+                yield step, slide, sign, piece.link
+
+
+def attach(step: TreeJoint, link: str, book: Book) -> str:
+    """Name of the point of a link at which a joint holds it."""
+    joint = book.mechanism.joints[step.joint]
+    if isinstance(joint, PrismaticJoint):
+        return joint.through if link == joint.guide else joint.at
+    return getattr(joint, "at", joint.name)
+
+
+def walk(book: Book, group: Group, end: str, tip: Spot, point: str) -> Chain:
+    """The chain to ``tip``; ``point`` is the point by which it starts if ``end`` is a solved link."""
+    steps = list(reversed(list(group.path(end))))
+    if not steps:
+        base = book.spot(end, point)
+        pieces = [] if base.key == tip.key else [Piece(end, base, tip)]
+        return Chain(base, pieces, [], [], [False])
+    base = book.spot(steps[0].parent, attach(steps[0], steps[0].parent, book))
+    chain = Chain(base, [], [], [], [])
+    here, link, slides = base, steps[0].parent, []
+    for step in steps:
+        if step.kind == "prismatic":
+            sign = 1 if step.child == step.connection.b else -1
+            slides.append((step, book.slide(step.joint), sign))
+        elif step.kind == "revolute":
+            pin = book.spot(step.parent, step.joint)
+            _close(chain, Piece(link, here, pin, slides))
+            here, link, slides = pin, step.child, []
+            (chain.free if step.free else chain.driven).append(Turn(step, pin, tip))
+    _close(chain, Piece(link, here, tip, slides))
+    _end_turns(chain)
+    return chain
+
+
+def _close(chain: Chain, piece: Piece) -> None:
+    if piece.start.key != piece.end.key or piece.slides:
+        chain.pieces.append(piece)
+        chain.owned.append(bool(chain.free))
+
+
+def _end_turns(chain: Chain) -> None:
+    """Every pin's part ends at the next free pin."""
+    order = [turn.step for turn in chain.free]
+    for i, turn in enumerate(chain.free[:-1]):
+        turn.tip = chain.free[i + 1].pivot
+    for turn in chain.driven:
+        later = [free for free in chain.free if _after(chain, turn, free)]
+        if later:
+            turn.tip = later[0].pivot
+    assert len(order) == len(chain.free)
+
+
+def _after(chain: Chain, turn: Turn, free: Turn) -> bool:
+    """Whether a free pin comes after a driven one along the chain."""
+    starts = [piece.start.key for piece in chain.pieces]
+    if turn.pivot.key not in starts or free.pivot.key not in starts:
+        return False
+    return starts.index(free.pivot.key) > starts.index(turn.pivot.key)
+
+
+@dataclass(frozen=True)
+class Drift:
+    """A known part of a velocity or an acceleration, with the key of its name."""
+
+    kind: str
+    label: str
+    vector: Pair
+
+
+def columns(chain: Chain) -> dict[TreeJoint, Pair]:
+    """What a unit rate of each unknown does to the tip."""
+    found = {turn.step: turn.arm.perp for turn in chain.free}
+    for step, slide, sign, _ in chain.slides():
+        if step.free:
+            found[step] = slide.along if sign > 0 else -slide.along
+    return found
+
+
+def drift(chain: Chain, book: Book) -> Pair:
+    """Velocity of the tip with the unknown rates left out."""
+    found = chain.base.velocity
+    for piece, owned in zip(chain.pieces, chain.owned, strict=True):
+        if not owned:
+            found = found + piece.arm.perp.times(book.omega(piece.link))
+    for turn, rate, _ in _driven(chain, book):
+        found = found + turn.arm.perp.times(rate)
+    for step, slide, sign, _ in chain.slides():
+        if not step.free:
+            found = found + slide.along.times(slide.rate if sign > 0 else -slide.rate)
+    return found
+
+
+def bends(chain: Chain, book: Book) -> list[Drift]:
+    """Parts of the tip's acceleration with the unknown second derivatives left out, one by one."""
+    found = [Drift("base", chain.base.label, chain.base.acceleration)]
+    for piece, owned in zip(chain.pieces, chain.owned, strict=True):
+        omega, label = book.omega(piece.link), f"{piece.start.label}{piece.end.label}"
+        if not owned:
+            found.append(Drift("tangential", label, piece.arm.perp.times(book.alpha(piece.link))))
+        found.append(Drift("centripetal", label, -piece.arm.times(omega.squared)))
+    for turn, _, second in _driven(chain, book):
+        found.append(Drift("driven_turn", turn.pivot.label, turn.arm.perp.times(second)))
+    for step, slide, sign, link in chain.slides():
+        factor = _two(book.omega(link) * slide.rate)
+        found.append(Drift("coriolis", step.joint, slide.along.perp.times(factor if sign > 0 else -factor)))
+        if not step.free:
+            second = slide.second if sign > 0 else -slide.second
+            found.append(Drift("driven_slide", step.joint, slide.along.times(second)))
+    return [each for each in found if not (each.vector.x.is_zero and each.vector.y.is_zero)]
+
+
+def _two(term: Term) -> Term:
+    from linkwright.worked.terms import TWO
+
+    return TWO * term
+
+
+def _driven(chain: Chain, book: Book) -> Iterator[tuple[Turn, Term, Term]]:
+    """Driven pins inside parts whose rotation is unknown, with their rates as the chain counts them."""
+    if not chain.free:
+        return
+    for turn in chain.driven:
+        assert turn.step.driver is not None
+        _, rate, second = book.drive(turn.step.driver)
+        own = turn.step.child == book.mechanism.drivers[turn.step.driver].link
+        yield turn, (rate if own else -rate), (second if own else -second)
+
+
+@dataclass(frozen=True)
+class Closure:
+    """One cut: its chains, the sign of each, and the direction of its rows (both axes, or across the guide)."""
+
+    cut: Connection
+    chains: tuple[Chain, Chain]
+    tip: Spot
+    across: Slide | None
+
+    @property
+    def signs(self) -> tuple[int, int]:
+        return (-1, 1) if self.across is not None else (1, -1)
+
+    def rows(self, vector: Pair) -> list[Term]:
+        """A vector as the rows of this cut see it."""
+        if self.across is None:
+            return [vector.x, vector.y]
+        return [self.across.along.cross(vector)]
+
+    def joined(self, parts: tuple[Pair, Pair]) -> Pair:
+        """One vector of each chain, signs applied."""
+        return parts[0] - parts[1] if self.across is None else parts[1] - parts[0]
+
+
+def closures(book: Book, group: Group) -> list[Closure]:
+    """All cuts of a group."""
+    found = []
+    for cut in group.cuts:
+        if cut.kind == "revolute":
+            tip, names = book.spot(cut.a, cut.joint), (cut.joint, cut.joint)
+            across = None
+        else:
+            joint = book.mechanism.joints[cut.joint]
+            assert isinstance(joint, PrismaticJoint)
+            tip, names = book.spot(cut.b, joint.at), (joint.through, joint.at)
+            across = book.slide(cut.joint)
+        chains = tuple(
+            walk(book, group, end, tip, name) for end, name in zip((cut.a, cut.b), names, strict=True)
+        )
+        found.append(Closure(cut, chains, tip, across))  # type: ignore[arg-type]
+    return found
+
+
+def matrix(group: Group, cuts: list[Closure]) -> list[list[Term]]:
+    """Rows: equations of the cuts; columns: the unknowns."""
+    rows: list[list[Term]] = []
+    for closure in cuts:
+        ends = [columns(chain) for chain in closure.chains]
+        vectors = [closure.joined((ends[0].get(s, NOWHERE), ends[1].get(s, NOWHERE))) for s in group.unknowns]
+        seen = [closure.rows(vector) for vector in vectors]
+        rows += [[column[i] for column in seen] for i in range(len(seen[0]))]
+    return rows
+
+
+def unknown_names(book: Book, group: Group, order: int) -> list[Term]:
+    """Symbols of the unknown rates (``order`` 1) or second derivatives (2)."""
+    found = []
+    for step in group.unknowns:
+        if step.kind == "prismatic":
+            slide = book.slide(step.joint)
+            found.append(slide.rate if order == 1 else slide.second)
+        else:
+            found.append(book.omega(step.child) if order == 1 else book.alpha(step.child))
+    return found
+
+
+__all__ = ["ONE", "ZERO", "Chain", "Closure", "Drift", "bends", "closures", "drift", "matrix", "unknown_names", "walk"]

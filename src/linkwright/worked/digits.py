@@ -1,0 +1,91 @@
+"""How many digits the numbers need so that a reader with a calculator gets the printed result."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.worked.terms import Term
+
+#: Significant digits of a result, and the least and most of a number put in.
+RESULT, LEAST, MOST = 6, 6, 15
+#: Relative error of the numbers put in that no result's last digit may fall below.
+FINEST = 1e-11
+
+
+def rounded(value: float, digits: int) -> str:
+    """A number put in, to some significant digits."""
+    text = f"{value:.{digits}g}"
+    mantissa, e, exponent = text.partition("e")
+    if e and -5 <= int(exponent) < 0:
+        return f"{value:.{digits - 1 - int(exponent)}f}".rstrip("0")
+    if mantissa in ("-0", "0"):
+        return "0"
+    return f"{mantissa}e{int(exponent)}" if e else mantissa
+
+
+def put_in(term: Term, digits: int) -> str:
+    """How a symbol's or a number's value is printed."""
+    if term.op == "number":
+        return rounded(term.amount, MOST) + ("°" if term.degrees else "")
+    return rounded(term.amount, digits) + ("°" if term.degrees else "")
+
+
+def last_place(value: float, error: float = 0.0) -> int:
+    """Power of ten of the last digit of a result that may be wrong by ``error``."""
+    own = math.floor(math.log10(abs(value))) - RESULT + 1 if value else -RESULT
+    if error <= 0.0 or not math.isfinite(error):
+        return own
+    return max(own, math.ceil(math.log10(error)))
+
+
+def printed(value: float, place: int) -> str:
+    """A result to the digit of ``10**place``."""
+    if abs(value) < 0.5 * 10.0**place:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if exponent >= 7 or exponent < -4 or place > 0:
+        mantissa = f"{value:.{max(exponent - place, 0)}e}"
+        base, _, power = mantissa.partition("e")
+        return f"{base}e{int(power)}"
+    return f"{value:.{max(-place, 0)}f}"
+
+
+def error_of(term: Term) -> float:
+    """Bound of a term's error when every symbol has a relative error of FINEST."""
+    if not term.args:
+        return abs(term.amount) * FINEST if term.op == "symbol" else 0.0
+    errors = [error_of(each) for each in term.args]
+    values = [each.value for each in term.args]
+    match term.op:
+        case "sum":
+            return sum(errors)
+        case "product":
+            whole = math.prod(values)
+            return sum(e * _share(whole, values, i) for i, e in enumerate(errors))
+        case "quotient":
+            return (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1]) if values[1] else math.inf
+        case "square":
+            return 2.0 * abs(values[0]) * errors[0]
+        case "root":
+            return errors[0] / (2.0 * math.sqrt(values[0])) if values[0] > 0.0 else math.inf
+        case "atan2":
+            size = values[0] ** 2 + values[1] ** 2
+            turn = abs(values[0]) * errors[1] + abs(values[1]) * errors[0]
+            return math.degrees(turn / size) if size else math.inf
+    return math.radians(errors[0])
+
+
+def _share(whole: float, values: list[float], index: int) -> float:
+    if values[index]:
+        return abs(whole / values[index])
+    return abs(math.prod(v for i, v in enumerate(values) if i != index))
+
+
+def digits_needed(term: Term, goal: str, place: int) -> int:
+    """The fewest digits of the numbers put in with which the term comes out as printed, within its last digit."""
+    aim, step = float(goal), 10.0**place
+    for digits in range(LEAST, MOST + 1):
+        found = term.reckon(lambda leaf, n=digits: float(put_in(leaf, n).rstrip("°")))
+        if abs(found - aim) <= 0.98 * step:
+            return digits
+    return MOST

@@ -1,0 +1,133 @@
+"""What a worked solution is made of: steps with sentences, equations and relations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
+from linkwright.worked.render import latex, plain
+from linkwright.worked.terms import Term
+
+
+@dataclass(frozen=True)
+class Note:
+    """A sentence."""
+
+    text: str
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {"note": self.text}
+
+
+@dataclass(frozen=True)
+class Relation:
+    """An equation to be solved further below: left and right side in symbols."""
+
+    left: Term
+    right: Term
+
+    @property
+    def text(self) -> str:
+        """In plain symbols."""
+        return f"{plain(self.left)} = {plain(self.right)}"
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {"relation": self.text, "latex": f"{latex(self.left)} = {latex(self.right)}"}
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One result: symbol, formula, the formula with its numbers put in, and the result with its unit.
+
+    ``value`` is the result to full precision, SI, angles in degrees; ``column`` the name of the result's column
+    in the table of all results, if it is one; ``formula`` is empty for what is given.
+    """
+
+    symbol: str
+    latex_symbol: str
+    formula: str
+    latex_formula: str
+    numbers: str
+    latex_numbers: str
+    result: str
+    unit: str
+    value: float
+    column: str = ""
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {
+            "symbol": self.symbol,
+            "formula": self.formula,
+            "numbers": self.numbers,
+            "result": self.result,
+            "unit": self.unit,
+            "value": self.value,
+            "column": self.column,
+            "latex": {
+                "symbol": self.latex_symbol,
+                "formula": self.latex_formula,
+                "numbers": self.latex_numbers,
+            },
+        }
+
+
+Item = Note | Relation | Equation
+
+
+@dataclass
+class Step:
+    """One step of the solution; ``group`` is the name of the Assur group it belongs to, or empty."""
+
+    number: str
+    title: str
+    group: str = ""
+    items: list[Item] = field(default_factory=list)
+
+    @property
+    def equations(self) -> list[Equation]:
+        """Its results."""
+        return [item for item in self.items if isinstance(item, Equation)]
+
+    def say(self, text: str) -> None:
+        """Adds a sentence."""
+        self.items.append(Note(text))
+
+    def relate(self, left: Term, right: Term) -> None:
+        """Adds an equation that is solved further below."""
+        self.items.append(Relation(left, right))
+
+    def find(self, result: Term, formula: Term, unit: str, column: str = "") -> Term:
+        """Adds a result: the symbol with the solver's value, and the formula that gives it."""
+        self.items.append(_equation(result, formula, unit, column))
+        return result
+
+    def give(self, result: Term, unit: str, column: str = "") -> Term:
+        """Adds what is known beforehand."""
+        value, mark = result.amount, "°" if result.degrees else ""
+        text = put_in(result, 6).rstrip("°")
+        name = (plain(result), latex(result))
+        self.items.append(Equation(*name, "", "", "", "", text, mark or unit, value, column))
+        return result
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        items = [item.data() for item in self.items]
+        return {"number": self.number, "title": self.title, "group": self.group, "items": items}
+
+
+def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
+    value = result.amount
+    place = last_place(value, error_of(formula))
+    text = printed(value, place)
+    digits = digits_needed(formula, text, place if text != "0" else max(place, -6))
+    known = formula.op == "symbol" and put_in(formula, digits).rstrip("°") == text
+    numbers, tex = ("", "") if known or not formula.args else (plain(formula, digits), latex(formula, digits))
+    if formula.op == "symbol" and not known:
+        numbers, tex = plain(formula, digits), latex(formula, digits)
+    return Equation(
+        plain(result), latex(result), plain(formula), latex(formula), numbers, tex, text,
+        "°" if result.degrees else unit, value, column,
+    )  # fmt: skip

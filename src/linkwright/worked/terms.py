@@ -1,0 +1,191 @@
+"""Formulas that know their symbols and their numbers, so that both can be printed and reckoned again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Leaf = Callable[["Term"], float]
+
+
+@dataclass(frozen=True)
+class Term:
+    """A symbol, a number, or an operation on terms; angles are counted in degrees.
+
+    ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, cos, sin, atan2.
+    """
+
+    op: str
+    args: tuple[Term, ...] = ()
+    signs: tuple[int, ...] = ()
+    plain: str = ""
+    latex: str = ""
+    amount: float = 0.0
+    degrees: bool = False
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the term is nothing by its kind, not by chance."""
+        return self.op == "number" and self.amount == 0.0
+
+    def __add__(self, other: Term) -> Term:
+        return _sum(self, other, 1)
+
+    def __sub__(self, other: Term) -> Term:
+        return _sum(self, other, -1)
+
+    def __neg__(self) -> Term:
+        return _sum(ZERO, self, -1)
+
+    def __mul__(self, other: Term) -> Term:
+        if self.is_zero or other.is_zero:
+            return ZERO
+        if self == ONE:
+            return other
+        if other == ONE:
+            return self
+        for first, second in ((self, other), (other, self)):
+            if first.op == "sum" and len(first.args) == 1:
+                return -(first.args[0] * second) if first is self else -(second * first.args[0])
+        return Term("product", (*_factors(self), *_factors(other)))
+
+    def __truediv__(self, other: Term) -> Term:
+        return ZERO if self.is_zero else Term("quotient", (self, other))
+
+    @property
+    def squared(self) -> Term:
+        """The term times itself."""
+        return ZERO if self.is_zero else Term("square", (self,))
+
+    @property
+    def value(self) -> float:
+        """What the term amounts to."""
+        return self.reckon(lambda leaf: leaf.amount)
+
+    def reckon(self, leaf: Leaf) -> float:
+        """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value."""
+        if not self.args:
+            return leaf(self)
+        try:
+            return _APPLY[self.op](self, [each.reckon(leaf) for each in self.args])
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return math.nan
+
+    def leaves(self) -> list[Term]:
+        """All symbols and numbers in it."""
+        return [self] if not self.args else [leaf for each in self.args for leaf in each.leaves()]
+
+
+def _add(term: Term, values: list[float]) -> float:
+    return sum(sign * value for sign, value in zip(term.signs, values, strict=True))
+
+
+_APPLY: dict[str, Callable[[Term, list[float]], float]] = {
+    "sum": _add,
+    "product": lambda _, v: math.prod(v),
+    "quotient": lambda _, v: v[0] / v[1],
+    "square": lambda _, v: v[0] * v[0],
+    "root": lambda _, v: math.sqrt(v[0]),
+    "cos": lambda _, v: math.cos(math.radians(v[0])),
+    "sin": lambda _, v: math.sin(math.radians(v[0])),
+    "atan2": lambda _, v: math.degrees(math.atan2(v[0], v[1])),
+}
+
+
+def _sum(a: Term, b: Term, sign: int) -> Term:
+    if b.is_zero:
+        return a
+    first = () if a.is_zero else ((a.args, a.signs) if a.op == "sum" else ((a,), (1,)))
+    args, signs = first or ((), ())
+    if b.op == "sum" and (sign == 1 or len(b.args) == 1):
+        return _flat((*args, *b.args), (*signs, *(sign * each for each in b.signs)))
+    return _flat((*args, b), (*signs, sign))
+
+
+def _flat(args: tuple[Term, ...], signs: tuple[int, ...]) -> Term:
+    if len(args) == 1 and signs == (1,):
+        return args[0]
+    return Term("sum", args, signs)
+
+
+def _factors(term: Term) -> tuple[Term, ...]:
+    return term.args if term.op == "product" else (term,)
+
+
+def symbol(plain: str, latex: str, amount: float, *, degrees: bool = False) -> Term:
+    """A named quantity with its value."""
+    return Term("symbol", plain=plain, latex=latex, amount=amount, degrees=degrees)
+
+
+def number(amount: float, *, degrees: bool = False) -> Term:
+    """A plain number."""
+    return Term("number", amount=amount, degrees=degrees)
+
+
+ZERO, ONE, TWO, FOUR = number(0.0), number(1.0), number(2.0), number(4.0)
+
+
+def root(term: Term) -> Term:
+    """Square root."""
+    return Term("root", (term,))
+
+
+def cosine(angle: Term) -> Term:
+    """Cosine of an angle in degrees."""
+    return ONE if angle.is_zero else Term("cos", (angle,))
+
+
+def sine(angle: Term) -> Term:
+    """Sine of an angle in degrees."""
+    return ZERO if angle.is_zero else Term("sin", (angle,))
+
+
+def direction(y: Term, x: Term) -> Term:
+    """Angle of the vector (x, y), degrees, -180 to 180."""
+    return Term("atan2", (y, x))
+
+
+def total(terms: list[Term]) -> Term:
+    """Sum of terms."""
+    found = ZERO
+    for term in terms:
+        found = found + term
+    return found
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A vector of terms."""
+
+    x: Term
+    y: Term
+
+    def __add__(self, other: Pair) -> Pair:
+        return Pair(self.x + other.x, self.y + other.y)
+
+    def __sub__(self, other: Pair) -> Pair:
+        return Pair(self.x - other.x, self.y - other.y)
+
+    def __neg__(self) -> Pair:
+        return Pair(-self.x, -self.y)
+
+    def times(self, factor: Term) -> Pair:
+        """Stretched by a factor."""
+        return Pair(factor * self.x, factor * self.y)
+
+    @property
+    def perp(self) -> Pair:
+        """Turned by a right angle, counter-clockwise."""
+        return Pair(-self.y, self.x)
+
+    def cross(self, other: Pair) -> Term:
+        """Component of the vector product along z."""
+        return self.x * other.y - self.y * other.x
+
+    def dot(self, other: Pair) -> Term:
+        """Scalar product."""
+        return self.x * other.x + self.y * other.y
+
+
+NOWHERE = Pair(ZERO, ZERO)

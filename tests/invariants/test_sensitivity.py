@@ -1,0 +1,125 @@
+"""Exact derivatives: against differences of independent solutions, and against laws that derivatives obey."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.study import sensitivity
+
+KINDS: dict[str, Callable[[np.ndarray], float]] = {
+    "rms": lambda y: np.sqrt((y * y).mean()),
+    "mean": np.mean,
+    "max": np.max,
+    "min": np.min,
+    "peak": lambda y: np.abs(y).max(),
+    "range": np.ptp,
+}
+
+
+def curve(mechanism: lw.Mechanism, output: str, steps: int) -> np.ndarray:
+    """An output by the public results."""
+    motion = lw.solve_motion(mechanism, steps=steps)
+    if output.endswith(".angle"):
+        return motion.link(output.removesuffix(".angle")).angle
+    if output.endswith(".acceleration"):
+        return np.hypot(*motion.point(output.removesuffix(".acceleration")).acceleration.T)
+    forces = lw.solve_forces(motion)
+    if output.startswith("reaction"):
+        _, joint, _, link = output.split()
+        return np.hypot(*forces.reaction(joint, on=link).T)
+    return forces.input_torque
+
+
+def differences(mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float) -> tuple[np.ndarray, dict]:
+    """Central differences of the fourth order: of the curve, and of its summaries."""
+    value = mechanism.dimension(by)
+    step = part * max(abs(value), 0.1)
+    ends = [curve(mechanism.with_dimensions({by: value + k * step}), output, steps) for k in (-2, -1, 1, 2)]
+
+    def slope(a, b, c, d):  # type: ignore[no-untyped-def]
+        return (8 * (c - b) - (d - a)) / (12 * step)
+
+    return slope(*ends), {kind: slope(*map(reduce, ends)) for kind, reduce in KINDS.items()}
+
+
+CASES = [
+    ("crank_rocker", ["coupler.angle", "coupler.P.acceleration"], ["coupler.length", "frame.O2.x"], 1e-4),
+    (
+        "jaw_crusher_sixbar",
+        ["input_torque", "reaction O5 on jaw", "jaw.angle"],
+        ["pitman.length", "crank.length", "jaw.mass", "loads.crushing.ramp.1", "frame.O3.y"],
+        1e-5,
+    ),
+    ("shaper_quick_return", ["input_torque", "reaction F on ram"], ["crank.length", "guide.offset"], 1e-4),
+    ("triad", ["input_torque", "reaction O3 on bar_3", "plate.angle"], ["crank.A.x", "plate.R.y", "bar_1.mass"], 1e-4),
+]
+
+
+@pytest.mark.parametrize("way", ["forward", "reverse"])
+@pytest.mark.parametrize(("name", "outputs", "by", "part"), CASES, ids=[case[0] for case in CASES])
+def test_derivatives_are_the_limits_of_differences(
+    name: str, outputs: list[str], by: list[str], part: float, way: str
+) -> None:
+    steps = 360 if name == "jaw_crusher_sixbar" else 72
+    mechanism = lw.load(f"gallery:{name}")
+    asked = [*outputs, *((output, kind) for output in outputs for kind in KINDS)]
+    found = sensitivity(mechanism, of=asked, by=by, steps=steps, way=way)  # type: ignore[arg-type]
+    for output in outputs:
+        for address in by:
+            slope, summaries = differences(mechanism, output, address, steps, part)
+            size = np.abs(slope).max()
+            assert np.abs(found.slope(output, address) - slope).max() <= 1e-6 * size + 1e-9, (output, address)
+            for kind, expected in summaries.items():
+                gradient = found.gradient(output, kind)[address]
+                assert abs(gradient - expected) <= 1e-6 * max(abs(expected), 1e-3 * size) + 1e-9, (output, kind, address)
+
+
+def test_angles_do_not_change_with_the_scale() -> None:
+    """Σ l ∂θ/∂l = 0 over all lengths (Euler, degree 0); velocities grow with it (degree 1)."""
+    mechanism = lw.load("gallery:crank_rocker")
+    lengths = [a for a in mechanism.dimensions() if a.endswith((".length", ".x", ".y")) and not a.startswith("gravity")]
+    found = sensitivity(mechanism, of=["coupler.angle", "coupler.P.velocity"], by=lengths)
+    dimensions = mechanism.dimensions()
+    total = sum(dimensions[a] * found.slope("coupler.angle", a) for a in lengths)
+    assert np.abs(total).max() < 1e-12
+    velocity = found.curve("coupler.P.velocity")
+    grown = sum(dimensions[a] * found.slope("coupler.P.velocity", a) for a in lengths)
+    assert grown == pytest.approx(velocity, rel=1e-11)
+
+
+def test_torque_is_linear_in_masses_and_load() -> None:
+    """T is homogeneous of degree 1 in all masses, inertias and load numbers together."""
+    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    linear = [a for a in mechanism.dimensions() if a.endswith((".mass", ".inertia"))]
+    linear += ["loads.crushing.ramp.0", "loads.crushing.ramp.1"]
+    for way in ("forward", "reverse"):
+        found = sensitivity(mechanism, of=["driver.effort rms"], by=linear, way=way)  # type: ignore[arg-type]
+        dimensions, gradient = mechanism.dimensions(), found.gradient("driver.effort rms")
+        assert sum(dimensions[a] * gradient[a] for a in linear) == pytest.approx(found.value("driver.effort rms"), rel=1e-12)
+
+
+def test_the_stroke_of_an_in_line_slider_crank_grows_by_two_cranks() -> None:
+    mechanism = lw.load("gallery:slider_crank_inline")
+    found = sensitivity(mechanism, of=["cylinder.displacement range"], by=["crank.length", "rod.length"])
+    gradient = found.gradient("cylinder.displacement range")
+    assert gradient["crank.length"] == pytest.approx(2.0, rel=1e-12)
+    assert gradient["rod.length"] == pytest.approx(0.0, abs=1e-12)
+    assert found.relative("cylinder.displacement range")["crank.length"] == pytest.approx(1.0, rel=1e-12)
+
+
+def test_compiled_derivatives_agree() -> None:
+    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    asked = ["driver.effort", ("reaction O5 on jaw", "rms")]
+    by = ["pitman.length", "frame.O3.x"]
+    for way in ("forward", "reverse"):
+        plain = sensitivity(mechanism, of=asked, by=by, backend="numpy", way=way)  # type: ignore[arg-type]
+        fast = sensitivity(mechanism, of=asked, by=by, backend="llvm", way=way)  # type: ignore[arg-type]
+        for address in by:
+            a, b = plain.slope("driver.effort", address), fast.slope("driver.effort", address)
+            assert np.abs(a - b).max() <= 1e-10 * np.abs(a).max()
+            pair = [each.gradient("reaction O5 on jaw", "rms")[address] for each in (plain, fast)]
+            assert pair[0] == pytest.approx(pair[1], rel=1e-10)

@@ -1,0 +1,159 @@
+"""Sweeps against formulas of the textbooks and against solving each design for itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.study import sweep
+
+CRANK = np.array([20.0, 35.0, 50.0, 65.0]) / 1000
+ROD = np.array([150.0, 400.0, 170.0, 220.0]) / 1000
+
+
+def test_the_stroke_of_an_in_line_slider_crank_is_twice_the_crank() -> None:
+    found = sweep(
+        lw.load("gallery:slider_crank_inline"),
+        {"crank.length": CRANK, "rod.length": ROD},
+        outputs=["cylinder.displacement range", "cylinder.displacement argmax", "cylinder.acceleration peak"],
+    )
+    omega = 1500 * 2 * np.pi / 60
+    assert found["cylinder.displacement range"] == pytest.approx(2 * CRANK, rel=1e-13)
+    assert np.all(found["cylinder.displacement argmax"] == 0.0)
+    # at the outer dead point: r ω² (1 + r/l)
+    assert found["cylinder.acceleration", "peak"] == pytest.approx(CRANK * omega**2 * (1 + CRANK / ROD), rel=1e-12)
+    assert np.all(found.assembled == 360)
+    assert found.failures() == ()
+
+
+def test_the_smallest_transmission_angle_of_a_crank_rocker() -> None:
+    """cos μ = (b² + c² - (d ∓ a)²)/(2 b c) where the crank lies on the frame line."""
+    mechanism = lw.load("gallery:crank_rocker")
+    a, d, c = (mechanism.dimension(name) for name in ("crank.length", "frame.O2.x", "rocker.length"))
+    b = np.linspace(3.0, 3.9, 7)
+    found = sweep(mechanism, {"coupler.length": b}, outputs=[("transmission_angle B", "min")])
+    ends = np.array([np.arccos((b**2 + c**2 - (d + s * a) ** 2) / (2 * b * c)) for s in (1, -1)])
+    acute = np.minimum(ends, np.pi - ends).min(axis=0)
+    assert found["transmission_angle B min"] == pytest.approx(acute, rel=1e-11)
+
+
+def test_designs_that_cannot_turn_are_those_that_grashof_excludes() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    a, c, d = (mechanism.dimension(name) for name in ("crank.length", "rocker.length", "frame.O2.x"))
+    b = np.linspace(1.013, 7.0, 101)
+    found = sweep(mechanism, {"coupler.length": b}, outputs=["rocker.angle range", "B.velocity max"])
+    turns = (b + c > d + a) & (np.abs(b - c) < d - a)
+    assert np.array_equal(found.ok, turns)
+    assert np.array_equal(np.isfinite(found["rocker.angle range"]), turns)
+    assert np.isfinite(found["B.velocity max"][turns]).all()
+    assert sum(failure.count for failure in found.failures()) == int((~turns).sum())
+    for failure in found.failures():
+        assert failure.group == "coupler+rocker"
+        assert "cannot be assembled" in failure.example
+
+
+def test_partial_summaries_are_those_of_the_reached_positions() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    found = sweep(mechanism, {"coupler.length": [2.3]}, outputs=["B.y max"], partial=True)
+    motion = lw.solve_motion(mechanism.with_dimensions({"coupler.length": 2.3}), failures="mark")
+    assert 0 < found.assembled[0] == motion.ok.sum() < 360
+    assert found["B.y max"][0] == pytest.approx(np.nanmax(motion.point("B").position[:, 1]), rel=1e-12)
+
+
+def _reductions(values: np.ndarray) -> dict[str, float]:
+    return {
+        "min": values.min(),
+        "max": values.max(),
+        "mean": values.mean(),
+        "rms": np.sqrt((values**2).mean()),
+        "peak": np.abs(values).max(),
+        "range": np.ptp(values),
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "varied"),
+    [
+        ("jaw_crusher_sixbar", {"pitman.length": (1.2, 1.3), "jaw.mass": (500.0, 1200.0)}),
+        ("shaper_quick_return", {"crank.length": (0.08, 0.12)}),
+        ("triad", {"crank.A.x": (0.026, 0.034), "bar_1.mass": (0.5, 2.0)}),
+    ],
+)
+def test_summaries_are_those_of_every_design_solved_alone(name: str, varied: dict[str, tuple[float, float]]) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    rng = np.random.default_rng(3)
+    nominal = mechanism.dimensions()
+    columns = {a: np.clip(rng.uniform(*r, 6), *sorted(r)) for a, r in varied.items() if a in nominal}
+    last = list(mechanism.links)[-1]
+    joint = next(j for j in mechanism.joints if last in mechanism.joints[j].joined)
+    reaction = f"reaction {joint} on {last}"
+    kinds = ("min", "max", "mean", "rms", "peak", "range")
+    asked = [(output, kind) for output in ("input_torque", reaction, f"{last}.centre.acceleration") for kind in kinds]
+    found = sweep(mechanism, columns, outputs=asked)
+    for index in range(6):
+        design = mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()})
+        forces = lw.solve_forces(design)
+        curves = {
+            "input_torque": forces.input_torque,
+            reaction: np.hypot(*forces.reaction(joint, on=last).T),
+            f"{last}.centre.acceleration": np.hypot(*forces.motion.link(last).centre.acceleration.T),
+        }
+        for output, kind in asked:
+            expected = _reductions(curves[output])[kind]
+            scale = np.abs(curves[output]).max()
+            assert abs(found[output, kind][index] - expected) <= 1e-9 * scale, (index, output, kind)
+
+
+def test_both_back_ends_and_any_number_of_threads_agree() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    b = np.linspace(2.0, 4.5, 97)
+    outputs = ["B.velocity rms", "coupler.P.x max", "rocker.angle argmax", "closeness min"]
+    plain = sweep(mechanism, {"coupler.length": b}, outputs=outputs, backend="numpy")
+    one = sweep(mechanism, {"coupler.length": b}, outputs=outputs, backend="llvm", threads=1)
+    two = sweep(mechanism, {"coupler.length": b}, outputs=outputs, backend="llvm", threads=2)
+    for name, column in plain.columns().items():
+        assert np.array_equal(one.columns()[name], two.columns()[name], equal_nan=True)
+        assert np.allclose(column, one.columns()[name], rtol=1e-10, atol=1e-12, equal_nan=True)
+
+
+def test_named_parameters_drive_their_expressions() -> None:
+    text = """
+format: 1
+name: scaled slider-crank
+parameters: {r: 50 mm, ratio: 4}
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: r}
+  rod: {points: [A, B], length: ratio*r}
+  piston: {points: [B]}
+joints:
+  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+"""
+    found = sweep(lw.loads(text), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"])
+    assert found["cylinder.displacement max"] == pytest.approx([0.04 * 4, 0.06 * 6], rel=1e-13)
+
+
+def test_progress_counts_designs_and_can_stop() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    seen: list[tuple[int, int]] = []
+    sweep(
+        mechanism,
+        {"coupler.length": np.linspace(3, 3.6, 70_000)},
+        outputs=["B.x max"],
+        steps=4,
+        progress=lambda done, of: seen.append((done, of)),
+    )
+    assert seen[-1] == (70_000, 70_000)
+    assert len(seen) > 1
+
+
+def test_a_group_followed_by_newton_that_cannot_pass_fails_with_a_sentence() -> None:
+    mechanism = lw.load("gallery:triad")
+    found = sweep(mechanism, {"crank.A.x": [0.03, 0.08]}, outputs=["plate.angle range"])
+    assert found.ok.tolist() == [True, False]
+    assert np.isnan(found["plate.angle range"][1])
+    (failure,) = found.failures()
+    assert failure.designs.tolist() == [1]
+    assert failure.example
