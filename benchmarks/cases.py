@@ -28,6 +28,9 @@ def _motion(points: str, links: str) -> tuple[str, ...]:
     return (*vectors, *(f"{kind}:{link}" for kind in "wg" for link in links.split()))
 
 
+#: Kinds of outputs that the motion has; the others are of the forces.
+MOTION_KINDS = ("p", "v", "a", "e", "w", "g", "s", "sv", "sa", "outcome")
+
 #: Outputs in the order in which the C kernels store them.
 FOURBAR_OUTPUTS = _motion("A B coupler.P", "coupler rocker")
 _PINS = "O1|crank A|pitman B|pitman B|toggle C|toggle O3|rocker O5|jaw"
@@ -45,8 +48,8 @@ SIXBAR_COLUMNS = (
     *(f"{link}.inertia" for link in ("pitman", "rocker", "toggle", "jaw")),
     "gravity.y",
 )
-#: The columns whose sign is the other way round in the C kernels (side of the ray; downward gravity).
-TURNED = frozenset({"mode:coupler+rocker", "mode:pitman+rocker", "mode:toggle+jaw", "gravity.y"})
+#: The column whose sign is the other way round in the C kernels: gravity is downward there.
+TURNED = frozenset({"gravity.y"})
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,7 @@ class Work:
 
     def value(self, name: str) -> Scalar:
         """An output as the package traces it."""
-        if name.split(":", 1)[0] in MotionKinds:
+        if name.split(":", 1)[0] in MOTION_KINDS:
             return self.solver.outputs.value(name)
         return self.forces.outputs.value(name)
 
@@ -98,9 +101,6 @@ class Work:
             column = designs[:, self.columns.index(name)] if name in self.columns else known[name]
             table[:, place] = -column if name in TURNED else column
         return table
-
-
-MotionKinds = ("p", "v", "a", "e", "w", "g", "s", "sv", "sa", "outcome")
 
 
 def _work(mechanism: Mechanism, outputs: tuple[str, ...], columns: tuple[str, ...], steps: int) -> Work:

@@ -107,7 +107,7 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
 
     def mixed(place: Floats) -> Positions:
         between = {name: tuple(np.interp(place, index, row) for row in each) for name, each in rows.items()}
-        return Positions(np.zeros(len(place)), between, positions.rotary, False, None)  # type: ignore[arg-type]
+        return Positions(np.zeros(len(place)), between, positions.rotary, False, None)
 
     return mixed
 

@@ -32,6 +32,8 @@ STILL = 1e-12
 CONSTANT = 1e-10
 #: A Newton step of this share of the distance between two positions ends the refinement.
 FINE = 1e-13
+#: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
+BLURRED = 1e-10
 
 
 @dataclass(frozen=True)
@@ -122,13 +124,19 @@ class Between:
         states = self._states(positions, before)
         return motion.solver.evaluate(names, positions, states, modes, motion.design)
 
+    def quality(self, before: Indices, time: Floats) -> Floats:
+        """Least quality (square of the sine of the transmission angle) of the groups that pass change points."""
+        names = tuple(dict.fromkeys(f"quality:{p.group}" for p in self.passing))
+        rows = self.evaluate(names, before, time) if names else np.ones((1, len(time)))
+        return np.asarray(rows.min(axis=0))
+
     def place(self, time: Floats) -> Floats:
         """Number of the position at these times, counted on in between."""
         known = self.motion.time
         if self.motion.positions.closed:
             known = np.append(known, known[0] + (self.motion.positions.period or 0.0))
         direction = 1.0 if known[-1] >= known[0] else -1.0
-        return np.interp(direction * time, direction * known, np.arange(float(len(known))))
+        return np.asarray(np.interp(direction * time, direction * known, np.arange(float(len(known)))))
 
     def touch(self, low: float, high: float) -> float | None:
         """The time of a change point between two times, if there is one."""
@@ -234,7 +242,8 @@ class _Search:
         pairs = self._neighbours(rate)
         first, last = pairs[:, 0], pairs[:, 1]
         span = self._time(last) - self.motion.time[first]
-        zero, one = np.zeros(len(first)), np.ones(len(first))
+        rests = last - first > 2
+        zero, one = np.where(rests, 0.5, 0.0), np.where(rests, 0.5, 1.0)
         a, b = rate[first], rate[last % self.count]
         everything = Brackets(first, span, zero, one, a, b)
         turning = np.sign(a) != np.sign(b)
@@ -297,7 +306,8 @@ class _Search:
             if (before <= FINE).all():
                 break
         lost = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
-        for k in np.flatnonzero(lost):
+        time = self.motion.time[brackets.before] + here * brackets.span
+        for k in np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED)):
             here[k] = self._at_touch(brackets, int(k))
         return here
 

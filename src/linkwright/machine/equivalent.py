@@ -98,8 +98,8 @@ def equivalent(forces: Forces) -> Equivalent:
     begin, resolver = float(motion.time[0]), Resolver(motion, forces)
     if not resolver.possible:
         raise LinkwrightError(
-            f"the positions of {motion.mechanism.name!r} pass a change point or follow no law in time, so the machine "
-            "cannot be evaluated between them; solve its cycle without change points first"
+            f"the positions of {motion.mechanism.name!r} pass a change point or follow no law in time, so the "
+            "machine cannot be evaluated between them; solve its cycle without change points first"
         )
 
     def time(angle: Floats) -> Floats:
@@ -131,10 +131,14 @@ def _steady_rate(motion: Motion) -> float:
         )
     rate = _rates(motion)[0]
     if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
-        raise LinkwrightError(f"the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law")
+        raise LinkwrightError(
+            f"the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law"
+        )
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
-        raise LinkwrightError(f"the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns")
+        raise LinkwrightError(
+            f"the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns"
+        )
     if not motion.ok.all():
         raise LinkwrightError(f"{name!r} does not reach all positions of its cycle, so it cannot run steadily")
     return float(rate[0])

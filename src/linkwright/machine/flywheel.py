@@ -79,8 +79,8 @@ def rim(
 
     J = ρ π b (D⁴ - d⁴)/32 with d = D (1 - 2 thickness_ratio). Raises LinkwrightError for values out of range.
     """
-    named = {"moment of inertia": inertia, "density": density, "width ratio": width_ratio, "thickness": thickness_ratio}
-    for name, value in named.items():
+    given = (inertia, density, width_ratio, thickness_ratio)
+    for name, value in zip(("moment of inertia", "density", "width", "thickness"), given, strict=True):
         if not value > 0:
             raise LinkwrightError(f"the {name} of the flywheel is {value:g}; give a value above zero")
     if thickness_ratio > 0.5:

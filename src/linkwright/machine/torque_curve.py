@@ -28,7 +28,9 @@ class TorqueCurve:
     knots: tuple[float, ...] = field(default=(), repr=False)
 
     @classmethod
-    def from_function(cls, torque: str | Callable[[Floats], ArrayLike] | ArrayLike, *, period: float = TURN) -> TorqueCurve:
+    def from_function(
+        cls, torque: str | Callable[[Floats], ArrayLike] | ArrayLike, *, period: float = TURN
+    ) -> TorqueCurve:
         """From an expression of ``theta`` (``"5000 + 600*sin(2*theta)"``, N·m and rad), a function, or an array.
 
         An array holds torques at equal steps over one period, the first at 0, straight lines between them.
@@ -90,8 +92,8 @@ class TorqueCurve:
         long, short = max(self.period, other.period), min(self.period, other.period)
         if abs(long / short - round(long / short)) > 1e-9:
             raise LinkwrightError(
-                f"torque curves with periods of {np.degrees(self.period):g}° and {np.degrees(other.period):g}° have no "
-                "common cycle; give both over the same angle"
+                f"torque curves with periods of {np.degrees(self.period):g}° and {np.degrees(other.period):g}° have "
+                "no common cycle; give both over the same angle"
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
         return TorqueCurve(lambda theta: self(theta) - other(theta), long, self.start, tuple(knots))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -46,7 +46,8 @@ class PeakAcceleration(Metric):
             found = analysis.extreme(_acceleration(names), "max")
             if found is not None:
                 dimension = "acceleration" if kind == "length" else "angular_acceleration"
-                yield self.value(analysis, subject, found.value, dimension=dimension, at=found.input, exact=found.exact)
+                where: dict[str, Any] = {"at": found.input, "exact": found.exact}
+                yield self.value(analysis, subject, found.value, dimension=dimension, **where)
 
 
 @METRICS.register("peak_jerk")
@@ -69,7 +70,8 @@ class PeakJerk(Metric):
             found = analysis.extreme(_jerk(TimeDerivative(analysis.motion, names)), "max")
             if found is not None:
                 dimension = "jerk" if kind == "length" else "angular_jerk"
-                yield self.value(analysis, subject, found.value, dimension=dimension, at=found.input, exact=found.exact)
+                where: dict[str, Any] = {"at": found.input, "exact": found.exact}
+                yield self.value(analysis, subject, found.value, dimension=dimension, **where)
 
 
 def _acceleration(names: tuple[str, ...]) -> Callable[[Motion], Floats]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias, overload
+from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
@@ -20,8 +21,10 @@ from linkwright.model.signal_fields import Output
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: Points per bracket and rounds of the search between positions; a round narrows a bracket 16 times.
-POINTS, ROUNDS = 33, 5
+#: Points per bracket and rounds of the search between positions; a parabola ends it.
+POINTS, ROUNDS = 17, 5
+#: The same for mechanisms whose positions are found by iteration, and how many peaks are searched.
+COSTLY_POINTS, COSTLY_ROUNDS = 5, 3
 
 
 @dataclass(frozen=True)
@@ -39,12 +42,16 @@ class Extreme:
 
 
 class Analysis:
-    """What design numbers are read from: a motion, its forces if they were solved, and what numbers share."""
+    """What design numbers are read from: a motion, its forces if they were solved, and what numbers share.
+
+    ``kept``: what one number found and another needs too, by its kind and subject.
+    """
 
     def __init__(self, motion: Motion, forces: Forces | None = None) -> None:
         self.motion = motion
         self.forces = forces
         self.resolver = Resolver(motion, forces)
+        self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
 
     @classmethod
@@ -77,9 +84,10 @@ class Analysis:
         return positions.closed and positions.period is not None and span < positions.period * (1 - 1e-9)
 
     @property
-    def in_time(self) -> bool:
-        """Whether the positions are those of the drivers' laws at their times."""
-        return self.resolver.in_time
+    def loaded(self) -> bool:
+        """Whether anything acts: a load, or mass."""
+        mechanism = self.motion.mechanism
+        return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
     @property
     def whole(self) -> bool:
@@ -89,7 +97,7 @@ class Analysis:
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
         if output not in self._limits:
-            found = limit_positions(self.motion, output) if self.in_time else ()
+            found = limit_positions(self.motion, output) if self.resolver.possible else ()
             limits = [Limit(each.input, each.time, each.value, each.kind) for each in found]
             self._limits[output] = tuple(sorted(limits, key=lambda each: each.time))
         return self._limits[output]
@@ -128,7 +136,7 @@ class Analysis:
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
         step = float(abs(time[1] - time[0]))
-        peaks = _peaks(sign * values, self.closed)
+        peaks = _peaks(sign * values, self.closed)[: 1 if self.resolver.costly else 4]
         low, high = time[peaks] - step, time[peaks] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
@@ -141,37 +149,54 @@ class Analysis:
         if not self.resolver.possible:
             return None
         sign = 1.0 if kind == "max" else -1.0
-        time = np.linspace(start, end, 361)
+        count = 91 if self.resolver.costly else 361
+        time = np.linspace(start, end, count)
         values = sign * signal(self.resolver.at(time, "motion"))
         if not np.isfinite(values).any():
             return None
         best = int(np.nanargmax(values))
-        first = Extreme(sign * float(values[best]), float(time[best]), self.resolver.input_at(float(time[best])), best, True)
-        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, 360)]]
+        at = float(time[best])
+        first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), best, True)
+        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, count - 1)]]
         return self._narrowed(lambda t: sign * signal(self.resolver.at(t, "motion")), low, high, sign, first)
 
     def _narrowed(
         self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme
     ) -> Extreme:
         """The best of some brackets, each narrowed around its best point again and again."""
-        value, time = sign * first.value, first.time
-        shares = np.linspace(0.0, 1.0, POINTS)
-        for _ in range(ROUNDS):
+        points, rounds = (COSTLY_POINTS, COSTLY_ROUNDS) if self.resolver.costly else (POINTS, ROUNDS)
+        found = [(sign * first.value, first.time)]
+        shares = np.linspace(0.0, 1.0, points)
+        for _ in range(rounds):
             grid = low[:, None] + (high - low)[:, None] * shares
             values = signal(grid.ravel()).reshape(grid.shape)
             values = np.where(np.isfinite(values), values, -np.inf)
             best = values.argmax(axis=1)
             rows = np.arange(len(low))
             top = int(values[rows, best].argmax())
-            if values[top, best[top]] > value:
-                value, time = float(values[top, best[top]]), float(grid[top, best[top]])
-            step = (high - low) / (POINTS - 1)
+            found.append((float(values[top, best[top]]), float(grid[top, best[top]])))
+            step = (high - low) / (points - 1)
             low, high = np.maximum(grid[rows, best] - step, low), np.minimum(grid[rows, best] + step, high)
+        vertex = _vertex(grid[top], values[top], int(best[top]))
+        if vertex is not None:
+            found.append((float(signal(np.array([vertex]))[0]), vertex))
+        value, time = max(found, key=lambda each: each[0] if np.isfinite(each[0]) else -np.inf)
         return Extreme(sign * value, time, self.resolver.input_at(time), first.index, True)
 
 
-def _peaks(values: Floats, closed: bool) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Samples not below their neighbours that may hold the largest value: at most four, the highest first."""
+def _vertex(time: Floats, values: Floats, best: int) -> float | None:
+    """Where the parabola through the best of equally spaced points and its neighbours is highest."""
+    if not 0 < best < len(time) - 1:
+        return None
+    a, b, c = values[best - 1 : best + 2]
+    bend = a - 2.0 * b + c
+    if not (np.isfinite(bend) and bend < 0.0):
+        return None
+    return float(time[best] + 0.5 * (a - c) / bend * (time[best + 1] - time[best]))
+
+
+def _peaks(values: Floats, closed: bool) -> NDArray[np.intp]:
+    """Samples not below their neighbours that may hold the largest value, the highest first."""
     filled = np.where(np.isfinite(values), values, -np.inf)
     before, after = np.roll(filled, 1), np.roll(filled, -1)
     if not closed:
@@ -179,4 +204,4 @@ def _peaks(values: Floats, closed: bool) -> np.ndarray[tuple[int], np.dtype[np.i
     local = np.flatnonzero((filled >= before) & (filled >= after) & np.isfinite(filled))
     order = local[np.argsort(-filled[local], kind="stable")]
     spread = float(np.nanmax(values) - np.nanmin(values))
-    return order[filled[order] >= filled[order[0]] - 0.05 * spread][:4]
+    return np.asarray(order[filled[order] >= filled[order[0]] - 0.05 * spread])

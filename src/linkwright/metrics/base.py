@@ -137,9 +137,8 @@ class Metric(ABC):
         self, analysis: Analysis, subject: str, value: float, *, dimension: str | None = None, **more: Any
     ) -> MetricValue:
         """A value of this number."""
-        return MetricValue(
-            self.name, subject, float(value), dimension or self.dimension, at_dimension=analysis.input_dimension, **more
-        )
+        kind = dimension or self.dimension
+        return MetricValue(self.name, subject, float(value), kind, at_dimension=analysis.input_dimension, **more)
 
 
 METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics")

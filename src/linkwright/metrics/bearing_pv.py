@@ -45,8 +45,9 @@ class BearingPv(Metric):
                 mean = shown(analysis.mean(signal(analysis.forces)), "power")
                 remarks = (Remark("bearing_pv.mean", {"mean": mean, "radius": shown(joint.pin_radius, "length")}),)
                 subject = joint.name if len(joint.links) == 2 else f"{joint.name} on {link}"
-                where = {"at": found.input, "exact": found.exact}
-                yield self.value(analysis, subject, found.value, remarks=remarks, **where)
+                yield self.value(
+                    analysis, subject, found.value, remarks=remarks, at=found.input, exact=found.exact
+                )
 
 
 def _bearings(analysis: Analysis) -> list[RevoluteJoint]:

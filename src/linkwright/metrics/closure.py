@@ -68,4 +68,8 @@ def transmission_angle(motion: Motion, group: Group) -> Floats:
 
 def conditioning(motion: Motion, group: Group) -> Floats:
     """Determinant of the closure equations with unit columns, (n,), 0 (singular) to 1; a dyad's is sin μ."""
-    return np.abs(np.linalg.det(columns(motion, group)))
+    j = columns(motion, group)
+    known = np.isfinite(j).all(axis=(1, 2))
+    found = np.full(motion.steps, np.nan)
+    found[known] = np.abs(np.linalg.det(j[known]))
+    return found

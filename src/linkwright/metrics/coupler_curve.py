@@ -7,17 +7,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
-from linkwright.metrics.outputs import free_points
+from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.plane import cross, crossings
 from linkwright.metrics.quantities import shown
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
-#: Double points nearer than this share of the curve's length to one another in place and time are one.
-SAME = 1e-9
+#: A crossing meets within this share of the curve's length; two nearer than APART are one.
+SAME, APART = 1e-9, 1e-6
+#: Times closer than this many steps belong to a cusp or a fold, not to a crossing.
+NEIGHBOURS = 1e-3
+NEWTON = 8
 Spot = tuple[float, float]
 
 
@@ -33,44 +39,62 @@ class CouplerCurve:
     cusps: tuple[tuple[Spot, float], ...]
 
 
-def coupler_curve(analysis: Analysis, point: str) -> CouplerCurve:
-    """The curve of a point over a closed cycle of which all positions are reached."""
+def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurve:
+    """The curve of a point over a closed cycle.
+
+    Raises LinkwrightError where the cycle does not close or not all of its positions are reached.
+    """
+    analysis = Analysis.of(result)
+    if ("curve", point) not in analysis.kept:
+        analysis.kept["curve", point] = _curve(analysis, point)
+    found: CouplerCurve = analysis.kept["curve", point]
+    return found
+
+
+def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     motion = analysis.motion
+    if not analysis.whole:
+        raise LinkwrightError(f"the path of {point} is not closed: solve a whole cycle of {motion.mechanism.name!r}")
     track = motion.point(point)
     period = motion.positions.period or 0.0
     speed = np.hypot(*track.velocity.T)
-    area = 0.5 * float(np.mean(cross(track.position, track.velocity))) * period
     sense = np.sign(motion.time[-1] - motion.time[0])
+    area = 0.5 * float(np.mean(cross(track.position, track.velocity))) * period * float(sense)
     length = float(np.mean(speed)) * period
     doubles = tuple(_doubles(analysis, point, track.position, length)) if length > 0 else ()
-    return CouplerCurve(point, length, float(area * sense), doubles, tuple(_cusps(analysis, point, speed)))
+    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)))
 
 
 def _doubles(analysis: Analysis, point: str, path: Floats, length: float) -> Iterator[tuple[Spot, Spot]]:
     """Crossings of the polygon, sharpened to those of the curve by Newton steps in both times."""
-    time, period = analysis.motion.time, analysis.motion.positions.period or 0.0
-    step = time[1] - time[0]
-    found: list[tuple[float, float]] = []
-    for a, b in crossings(path):
-        t = np.array([time[0] + a * step, time[0] + b * step])
-        for _ in range(8 if analysis.resolver.possible else 0):
-            track = analysis.resolver.motion(t).point(point)
-            gap, (va, vb) = track.position[1] - track.position[0], track.velocity
-            turn = cross(va, vb)
-            if turn == 0:
-                break
-            t = t + np.array([cross(gap, vb) / turn, cross(gap, va) / turn])
-        apart = abs(t[1] - t[0]) % period
-        if min(apart, period - apart) < 1e-3 * abs(step):
-            continue
-        place = analysis.resolver.motion(t).point(point).position if analysis.resolver.possible else None
-        if place is None or np.hypot(*(place[1] - place[0])) > SAME * length:
-            continue
-        if any(np.hypot(place[0][0] - x, place[0][1] - y) < 1e-6 * length for x, y in found):
-            continue
-        found.append((float(place[0][0]), float(place[0][1])))
-        inputs = analysis.resolver.input_at(float(t[0])), analysis.resolver.input_at(float(t[1]))
-        yield found[-1], inputs
+    places = np.array(crossings(path))
+    if not len(places) or not analysis.resolver.possible:
+        return
+    begin, step = analysis.motion.time[0], analysis.motion.time[1] - analysis.motion.time[0]
+    times = begin + places * step
+    for _ in range(NEWTON):
+        position, velocity = _pairs(analysis, point, times)
+        gap, turn = position[:, 1] - position[:, 0], cross(velocity[:, 0], velocity[:, 1])
+        with np.errstate(all="ignore"):
+            change = np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
+        times = times + np.where(np.isfinite(change), np.clip(change, -abs(step), abs(step)), 0.0)
+    position, _ = _pairs(analysis, point, times)
+    period = analysis.motion.positions.period or 0.0
+    apart = np.abs(times[:, 1] - times[:, 0]) % period
+    met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
+    found: list[Spot] = []
+    for i in np.flatnonzero(met & (np.minimum(apart, period - apart) > NEIGHBOURS * abs(step))):
+        x, y = (float(c) for c in position[i, 0])
+        if all(np.hypot(x - a, y - b) > APART * length for a, b in found):
+            found.append((x, y))
+            first, second = (analysis.resolver.input_at(float(t)) for t in times[i])
+            yield (x, y), (first, second)
+
+
+def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Floats]:
+    """Position and velocity of a point at pairs of times, (pairs, 2, 2) each."""
+    track = analysis.resolver.motion(times.ravel()).point(point)
+    return track.position.reshape(-1, 2, 2), track.velocity.reshape(-1, 2, 2)
 
 
 def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot, float]]:
@@ -87,22 +111,22 @@ def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot
 
 
 class CurveMetric(Metric):
-    """A number of the closed path of a free point."""
+    """A number of the closed path of a coupler point."""
 
     source = "Dijksman, Motion Geometry of Mechanisms; Wunderlich, Ebene Kinematik"
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and analysis.whole and bool(free_points(analysis.motion.mechanism))
+        return super().suits(analysis) and analysis.whole and bool(coupler_points(analysis.motion.mechanism))
 
     def curves(self, analysis: Analysis) -> Iterator[CouplerCurve]:
-        """The curves of all free points."""
-        for point in free_points(analysis.motion.mechanism):
+        """The curves of all coupler points."""
+        for point in coupler_points(analysis.motion.mechanism):
             yield coupler_curve(analysis, point)
 
 
 @METRICS.register("coupler_curve_length")
 class CouplerCurveLength(CurveMetric):
-    """Length of the closed path of every free point, m."""
+    """Length of the closed path of every coupler point, m."""
 
     name = "coupler_curve_length"
     dimension = "length"
@@ -114,7 +138,7 @@ class CouplerCurveLength(CurveMetric):
 
 @METRICS.register("coupler_curve_area")
 class CouplerCurveArea(CurveMetric):
-    """Area within the closed path of every free point, m²; loops count with the sense in which they are run."""
+    """Area within the closed path of every coupler point, m²; loops count with the sense in which they are run."""
 
     name = "coupler_curve_area"
     dimension = "area"
@@ -126,7 +150,7 @@ class CouplerCurveArea(CurveMetric):
 
 @METRICS.register("double_point")
 class DoublePoint(CurveMetric):
-    """Number of places where the path of a free point crosses itself, with their coordinates."""
+    """Number of places where the path of a coupler point crosses itself, with their coordinates."""
 
     name = "double_point"
     dimension = "count"
@@ -140,7 +164,7 @@ class DoublePoint(CurveMetric):
 
 @METRICS.register("cusp")
 class Cusp(CurveMetric):
-    """Number of cusps of the path of a free point: places where it stands still and turns back."""
+    """Number of cusps of the path of a coupler point: places where it stands still and turns back."""
 
     name = "cusp"
     dimension = "count"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -21,10 +22,17 @@ class EffortMetric(Metric):
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
 
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and analysis.loaded
+
     @staticmethod
     def effort_dimension(analysis: Analysis, name: str) -> str:
         """Torque of a turning driver, force of a sliding one."""
         return "torque" if analysis.motion.positions.rotary[name] else "force"
+
+
+def _size(forces: Forces, name: str) -> Floats:
+    return np.asarray(np.abs(forces.driver_effort(name)))
 
 
 @METRICS.register("peak_input_torque")
@@ -35,7 +43,7 @@ class PeakInputTorque(EffortMetric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for name in analysis.motion.mechanism.drivers:
-            found = analysis.extreme(lambda f, name=name: np.abs(f.driver_effort(name)), "max", of="forces")
+            found = analysis.extreme(partial(_size, name=name), "max", of="forces")
             if found is not None:
                 kind = self.effort_dimension(analysis, name)
                 yield self.value(analysis, name, found.value, dimension=kind, at=found.input, exact=found.exact)

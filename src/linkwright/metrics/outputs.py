@@ -73,3 +73,9 @@ def free_points(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(
         f"{name}.{point}" for name, link in mechanism.links.items() for point in link.points if point not in used
     )
+
+
+def coupler_points(mechanism: Mechanism) -> tuple[str, ...]:
+    """Free points of links that no joint holds to the frame."""
+    held = {link for joint in mechanism.joints.values() if "frame" in joint.joined for link in joint.joined}
+    return tuple(name for name in free_points(mechanism) if name.split(".")[0] not in held)

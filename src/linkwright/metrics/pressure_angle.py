@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from math import pi, radians
 from typing import ClassVar
 
@@ -27,7 +28,7 @@ class PressureAngle(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for group in dyads(analysis.motion):
-            found = analysis.extreme(lambda motion, group=group: transmission_angle(motion, group), "min")
+            found = analysis.extreme(partial(transmission_angle, group=group), "min")
             if found is None:
                 continue
             angle = pi / 2 - found.value

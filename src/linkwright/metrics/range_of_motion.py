@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -107,7 +108,7 @@ class DeadPoint(Metric):
             return []
         found = [analysis.resolver.input_at(time) for time, _ in edges(analysis)]
         for group in dyads(analysis.motion):
-            low = analysis.extreme(lambda motion, group=group: transmission_angle(motion, group), "min")
+            low = analysis.extreme(partial(transmission_angle, group=group), "min")
             if low is not None and low.value < DEAD:
                 found.append(low.input)
         return _distinct(np.array(sorted(found)))

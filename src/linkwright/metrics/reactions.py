@@ -42,6 +42,9 @@ class PeakReaction(Metric):
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
 
+    def suits(self, analysis: Analysis) -> bool:
+        return analysis.loaded
+
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for subject, joint, link in sides(analysis.motion.mechanism):
             found = analysis.extreme(size(joint, link), "max", of="forces")
@@ -58,6 +61,9 @@ class RmsReaction(Metric):
     source = "kinetostatics: reactions by Assur group"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+
+    def suits(self, analysis: Analysis) -> bool:
+        return analysis.loaded
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         assert analysis.forces is not None

@@ -2,15 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats, at_times
+from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rows import Rows
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.signals import Limit, Whole
+from linkwright.model.signal_fields import Output
+
+
+class _SameCycle(MotionSignals):
+    """Signals of a motion within a cycle that is known."""
+
+    def __init__(self, motion: Motion, known: MotionSignals) -> None:
+        super().__init__(motion)
+        self._known = known
+
+    @property
+    def cycle(self) -> Motion:
+        return self._known.cycle
+
+    @property
+    def whole(self) -> Whole:
+        return self._known.whole
+
+    def limits(self, output: Output) -> Sequence[Limit]:
+        return self._known.limits(output)
 
 
 class Resolver:
@@ -19,8 +45,13 @@ class Resolver:
     def __init__(self, motion: Motion, forces: Forces | None) -> None:
         self._motion = motion
         self._forces = forces
-        self.in_time = _follows_laws(motion)
-        self.possible = self.in_time and not motion.modes
+        self._between = _between(motion)
+        self.costly = bool(motion.states)
+
+    @property
+    def possible(self) -> bool:
+        """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
+        return self._between is not None
 
     def at(self, time: Floats, of: str = "motion") -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s."""
@@ -29,16 +60,19 @@ class Resolver:
 
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN."""
+        assert self._between is not None
         known = self._motion
         positions = at_times(known.mechanism, time)
-        states = known.solver.states(positions, known.design)
+        before = self._before(positions.time)
+        states = self._between._states(positions, before)
+        modes = {name: row[before] for name, row in known.modes.items()}
         names = tuple(known.solver.outputs.standard())
-        values = known.solver.evaluate(names, positions, states, {}, known.design)
+        values = known.solver.evaluate(names, positions, states, modes, known.design)
         barred = np.zeros(positions.count)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
         rows = Rows(values, {name: i for i, name in enumerate(names)})
-        motion = Motion(known.solver, known.design, positions, states, {}, rows, (), barred)
+        motion = Motion(known.solver, known.design, positions, states, modes, rows, (), barred)
         values[:-1, ~motion.ok] = np.nan
         return motion
 
@@ -48,10 +82,45 @@ class Resolver:
 
         assert self._forces is not None
         solver = self._forces.solver
-        fields = run._load_fields(motion, solver)
+        fields = self._fields(motion)
         if solver.friction.terms:
             fields = run._with_friction(motion, solver, fields)
         return run._evaluated(motion, solver, fields, self._forces.static)
+
+    def _fields(self, motion: Motion) -> dict[str, Floats]:
+        """Magnitudes of the loads and relative angles of such a motion; friction starts at zero."""
+        from linkwright.loads.magnitude import evaluate
+
+        assert self._forces is not None
+        signals = _SameCycle(motion, self._signals)
+        fields: dict[str, Floats] = {}
+        for name in self._forces.solver.fields_needed():
+            kind, _, key = name.partition(":")
+            if kind == "load":
+                fields[name] = evaluate(motion.mechanism.loads[key], signals)
+            elif kind == "angle":
+                a, b = key.split("|")
+                fields[name] = signals.angle_between(a, b, float(self._forces.fields[name][0]))
+            else:
+                fields[name] = np.zeros(motion.steps)
+        return fields
+
+    @cached_property
+    def _signals(self) -> MotionSignals:
+        return MotionSignals(self._motion)
+
+    def _before(self, time: Floats) -> NDArray[np.intp]:
+        """The known position at or before each time, through the end of a closed cycle."""
+        known, positions = self._motion.time, self._motion.positions
+        if len(known) < 2:
+            return np.zeros(len(time), dtype=np.intp)
+        share = (time - known[0]) / (known[1] - known[0])
+        if positions.closed and positions.period is not None:
+            share = share % (positions.period / abs(known[1] - known[0]))
+        if np.ptp(np.diff(known)) > 1e-9 * abs(known[1] - known[0]):
+            order = np.argsort(known)
+            return np.asarray(order[np.clip(np.searchsorted(known[order], time, "right") - 1, 0, len(known) - 1)])
+        return np.clip(np.floor(share + 1e-9).astype(np.intp), 0, len(known) - 1)
 
     def input_at(self, time: float) -> float:
         """Coordinate of the first driver at a time."""
@@ -59,15 +128,10 @@ class Resolver:
         return float(law.coordinate(np.array([time]))[0][0])
 
 
-def _follows_laws(motion: Motion) -> bool:
-    """Whether the positions are those of the drivers' laws at their times."""
+def _between(motion: Motion) -> Between | None:
     if not motion.mechanism.drivers:
-        return False
+        return None
     try:
-        expected = at_times(motion.mechanism, motion.time)
+        return Between(motion)
     except LinkwrightError:
-        return False
-    return all(
-        np.allclose(expected.coordinates[name][0], rows[0], rtol=0, atol=1e-9 * (1 + np.abs(rows[0]).max()))
-        for name, rows in motion.positions.coordinates.items()
-    )
+        return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import ClassVar
 
 from linkwright.metrics.analysis import Analysis
@@ -32,7 +33,7 @@ class Singularity(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for group in closable(analysis.motion):
-            found = analysis.extreme(lambda motion, group=group: conditioning(motion, group), "min")
+            found = analysis.extreme(partial(conditioning, group=group), "min")
             if found is None:
                 continue
             near = found.value < NEAR ** len(group.cuts)

@@ -26,8 +26,10 @@ class SweptArea(Metric):
         motion = analysis.motion
         if not motion.ok.any():
             return
-        moving = {name: [f"{name}.{point}" for point in link.points] for name, link in motion.mechanism.links.items()}
-        tracks = {name: np.vstack([motion.point(p).position[motion.ok] for p in points]) for name, points in moving.items()}
+        tracks = {
+            name: np.vstack([motion.point(f"{name}.{point}").position[motion.ok] for point in link.points])
+            for name, link in motion.mechanism.links.items()
+        }
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
         everything = np.vstack([*tracks.values(), frame])
         width, height = (shown(float(side), "length") for side in np.ptp(everything, axis=0))

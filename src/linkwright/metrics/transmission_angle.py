@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 from math import radians
 from typing import Any, ClassVar
 
-from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.motion import Motion
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.closure import dyads, transmission_angle
@@ -28,7 +27,7 @@ def low(value: float) -> tuple[Remark, ...]:
 
 @METRICS.register("transmission_angle")
 class TransmissionAngle(Metric):
-    """Smallest transmission angle of every dyad, 0 to π/2; see :func:`~linkwright.metrics.closure.transmission_angle`."""
+    """Smallest transmission angle of every dyad, 0 to π/2; defined in ``metrics/closure.py``."""
 
     name = "transmission_angle"
     dimension = "angle"
@@ -41,7 +40,7 @@ class TransmissionAngle(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for group in dyads(analysis.motion):
-            found = analysis.extreme(_signal(group), "min")
+            found = analysis.extreme(partial(transmission_angle, group=group), "min")
             if found is not None:
                 yield self.value(analysis, group.name, found.value, **_where(found))
 
@@ -65,14 +64,10 @@ class TransmissionAngleOfStroke(Metric):
             limits = analysis.limits(output)
             for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
                 end = last.time if last.time > first.time else last.time + period
-                found = analysis.extreme_between(_signal(group), "min", first.time, end)
+                found = analysis.extreme_between(partial(transmission_angle, group=group), "min", first.time, end)
                 if found is not None:
                     subject = f"{group.name}: {output} {first.kind}→{last.kind}"
                     yield self.value(analysis, subject, found.value, **_where(found))
-
-
-def _signal(group: Group) -> Callable[[Motion], Floats]:
-    return lambda motion: transmission_angle(motion, group)
 
 
 def _where(found: Extreme) -> dict[str, Any]:

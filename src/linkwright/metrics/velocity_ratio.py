@@ -51,8 +51,9 @@ class VelocityRatio(Metric):
     source = "Norton, Design of Machinery, sec. 6.4"
 
     def suits(self, analysis: Analysis) -> bool:
-        steady = bool((np.abs(analysis.input_rate) > 0).all())
-        return len(analysis.motion.mechanism.drivers) == 1 and bool(analysis.outputs) and steady
+        if len(analysis.motion.mechanism.drivers) != 1 or not analysis.outputs:
+            return False
+        return bool((np.abs(analysis.input_rate) > 0).all())
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in analysis.outputs:
@@ -65,7 +66,7 @@ class VelocityRatio(Metric):
 
 @METRICS.register("mechanical_advantage")
 class MechanicalAdvantage(VelocityRatio):
-    """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|; infinite at limits."""
+    """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|."""
 
     name = "mechanical_advantage"
     source = "Norton, Design of Machinery, sec. 6.4: power in equals power out"

@@ -225,7 +225,7 @@ class Reader(PlainReader):
             node,
             place,
             f'there is no {what} "{name}"',
-            f"{hint}({what}s: {', '.join(candidates) or 'none'})",
+            f"{hint}(there is: {', '.join(candidates) or 'none'})",
             "unknown-name",
         )
         return False

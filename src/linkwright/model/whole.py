@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.model.mechanism import Mechanism
+from linkwright.model.mechanism import Link, Mechanism
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
 from linkwright.model.reader import Reader
+from linkwright.units import number
 
 
 def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -18,6 +21,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
     _lonely_links(reader, root, mechanism)
     _islands(reader, root, mechanism)
     _near_points(reader, root, mechanism)
+    _unlikely_inertias(reader, root, mechanism)
 
 
 def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
@@ -112,3 +116,30 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
                     "near-name",
                     severity="warning",
                 )
+
+
+def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Moments of inertia that no body of the link's mass and size could have."""
+    for name, link in mechanism.links.items():
+        if not link.inertia:
+            continue
+        size = _size(link)
+        largest = link.mass * (2.0 * size) ** 2
+        if link.inertia <= largest or (link.mass and not size):
+            continue
+        if link.mass:
+            radius = math.sqrt(link.inertia / link.mass)
+            said = f"with {number(link.mass, 6)} kg the radius of gyration is {number(radius, 4)} m"
+            problem = f"{said}, more than twice the link's size of {number(size, 4)} m"
+        else:
+            problem = "a link without mass has a moment of inertia"
+        node = _link_node(root, name)
+        at = node.get("inertia") if isinstance(node, MappingNode) else None
+        remedy = "check its unit (kg·m²), the mass, and that it is about the mass centre"
+        reader.error(at or node, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
+
+
+def _size(link: Link) -> float:
+    """Largest distance between two points of a link, its mass centre among them, m."""
+    places = [*link.points.values(), link.centre]
+    return max(math.dist(a, b) for a in places for b in places)

@@ -232,7 +232,8 @@ class Animation:
             return []
         machine = self.scene.machine
         labels = list(point_labels(machine, self.run[0], qualified=True))
-        places = place(labels, Obstacles.of(self.scene.ink(self.run[0])))
+        ink = [*self.scene.ink(self.run[0]), *load_marks(machine, self.run[0], forces=False).ink]
+        places = place(labels, Obstacles.of(ink))
         return [(label, written(label.shortened(), each)) for label, each in zip(labels, places, strict=True)]
 
     @cached_property

@@ -6,8 +6,12 @@ import math
 from collections.abc import Sequence
 
 from linkwright.loads.base import LinkPoint, Load
+from linkwright.loads.damper import Damper
 from linkwright.loads.force import Force
+from linkwright.loads.spring import Spring
 from linkwright.loads.torque import Torque
+from linkwright.loads.torsion_damper import TorsionDamper
+from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
 from linkwright.plot.drawing.scene import Scene
@@ -25,15 +29,8 @@ def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
 
 def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
     """The symbol of one load; nothing for a kind that has none."""
-    between: tuple[LinkPoint, LinkPoint] | None = getattr(load, "between", None)
-    links: tuple[str, str] | None = getattr(load, "links", None)
-    if between is not None:
-        start, end = (machine.paper(each.link, each.point, index) for each in between)
-        anchors = (_anchor(machine, each, start, end, index) for each in between)
-        return joined([SYMBOLS[load.kind](start=start, end=end), *anchors])
-    if links is not None:
-        at = _common_pin(machine, links, index)
-        return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
+    if isinstance(load, Spring | Damper | TorsionSpring | TorsionDamper):
+        return _stretched(machine, load, index) + anchors(machine, load, index)
     if forces and isinstance(load, Torque):
         return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=_sign(load), style="lw-load")
     if forces and isinstance(load, Force):
@@ -41,8 +38,26 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
     return EMPTY
 
 
+def _stretched(machine: Machine, load: Load, index: int) -> Shape:
+    """What of a load changes its shape: a spring or damper between two points, a spiral at a pin."""
+    if isinstance(load, Spring | Damper):
+        start, end = (machine.paper(each.link, each.point, index) for each in load.between)
+        return SYMBOLS[load.kind](start=start, end=end)
+    if isinstance(load, TorsionSpring | TorsionDamper):
+        at = _common_pin(machine, load.links, index)
+        return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
+    return EMPTY
+
+
+def anchors(machine: Machine, load: Load, index: int) -> Shape:
+    """The walls that hold a spring or damper at points of the frame where no pin is."""
+    if not isinstance(load, Spring | Damper):
+        return EMPTY
+    start, end = (machine.paper(each.link, each.point, index) for each in load.between)
+    return joined(_anchor(machine, each, start, end, index) for each in load.between)
+
+
 def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int) -> Shape:
-    """The wall that holds a spring at a point of the frame where no pin is."""
     if end.link != "frame" or end.point in machine.pins:
         return EMPTY
     at = machine.paper(end.link, end.point, index)
@@ -67,7 +82,8 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Ele
     """Springs and dampers that follow their ends over the frames."""
     found: list[Element] = []
     for load in scene.machine.motion.mechanism.loads.values():
-        shapes = [mark(scene.machine, load, index, forces=False).ink for index in run]
+        shapes = [_stretched(scene.machine, load, index).ink for index in run]
+        found += anchors(scene.machine, load, run[0]).elements
         found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
     return found
 

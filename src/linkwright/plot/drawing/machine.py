@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.parts import Part
@@ -86,10 +87,11 @@ def _plain_points(machine: Machine, link: Link) -> list[str]:
     guided = {j.at for j in machine.guides.values() if j.block == link.name}
     through = {j.through for j in machine.guides.values() if j.guide == link.name}
     joints = machine.motion.mechanism.joints
+    welded = {j.at for j in joints.values() if isinstance(j, WeldJoint) and link.name in j.links}
     return [
         p
         for p in link.points
-        if p not in guided | through and not (p in joints and link.name in joints[p].joined)
+        if p not in guided | through | welded and not (p in joints and link.name in joints[p].joined)
     ]
 
 

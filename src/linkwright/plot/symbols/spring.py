@@ -41,7 +41,8 @@ def torsion_spring(*, at: Vec = (0.0, 0.0), radius: float = 14.0) -> Shape:
 def damper(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0), height: float = 8.0) -> Shape:
     """A dashpot between two points."""
     length, along = _way(start, end)
-    a, b, c = 0.35 * length, 0.65 * length, 0.55 * length
+    body = min(26.0, 0.5 * length)
+    a, b, c = (length - body) / 2, (length + body) / 2, length / 2 + 0.15 * body
     lines = (
         [(0, 0), (a, 0)], [(b, -height), (a, -height), (a, height), (b, height)],
         [(c, -0.7 * height), (c, 0.7 * height)], [(c, 0), (length, 0)],

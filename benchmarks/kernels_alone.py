@@ -1,0 +1,59 @@
+"""W2 and W3: one design over a cycle, all outputs stored."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from benchmarks import by_c, by_numpy
+from benchmarks.cases import Floats, Work
+from benchmarks.timing import Candidate
+from linkwright.engine.call_block import aligned
+from linkwright.engine.llvm_backend import compile_program
+from linkwright.engine.numpy_backend import NumpyProgram
+
+COMPILED, NUMPY_ROUTE, C, HAND = "linkwright, compiled", "linkwright, NumPy route", "C", "NumPy by hand"
+
+
+def c_run(name: str, work: Work) -> tuple[Callable[[], object], Floats]:
+    """The C kernel's call for the nominal design, and where it stores."""
+    out = aligned((len(work.outputs), work.positions.count))
+    return by_c.kernel(name, work.cosine, work.sine, work.nominal(), out), out
+
+
+def candidates(name: str, work: Work) -> list[Candidate]:
+    """Ours, C and NumPy for ``fourbar`` or ``sixbar``."""
+    program = work.program()
+    arrays = {key: work.positions.arrays[key] for key in program.positions}
+    numbers = work.table(program, work.nominal()[None, :])[0]
+    compiled = compile_program(program)
+    found: list[Candidate] = []
+    if compiled is not None:
+        out = aligned((len(program.outputs), work.positions.count))
+        found.append(Candidate(COMPILED, partial(compiled.run, numbers, arrays, out=out)))
+    if by_c.compiler():
+        found.append(Candidate(C, c_run(name, work)[0]))
+    evaluator = NumpyProgram(program)
+    found.append(Candidate(NUMPY_ROUTE, partial(evaluator.run, numbers, arrays)))
+    by_hand = getattr(by_numpy, name)
+    found.append(Candidate(HAND, partial(by_hand, work.cosine, work.sine, work.nominal())))
+    return found
+
+
+def disagreement(name: str, work: Work) -> dict[str, float]:
+    """Largest difference of each way's outputs from NumPy by hand, as a share of the output's largest value."""
+    truth = np.array(getattr(by_numpy, name)(work.cosine, work.sine, work.nominal()))
+    program = work.program()
+    numbers = work.table(program, work.nominal()[None, :])[0]
+    arrays = {key: work.positions.arrays[key] for key in program.positions}
+    ways = {NUMPY_ROUTE: np.asarray(NumpyProgram(program).run(numbers, arrays))}
+    compiled = compile_program(program)
+    if compiled is not None:
+        ways[COMPILED] = compiled.run(numbers, arrays)
+    if by_c.compiler():
+        run, ways[C] = c_run(name, work)
+        run()
+    largest = np.abs(truth).max(axis=1)
+    return {way: float((np.abs(rows[: len(truth)] - truth).max(axis=1) / largest).max()) for way, rows in ways.items()}

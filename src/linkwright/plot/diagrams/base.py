@@ -1,0 +1,67 @@
+"""What all kinds of diagrams have in common, and their registry.
+
+A kind is one file with one class, registered under its name; its title is the word ``plot.kind.NAME``.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar
+
+from linkwright.registry import Registry
+from linkwright.words import Say, say
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.plot.diagrams.source import Source
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of a diagram.
+
+    ``of``: names of outputs, links or points; ``joint`` and ``on``: a joint, and the link on which it acts; ``axes``:
+    ``frame`` or a link; ``at``: coordinate of the first driver (rad or m; time in s where the driver follows a law)
+    of the one position of a polygon; ``fluctuation``: required δ of the flywheel; ``marks``: limit positions, peaks,
+    phases; ``title``: a title of one's own, or none where empty; ``size``: width and height in inches.
+    """
+
+    of: tuple[str, ...] = ()
+    joint: str | None = None
+    on: str | None = None
+    axes: str | None = None
+    at: float | None = None
+    fluctuation: float = 0.03
+    marks: bool = True
+    title: str | None = None
+    size: tuple[float, float] | None = None
+    language: str = "en"
+
+    @property
+    def say(self) -> Say:
+        """Words of diagrams by key, in the language that is asked for."""
+        return partial(_word, language=self.language)
+
+
+class Kind(ABC):
+    """A kind of diagram."""
+
+    name: ClassVar[str]
+
+    @abstractmethod
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        """The figure; several sources lie over each other, told apart by colour.
+
+        Raises LinkwrightError for unknown names, and where the diagram makes no sense for a mechanism.
+        """
+
+
+DIAGRAMS: Registry[type[Kind]] = Registry("kind of diagram", "linkwright.plot.diagrams")
+
+
+def _word(key: str, *, language: str, **values: object) -> str:
+    return say(f"plot.{key}", language, **values)

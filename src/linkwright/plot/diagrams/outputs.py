@@ -1,0 +1,113 @@
+"""Outputs, links, points and joints that a diagram is about: by name, or the ones that matter most."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.limits import output_of
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import canonical, owners
+from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.units import size
+
+
+def output_named(mechanism: Mechanism, name: str) -> Output | str:
+    """An output, or the key of a point; a link that slides in a guide of the frame means its displacement.
+
+    Raises LinkwrightError for an unknown name.
+    """
+    if name in mechanism.links:
+        for joint in mechanism.joints.values():
+            if isinstance(joint, PrismaticJoint) and set(joint.joined) == {"frame", name}:
+                return Output("displacement", joint.name, name)
+        return Output("angle", name, name)
+    link, _, point = name.rpartition(".")
+    if link and link in mechanism.links and point in mechanism.links[link].points:
+        return canonical(mechanism, link, point)
+    found = [owner for owner in owners(mechanism, name) if owner != "frame"]
+    pin = isinstance(mechanism.joints.get(name), RevoluteJoint)
+    if found and (pin or len(found) == 1) and not isinstance(mechanism.joints.get(name), PrismaticJoint):
+        return canonical(mechanism, found[0], name)
+    return output_of(mechanism, name)
+
+
+def main_output(motion: Motion) -> Output | str:
+    """The output that matters most: the last in solving order on the frame, else a free point, else a link."""
+    mechanism = motion.mechanism
+    outputs = mechanism_outputs(mechanism)
+    order = [link for group in motion.structure.groups for link in group.links]
+    slides = [each for each in outputs if each.kind == "displacement"]
+    for found in (slides, list(outputs)):
+        if found:
+            return max(found, key=lambda each: order.index(output_link(mechanism, each)))
+    points = free_points(mechanism)
+    if points:
+        return points[-1]
+    moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]
+    return Output("angle", moving[0], moving[0]) if moving else Output("angle", order[-1], order[-1])
+
+
+def turning_links(motion: Motion) -> list[str]:
+    """Links that turn and are not driven against the frame, in solving order; the driven ones where no other does."""
+    driven = {d.link if d.link != "frame" else d.relative_to for d in motion.mechanism.drivers.values()}
+    order = [link for group in motion.structure.groups for link in group.links]
+    largest = max((size(motion.link(link).angular_velocity) for link in order), default=0.0)
+    turning = [link for link in order if size(motion.link(link).angular_velocity) > 1e-9 * largest]
+    return [link for link in turning if link not in driven] or turning
+
+
+def known_link(mechanism: Mechanism, name: str) -> str:
+    """The name of a link; raises LinkwrightError with the nearest one where there is none."""
+    return mechanism.link(name).name
+
+
+def traced_points(mechanism: Mechanism) -> list[str]:
+    """Points whose paths are worth drawing: free points, else pins between moving links."""
+    free = list(free_points(mechanism))
+    if free:
+        return free
+    pins = [name for name, joint in mechanism.joints.items() if isinstance(joint, RevoluteJoint) and "frame" not in joint.joined]
+    return pins or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
+
+
+def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
+    """Joint and link of every joint force that is not merely the reverse of another one."""
+    found: list[tuple[str, str]] = []
+    for name, joint in mechanism.joints.items():
+        links = [link for link in joint.joined if link != "frame"]
+        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
+    return found
+
+
+def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[str, str]:
+    """The joint asked for with its link, else the one on the frame that carries most.
+
+    Raises LinkwrightError for unknown names.
+    """
+    mechanism = forces.mechanism
+    if joint is None:
+        pairs = reaction_pairs(mechanism)
+        driven = {driver.joint for driver in mechanism.drivers.values()}
+        on_frame = [p for p in pairs if "frame" in mechanism.joints[p[0]].joined and p[0] not in driven]
+        if on is not None:
+            on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
+        if not pairs:
+            raise LinkwrightError(f"{mechanism.name!r} has no joint that carries a force there; name another joint")
+        return max(on_frame or pairs, key=lambda pair: size(forces.reaction(pair[0], on=pair[1])))
+    if on is None and joint in mechanism.joints:
+        on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]
+    forces.reaction(joint, on=on)
+    assert on is not None
+    return joint, on
+
+
+def loaded(forces: Forces) -> bool:
+    """Whether any joint carries a force."""
+    pairs = reaction_pairs(forces.mechanism)
+    return any(np.nan_to_num(size(forces.reaction(joint, on=link))) > 1e-9 for joint, link in pairs)

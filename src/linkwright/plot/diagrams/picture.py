@@ -1,0 +1,138 @@
+"""A finished diagram: a figure that can be saved and shown, and the style that all share."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.plot.diagrams.fonts import REMEDY, families
+from linkwright.plot.svg.files import write_whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+ENDINGS = (".svg", ".pdf", ".png")
+COLOURS = ("#1f5fa8", "#c8501e", "#2c8a4b", "#8a4fa3", "#a3781a", "#2a9aa8", "#b0305c", "#5b6470")
+INK, FAINT, SHADE = "#222222", "#8c929a", "#f3dfc1"
+_STYLE: dict[str, Any] = {
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#555555",
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9.5,
+    "axes.formatter.useoffset": False,
+    "axes.unicode_minus": True,
+    "axes.xmargin": 0.0,
+    "figure.titlesize": 11,
+    "font.size": 8.5,
+    "grid.color": "#e3e6ea",
+    "grid.linewidth": 0.6,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "lines.linewidth": 1.5,
+    "lines.solid_joinstyle": "round",
+    "text.parse_math": False,
+    "text.usetex": False,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "linkwright",
+}
+
+
+@contextmanager
+def style(language: str) -> Iterator[None]:
+    """The style of diagrams while one is drawn or written; whatever was set before comes back afterwards."""
+    try:
+        import matplotlib
+    except ImportError:
+        raise LinkwrightError("diagrams need matplotlib; install it: pip install linkwright[plot]") from None
+    settings = {**matplotlib.rcParamsDefault, **_STYLE, "font.family": families(language)}
+    kept = {
+        key: value for key, value in settings.items() if key not in ("backend", "backend_fallback", "toolbar")
+    }
+    with matplotlib.rc_context():
+        matplotlib.RcParams.update(matplotlib.rcParams, kept)
+        yield
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A diagram: ``kind`` and ``figure`` (of matplotlib, to be changed at will); ``save`` writes it, notebooks show it."""
+
+    kind: str
+    figure: Figure
+    language: str = "en"
+
+    def save(self, path: str | Path, *, dpi: float = 200.0) -> Path:
+        """Write it as .svg, .pdf or .png (``dpi`` dots per inch), whole or not at all.
+
+        Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write.
+        """
+        ending = Path(path).suffix.lower()
+        if ending not in ENDINGS:
+            raise LinkwrightError(
+                f'{path}: the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}'
+            )
+        return write_whole(path, self._bytes(ending[1:], dpi))
+
+    def svg(self) -> str:
+        """The diagram as SVG text; its letters are outlines, so no font is needed to show it."""
+        return self._bytes("svg", 72.0).decode()
+
+    def png(self, *, dpi: float = 200.0) -> bytes:
+        """The diagram in pixels."""
+        return self._bytes("png", dpi)
+
+    def pdf(self) -> bytes:
+        """The diagram as one page of vector PDF."""
+        return self._bytes("pdf", 72.0)
+
+    def _bytes(self, form: str, dpi: float) -> bytes:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.backends.backend_pdf import FigureCanvasPdf
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+        canvases = {"svg": FigureCanvasSVG, "pdf": FigureCanvasPdf, "png": FigureCanvasAgg}
+        canvas: Any = canvases[form](self.figure)
+        stream = io.BytesIO()
+        date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": "Linkwright"}}[form]
+        with style(self.language), _no_boxes():
+            canvas.print_figure(stream, format=form, dpi=dpi, metadata=date, facecolor="white")
+        return stream.getvalue()
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __repr__(self) -> str:
+        width, height = self.figure.get_size_inches()
+        return f"Diagram({self.kind!r}: {width:g} × {height:g} inches)"
+
+
+@contextmanager
+def _no_boxes() -> Iterator[None]:
+    """Refuses to write a character that no font has, which would be a box."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message="Glyph .* missing from")
+        try:
+            yield
+        except UserWarning as problem:
+            raise LinkwrightError(
+                f"a text of the diagram cannot be written with the fonts there are ({problem}); {REMEDY}"
+            ) from None
+
+
+def new_figure(size: tuple[float, float]) -> Figure:
+    """An empty figure, width and height in inches; apart from matplotlib's global state."""
+    from matplotlib.figure import Figure as New
+
+    return New(figsize=size, layout="constrained")

@@ -1,0 +1,144 @@
+"""What a diagram is drawn from: a motion, its forces, and the axis of its input."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats, at_times
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.machine.running import SteadyRunning, steady_running
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.diagrams.units import Unit, unit_of
+
+Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
+STEPS = 720
+TURN = 2 * np.pi
+
+
+@dataclass(frozen=True)
+class InputAxis:
+    """The axis below curves: ``name`` of the driver, ``dimension`` angle, length or time, ``values`` (n,) SI."""
+
+    name: str
+    dimension: str
+    values: Floats
+
+    @property
+    def unit(self) -> Unit:
+        """The unit in which it is shown."""
+        return unit_of(self.dimension)
+
+    @property
+    def backwards(self) -> bool:
+        """Whether the input falls as time goes on, so that the axis runs from right to left."""
+        return bool(self.values[-1] < self.values[0])
+
+
+class Source:
+    """One result, with what diagrams need of it; what was not solved yet is solved when it is asked for.
+
+    Arrays over a closed cycle are drawn up to its end: ``closed`` repeats the first position there.
+    """
+
+    def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
+        self._running = result if isinstance(result, SteadyRunning) else None
+        self._forces = result if isinstance(result, Forces) else None
+        self._static = static
+        self._result = result
+        self._label = label
+
+    @property
+    def label(self) -> str:
+        """Its name in the legend."""
+        return self._label or (self.mechanism.name if self._running is None else "")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """What was solved."""
+        return self.motion.mechanism
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion."""
+        if isinstance(self._result, SteadyRunning):
+            raise LinkwrightError(
+                "the result of steady running holds no motion; it has the diagrams speed and energy, or give the forces"
+            )
+        if isinstance(self._result, Forces):
+            return self._result.motion
+        found = self._result if isinstance(self._result, Motion) else solve_motion(self._result, steps=STEPS, failures="mark")
+        if not found.ok.any():
+            raise LinkwrightError(f"{found.mechanism.name!r} reaches no position: {found.outcomes[0].sentence}")
+        return found
+
+    @cached_property
+    def forces(self) -> Forces:
+        """The forces of the motion."""
+        return solve_forces(self.motion, static=self._static) if self._forces is None else self._forces
+
+    def running(self, fluctuation: float) -> SteadyRunning:
+        """Steady running with a flywheel for a required fluctuation."""
+        return steady_running(self.forces, fluctuation=fluctuation) if self._running is None else self._running
+
+    @cached_property
+    def axis(self) -> InputAxis:
+        """The input, or the time where drivers follow laws of their own, up to the cycle's end."""
+        motion = self.motion
+        if not motion.mechanism.drivers:
+            raise LinkwrightError(
+                f"{motion.mechanism.name!r} has no driver, so there is no input to draw curves over; draw its "
+                "force_polygon, or add a driver"
+            )
+        if motion.steps < 2:
+            raise LinkwrightError(f"{motion.mechanism.name!r} is solved at one position only; solve a cycle to draw curves")
+        name, driver = next(iter(motion.mechanism.drivers.items()))
+        if not all(isinstance(each.law, ConstantSpeed) for each in motion.mechanism.drivers.values()):
+            end = [] if self._end is None else [self._end]
+            return InputAxis("", "time", np.append(motion.time, end))
+        values = motion.input
+        if self._end is not None:
+            values = np.append(values, driver.law.coordinate(np.array([self._end]))[0])
+        return InputAxis(name, "angle" if motion.positions.rotary[name] else "length", values)
+
+    def closed(self, values: Floats, *, turns: bool = False) -> Floats:
+        """Values at all positions (n, …), the first one repeated where the cycle ends.
+
+        ``turns``: an angle, which may have gained whole turns by then.
+        """
+        if self._end is None:
+            return values
+        last = values[:1]
+        if turns and np.isfinite(values[[0, -1]]).all():
+            last = last + TURN * np.round((values[-1] - last) / TURN)
+        return np.concatenate([values, last])
+
+    def index_at(self, value: float) -> int:
+        """Index of the position nearest to a value of the axis (SI); angles modulo a turn."""
+        gap = self.axis.values - value
+        if self.axis.dimension == "angle":
+            gap = (gap + np.pi) % TURN - np.pi
+        return int(np.argmin(np.abs(gap))) % self.motion.steps
+
+    @cached_property
+    def _end(self) -> float | None:
+        """Time at which a closed cycle has returned to its first position, if that is no position already."""
+        motion, positions = self.motion, self.motion.positions
+        if not positions.closed or positions.period is None or motion.steps < 3:
+            return None
+        begin = float(positions.time[0])
+        if positions.time[-1] - begin > positions.period * (1 - 1e-9):
+            return None
+        expected = at_times(motion.mechanism, motion.time[-1:])
+        same = all(
+            np.allclose(expected.coordinates[name][0], rows[0][-1:], atol=1e-9)
+            for name, rows in positions.coordinates.items()
+        )
+        return begin + positions.period if same else None

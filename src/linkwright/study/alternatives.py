@@ -1,0 +1,177 @@
+"""The machines of a comparison, each solved over its cycle, with the output that they share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.machine import SteadyRunning, steady_running
+from linkwright.metrics import Analysis
+from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
+from linkwright.model.file import load
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+from linkwright.registry import nearest
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(eq=False)
+class Alternative:
+    """A machine of the comparison: ``label`` its name there, ``output`` what it moves."""
+
+    label: str
+    mechanism: Mechanism
+    output: Output
+    steps: int
+    fluctuation: float
+    notes: list[str] = field(default_factory=list)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Its motion; raises PositionError where it cannot pass its cycle."""
+        return solve_motion(self.mechanism, steps=self.steps)
+
+    @cached_property
+    def forces(self) -> Forces:
+        """Its forces."""
+        return solve_forces(self.motion)
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        """What its design numbers share."""
+        return Analysis.of(self.forces)
+
+    @cached_property
+    def running(self) -> SteadyRunning | None:
+        """Steady running with a flywheel; None, with a note, where there is none to lay out."""
+        try:
+            return steady_running(self.forces, fluctuation=self.fluctuation)
+        except LinkwrightError as error:
+            self.notes.append(str(error))
+            return None
+
+    @property
+    def loaded(self) -> bool:
+        """Whether anything in it has mass or a load."""
+        return bool(self.mechanism.loads) or any(link.mass or link.inertia for link in self.mechanism.links.values())
+
+    @property
+    def pivot(self) -> tuple[str, str]:
+        """Joint and link where the output is carried by the frame."""
+        if self.output.kind == "displacement":
+            joint = self.mechanism.joints[self.output.owner]
+            return self.output.owner, next(link for link in joint.joined if link != "frame")
+        owner = self.output.owner.split(".")[0]
+        at_frame = [n for n, j in self.mechanism.joints.items() if {"frame", owner} <= set(j.joined)]
+        return (at_frame[0] if at_frame else self._first_joint(owner)), owner
+
+    def _first_joint(self, link: str) -> str:
+        return next(name for name, joint in self.mechanism.joints.items() if link in joint.joined)
+
+    @property
+    def pivot_force(self) -> Floats:
+        """Force on the output link at its pivot, (n, 2) N."""
+        joint, link = self.pivot
+        return self.forces.reaction(joint, on=link)
+
+    def travel(self) -> tuple[Floats, Floats, Floats]:
+        """The output and its rates in time, (n,) each."""
+        return value(self.motion, self.output), rate(self.motion, self.output), second(self.motion, self.output)
+
+
+def alternatives(
+    sources: Sequence[Mechanism | str | Path],
+    output: str | Mapping[str, str] | Sequence[str] | None,
+    steps: int,
+    fluctuation: float,
+) -> list[Alternative]:
+    """The machines with their shared output.
+
+    Raises:
+        LinkwrightError: fewer than two machines, an unknown output, or none that all share.
+    """
+    if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
+        raise LinkwrightError("a comparison needs two or more alternatives; give a list of mechanisms or files")
+    machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
+    labels = _labels(machines)
+    names = _outputs(machines, labels, sources, output)
+    return [
+        Alternative(label, machine, _output(machine, name), steps, fluctuation)
+        for label, machine, name in zip(labels, machines, names, strict=True)
+    ]
+
+
+def _labels(machines: Sequence[Mechanism]) -> list[str]:
+    """Names of the machines, numbered where they are the same."""
+    found: list[str] = []
+    for machine in machines:
+        same = sum(1 for name in found if name == machine.name or name.startswith(f"{machine.name} ("))
+        found.append(f"{machine.name} ({same + 1})" if same else machine.name)
+    return found
+
+
+def _outputs(
+    machines: Sequence[Mechanism],
+    labels: Sequence[str],
+    sources: Sequence[Mechanism | str | Path],
+    output: str | Mapping[str, str] | Sequence[str] | None,
+) -> list[str]:
+    """The name of every machine's output."""
+    if isinstance(output, str):
+        return [output] * len(machines)
+    if isinstance(output, Mapping):
+        return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
+    if output is not None:
+        if len(output) != len(machines):
+            raise LinkwrightError(f"{len(output)} outputs are named for {len(machines)} alternatives; name one for each")
+        return list(output)
+    own = [[str(each) for each in mechanism_outputs(machine)] for machine in machines]
+    shared = [name for name in own[0] if all(name in names for names in own[1:])]
+    if shared:
+        return [shared[-1]] * len(machines)
+    if all(len(names) == 1 for names in own):
+        kinds = {mechanism_outputs(machine)[0].kind for machine in machines}
+        if len(kinds) == 1:
+            return [names[0] for names in own]
+    raise LinkwrightError(_nothing_shared(labels, own))
+
+
+def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Path) -> str:
+    keys = [label] if isinstance(source, Mechanism) else [label, str(source), Path(str(source)).stem]
+    for key in keys:
+        if key in output:
+            return output[key]
+    raise LinkwrightError(f"no output is named for {label!r}; output names them for {', '.join(map(repr, output))}")
+
+
+def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
+    told = "; ".join(
+        f"{label!r} has {', '.join(names) or 'none'}" for label, names in zip(labels, own, strict=True)
+    )
+    example = ", ".join(f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True))
+    return (
+        f"the alternatives share no output to compare: {told}; say which output of each is meant, such as "
+        f"output={{{example}}}"
+    )
+
+
+def _output(machine: Mechanism, name: str) -> Output:
+    from linkwright.kinematics.limits import output_of
+
+    try:
+        return output_of(machine, name)
+    except LinkwrightError:
+        own = [str(each) for each in mechanism_outputs(machine)]
+        offer = nearest(name, own)
+        hint = f"did you mean {offer!r}?" if offer else f"it has {', '.join(own) or 'none'}"
+        raise LinkwrightError(f"{machine.name!r} has no output {name!r}; {hint}") from None

@@ -1,0 +1,181 @@
+"""What alternatives and designs are measured by: registered design numbers, and summaries of any output."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.metrics import METRICS, Metric, MetricValue
+from linkwright.metrics.outputs import turns_fully
+from linkwright.registry import nearest
+from linkwright.study.alternatives import Alternative
+from linkwright.study.summary import KINDS, wanted
+from linkwright.words import say
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A value, SI, with its dimension; ``at``: the input there (rad or m), where it belongs to one."""
+
+    value: float
+    dimension: str
+    at: float | None = None
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """A number to compare by: ``better`` is ``higher``, ``lower`` or None where neither is."""
+
+    name: str
+    better: str | None
+    measure: Callable[[Alternative], Measured | None]
+    forces: bool = False
+
+    def label(self, language: str = "en") -> str:
+        """Its name in words."""
+        if self.name in OWN:
+            return say(f"compare.{self.name}.label", language)
+        metric, _, subject = self.name.partition(" ")
+        if metric in METRICS:
+            title = METRICS[metric]().label_in(language)
+            return f"{title}, {subject}" if subject else title
+        return self.name
+
+
+def criteria(names: Iterable[str] | str) -> list[Criterion]:
+    """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
+    asked = [names] if isinstance(names, str) else list(names)
+    if not asked:
+        raise LinkwrightError("no metric is asked for; name some, such as peak_input_torque")
+    return [criterion(name) for name in dict.fromkeys(asked)]
+
+
+def criterion(name: str) -> Criterion:
+    """``peak_reaction``, ``peak_reaction O5``, ``flywheel``, or a summary such as ``driver.effort rms``."""
+    if name in OWN:
+        return OWN[name]
+    metric, _, subject = name.partition(" ")
+    if metric in METRICS:
+        kind = METRICS[metric]
+        return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
+    if name.rpartition(" ")[2] in KINDS or name.rpartition(".")[2] in KINDS:
+        return Criterion(name, _better(name), lambda each: _summary(each, name), True)
+    known = [*OWN, *METRICS]
+    offer = nearest(name, known)
+    hint = f"did you mean {offer!r}?" if offer else f"known: {', '.join(known)}"
+    raise LinkwrightError(
+        f'there is no metric {name!r}; {hint} An output with a summary will do as well, such as "driver.effort rms"'
+    )
+
+
+def _better(name: str) -> str | None:
+    """Of sizes and efforts less is better; of displacements neither."""
+    output, kind = wanted([name])[0].output, wanted([name])[0].kind
+    if kind in ("argmin", "argmax") or output.startswith(("closeness", "transmission_angle")):
+        return "higher" if kind == "min" else None
+    forces = ("reaction", "couple", "shaking", "input_torque", "power", "load")
+    heavy = output.startswith(forces) or output.endswith((".effort", "acceleration"))
+    return "lower" if heavy and kind in ("max", "rms", "peak", "range") else None
+
+
+def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
+    """The value of a subject; of the shared output; else the governing one. None where it does not apply."""
+    if not metric.applies(each.analysis):
+        return None
+    values = metric.evaluate(each.analysis)
+    found = [v for v in values if v.subject == subject] if subject else _of_output(each, values)
+    if not found:
+        subjects = [v.subject for v in values]
+        if subject and values:
+            offer = nearest(subject, subjects)
+            hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(subjects)}"
+            raise LinkwrightError(f"{metric.name!r} of {each.label!r} has no value for {subject!r}; {hint}")
+        return None
+    worst = _governing(found, metric)
+    return Measured(worst.value, worst.dimension, worst.at)
+
+
+def _of_output(each: Alternative, values: Iterable[MetricValue]) -> list[MetricValue]:
+    """Values of the shared output, if there are any; else all."""
+    everything = list(values)
+    mine = [v for v in everything if v.subject == str(each.output)]
+    return mine or everything
+
+
+def _governing(found: list[MetricValue], metric: Metric) -> MetricValue:
+    if metric.better == "higher":
+        return min(found, key=lambda v: v.value)
+    return max(found, key=lambda v: abs(v.value)) if metric.better == "lower" else found[0]
+
+
+def _summary(each: Alternative, name: str) -> Measured:
+    """A summary of an output, from the program of sweeps."""
+    from linkwright.study.designs import sweep
+
+    found = sweep(each.mechanism, {"gravity.x": [each.mechanism.gravity[0]]}, outputs=[name], steps=each.steps)
+    summary = next(iter(found.summaries))
+    if found.unloaded:
+        raise LinkwrightError(found.unloaded[0])
+    return Measured(float(found.summaries[summary][0]), found.dimension(summary))
+
+
+# own ----------------------------------------------------------------------------------------
+def _travel(each: Alternative) -> Measured | None:
+    """Swing or stroke between the limits; a turning output has none."""
+    if turns_fully(each.motion, each.output):
+        return None
+    limits = [limit.value for limit in each.analysis.limits(each.output)]
+    values = np.array(limits) if len(limits) > 1 else each.travel()[0]
+    return Measured(float(np.ptp(values)), each.output.dimension)
+
+
+def _rate(each: Alternative) -> Measured:
+    rates = np.abs(each.travel()[1])
+    dimension = "angular_velocity" if each.output.kind == "angle" else "velocity"
+    return Measured(float(rates.max()), dimension, float(each.motion.input[rates.argmax()]))
+
+
+def _acceleration(each: Alternative) -> Measured:
+    sizes = np.abs(each.travel()[2])
+    dimension = "angular_acceleration" if each.output.kind == "angle" else "acceleration"
+    return Measured(float(sizes.max()), dimension, float(each.motion.input[sizes.argmax()]))
+
+
+def _pivot(each: Alternative) -> Measured:
+    sizes = np.hypot(*each.pivot_force.T)
+    return Measured(float(sizes.max()), "force", float(each.motion.input[sizes.argmax()]))
+
+
+def _flywheel(each: Alternative) -> Measured | None:
+    running = each.running
+    return None if running is None else Measured(float(running.flywheel), "inertia")
+
+
+OWN: Mapping[str, Criterion] = {
+    each.name: each
+    for each in (
+        Criterion("travel", None, _travel),
+        Criterion("output_velocity", None, _rate),
+        Criterion("output_acceleration", "lower", _acceleration),
+        Criterion("pivot_reaction", "lower", _pivot, forces=True),
+        Criterion("flywheel", "lower", _flywheel, forces=True),
+    )
+}
+#: What is compared when nobody says what.
+USUAL = (
+    "travel",
+    "quick_return_ratio",
+    "output_velocity",
+    "output_acceleration",
+    "transmission_angle",
+    "peak_input_torque",
+    "rms_input_torque",
+    "mean_power",
+    "pivot_reaction",
+    "peak_reaction",
+    "peak_shaking_force",
+    "flywheel",
+)

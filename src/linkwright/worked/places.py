@@ -1,0 +1,279 @@
+"""Positions of a group: the closed form of its kind, or the closure equations of a group without one."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.groups.rpp import RPP
+from linkwright.groups.rpr import RPR
+from linkwright.groups.rrp import RRP
+from linkwright.groups.rrr import RRR
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.groups import chain_unknowns, dyad_shape
+from linkwright.structure.group import Group, TreeJoint
+from linkwright.worked.book import Book, Slide, Spot, tex
+from linkwright.worked.chains import attach
+from linkwright.worked.page import Step
+from linkwright.worked.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, cosine, direction, root, sine, symbol
+from linkwright.worked.trail import Trail, trail, turned
+
+
+class Places:
+    """Writes the positions of groups, one after the other; remembers what is known."""
+
+    def __init__(self, book: Book) -> None:
+        self.book = book
+        self.known: set[str] = set()
+        self.angles: set[str] = {"frame"}
+        self.guides: set[str] = set()
+
+    # pieces that every group needs --------------------------------------------------------
+    def point(self, step: Step, spot: Spot, formula: Pair) -> None:
+        """Notes where a point is."""
+        if spot.key in self.known or spot.fixed:
+            return
+        self.known.add(spot.key)
+        for term, part, c in ((spot.place.x, formula.x, "x"), (spot.place.y, formula.y, "y")):
+            step.find(term, part, "m", self.column(spot, f"position.{c} [m]"))
+
+    @staticmethod
+    def column(spot: Spot, quantity: str) -> str:
+        """Name of a point's column in the table of results."""
+        return "" if spot.key.endswith("@centre") else f"{spot.key}.{quantity}"
+
+    def angle(self, step: Step, link: str, formula: Term) -> None:
+        """Notes the angle of a link."""
+        if link not in self.angles:
+            self.angles.add(link)
+            step.find(self.book.turn(link), formula, "°", f"{link}.angle [rad]")
+
+    def follow(self, step: Step, joint: TreeJoint) -> None:
+        """The angle of a link that a guide, a weld or a driver turns, from that of its parent."""
+        book = self.book
+        parent = book.turn(joint.parent)
+        if joint.kind != "revolute":
+            self.angle(step, joint.child, parent + book.turned(joint))
+        elif joint.driver is not None:
+            q = book.drive(joint.driver)[0]
+            own = joint.child == book.mechanism.drivers[joint.driver].link
+            self.angle(step, joint.child, parent + q if own else parent - q)
+
+    def guide(self, step: Step, joint: str) -> Slide:
+        """Notes the direction of a guide."""
+        slide = self.book.slide(joint)
+        prismatic = self.book.mechanism.joints[joint]
+        assert isinstance(prismatic, PrismaticJoint)
+        if joint not in self.guides:
+            self.guides.add(joint)
+            turn = self.book.turn(prismatic.guide) + self.book.degrees(self._own_angle(prismatic))
+            for term, part in ((slide.along.x, cosine(turn)), (slide.along.y, sine(turn))):
+                if not term.is_zero:
+                    step.find(term, part, "")
+        return slide
+
+    def _own_angle(self, joint: PrismaticJoint) -> float:
+        from linkwright.kinematics.drawing import guide_angle
+
+        return guide_angle(self.book.mechanism, joint)
+
+    def displacement(self, step: Step, slide: Slide, formula: Term) -> None:
+        """Notes the displacement of a block."""
+        step.find(slide.s, formula, "m", f"{slide.joint}.displacement [m]")
+
+    # a group --------------------------------------------------------------------------------
+    def place(self, step: Step, group: Group) -> None:
+        """Positions of a group's links and of all their points."""
+        shape = dyad_shape(group) if group.unknowns else None
+        if shape is not None and self._plain(group, shape[1]):
+            self._dyad(step, group, *shape)
+        elif group.unknowns:
+            self._newton(step, group)
+        for joint in group.tree:
+            self.follow(step, joint)
+            if joint.kind == "prismatic":
+                self.guide(step, joint.joint)
+
+    def _plain(self, group: Group, ends: tuple[str, str]) -> bool:
+        """Whether the chains begin with what the closed forms speak of."""
+        for end in ends:
+            steps = list(reversed(list(group.path(end))))
+            free = [joint for joint in steps if joint.free]
+            if free and free[0].kind == "revolute" and steps[0] is not free[0]:
+                return False
+        return True
+
+    def _steps(self, group: Group, end: str) -> list[TreeJoint]:
+        return list(reversed(list(group.path(end))))
+
+    def _dyad(self, step: Step, group: Group, dyad: object, ends: tuple[str, str]) -> None:
+        cut = group.cuts[0]
+        tip = self.book.spot(cut.a, cut.joint)
+        mode = self.mode(group)
+        if isinstance(dyad, RRR):
+            self._rrr(step, group, ends, tip, mode)
+        elif isinstance(dyad, RRP):
+            self._rrp(step, group, ends, tip, mode)
+        elif isinstance(dyad, RPR):
+            self._rpr(step, group, ends, tip, mode)
+        else:
+            self._slides(step, group, ends, tip, apart=not isinstance(dyad, RPP))
+
+    def mode(self, group: Group) -> int:
+        """+1 or -1: the assembly mode in this position."""
+        rows = self.book.motion.modes.get(f"mode:{group.name}")
+        if rows is not None:
+            return 1 if rows[self.book.index] > 0 else -1
+        return 1 if self.book.motion.design.modes.get(group.name, 1.0) > 0 else -1
+
+    def _arm(self, step: Step, group: Group, end: str, tip: Spot) -> tuple[Spot, TreeJoint, Trail]:
+        """Pin, its joint and the way to the cut, for a chain that begins with a free pin."""
+        steps = self._steps(group, end)
+        pivot = self.book.spot(steps[0].parent, steps[0].joint)
+        way = trail(self.book, steps[1:], steps[0].child, steps[0].joint, tip.key, local=True)
+        return pivot, steps[0], way
+
+    def _length(self, step: Step, pivot: Spot, tip: Spot, reach: Pair) -> tuple[Term, Term]:
+        """Distance from pin to cut and the angle under which the link's axes see it."""
+        sub = f"{pivot.label}{tip.label}"
+        ahead, aside = reach.x, reach.y
+        size = symbol(f"l_{sub}", f"l_{{{tex(sub)}}}", math.hypot(ahead.value, aside.value))
+        if aside.is_zero and ahead.op == "symbol":
+            step.give(size, "m")
+            return size, ZERO if ahead.amount > 0 else self.book.degrees(math.pi)
+        parts = []
+        for name, part in (("u", ahead), ("w", aside)):
+            if part.is_zero:
+                parts.append(ZERO)
+                continue
+            term = symbol(f"{name}_{sub}", f"{name}_{{{tex(sub)}}}", part.value)
+            parts.append(step.give(term, "m") if part.op == "symbol" else step.find(term, part, "m"))
+        step.find(size, root(parts[0].squared + parts[1].squared), "m")
+        lean = direction(parts[1], parts[0])
+        own = symbol(f"ε_{sub}", rf"\varepsilon_{{{tex(sub)}}}", lean.value, degrees=True)
+        return size, step.find(own, lean, "°")
+
+    def _apart(self, step: Step, p: Spot, q: Pair) -> tuple[Pair, Term]:
+        """The vector d from P to Q and the square of its length."""
+        d = q - p.place
+        named = Pair(symbol("d_x", "d_x", d.x.value), symbol("d_y", "d_y", d.y.value))
+        step.find(named.x, d.x, "m")
+        step.find(named.y, d.y, "m")
+        square = named.x.squared + named.y.squared
+        return named, step.find(symbol("d²", "d^2", square.value), square, "m²")
+
+    def _rrr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+        (p, first, way_1), (q, second, way_2) = (self._arm(step, group, end, tip) for end in ends)
+        r1, lean_1 = self._length(step, p, tip, way_1.reach)
+        r2, lean_2 = self._length(step, q, tip, way_2.reach)
+        d, dd = self._apart(step, p, q.place)
+        t_is = dd + r1.squared - r2.squared
+        t = step.find(symbol("t", "t", t_is.value), t_is, "m²")
+        rho = self._root(step, FOUR * r1.squared * dd - t.squared, "m²")
+        self._mode_note(step, "mode_rrr", mode, (p, q, tip))
+        side = d.perp.times(rho)
+        turn = d.times(t) + side if mode > 0 else d.times(t) - side
+        b = Pair(p.place.x + turn.x / (TWO * dd), p.place.y + turn.y / (TWO * dd))
+        self.point(step, tip, b)
+        for joint, pivot, lean in ((first, p, lean_1), (second, q, lean_2)):
+            arm = tip.place - pivot.place
+            self.angle(step, joint.child, direction(arm.y, arm.x) - lean)
+
+    def _root(self, step: Step, square: Term, unit: str) -> Term:
+        value = square.value
+        rho = symbol("ρ", r"\rho", math.sqrt(max(value, 0.0)))
+        return step.find(rho, root(square), unit)
+
+    def _mode_note(self, step: Step, key: str, mode: int, spots: tuple[Spot, Spot, Spot]) -> None:
+        p, q, b = (spot.label for spot in spots)
+        step.say(self.book.say(f"worked.{key}_{'plus' if mode > 0 else 'minus'}", p=p, q=q, b=b))
+
+    def _frame_chain(self, step: Step, group: Group, end: str, tip: Spot, name: str) -> tuple[Pair, Trail]:
+        """Where the cut would be with the slides at zero, for a chain of guides."""
+        steps = self._steps(group, end)
+        if not steps:
+            return tip.place, Trail()
+        for joint in steps:
+            self.follow(step, joint)
+            if joint.kind == "prismatic":
+                self.guide(step, joint.joint)
+        start = attach(steps[0], steps[0].parent, self.book)
+        base = self.book.spot(steps[0].parent, start)
+        way = trail(self.book, steps, steps[0].parent, start, tip.key, local=False)
+        zero = Pair(
+            symbol(f"x_{name}", f"x_{{{name}}}", (base.place.x + way.reach.x).value),
+            symbol(f"y_{name}", f"y_{{{name}}}", (base.place.y + way.reach.y).value),
+        )
+        if way.reach == NOWHERE:
+            return base.place, way
+        step.say(self.book.say("worked.zero_slide", name=name, b=tip.label))
+        step.find(zero.x, base.place.x + way.reach.x, "m")
+        step.find(zero.y, base.place.y + way.reach.y, "m")
+        return zero, way
+
+    def _rrp(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+        p, joint, way_1 = self._arm(step, group, ends[0], tip)
+        r, lean = self._length(step, p, tip, way_1.reach)
+        zero, way = self._frame_chain(step, group, ends[1], tip, f"{tip.label}0")
+        guide, n, _ = way.slides[0]
+        f = p.place - zero
+        h = step.find(symbol("h", "h", n.cross(f).value), n.cross(f), "m")
+        along = step.find(symbol("f", "f", n.dot(f).value), n.dot(f), "m")
+        rho = self._root(step, r.squared - h.squared, "m")
+        self._mode_note(step, "mode_rrp", mode, (p, p, tip))
+        slide = self.book.slide(guide.joint)
+        self.displacement(step, slide, along + rho if mode > 0 else along - rho)
+        self.point(step, tip, zero + n.times(slide.s))
+        arm = tip.place - p.place
+        self.angle(step, joint.child, direction(arm.y, arm.x) - lean)
+
+    def _rpr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+        p, joint, way = self._arm(step, group, ends[0], tip)
+        guide, m, heading = way.slides[0]
+        aside, ahead = m.cross(way.reach), m.dot(way.reach)
+        e = ZERO if aside.is_zero else step.find(symbol("e", "e", aside.value), aside, "m")
+        b = ZERO if ahead.is_zero else step.find(symbol("b", "b", ahead.value), ahead, "m")
+        d, dd = self._apart(step, p, tip.place)
+        rho = self._root(step, dd - e.squared, "m")
+        self._mode_note(step, "mode_rpr", mode, (p, tip, tip))
+        reach = rho if mode > 0 else -rho
+        slide = self.book.slide(guide.joint)
+        self.displacement(step, slide, reach - b)
+        cosine_is, sine_is = (reach * d.x + e * d.y) / dd, (reach * d.y - e * d.x) / dd
+        nx = step.find(symbol("n_x", "n_x", cosine_is.value), cosine_is, "")
+        ny = step.find(symbol("n_y", "n_y", sine_is.value), sine_is, "")
+        self.angle(step, joint.child, direction(ny, nx) - heading)
+
+    def _slides(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, *, apart: bool) -> None:
+        """PRP (a slide in each chain) and RPP (both in one)."""
+        zero_1, way_1 = self._frame_chain(step, group, ends[0], tip, f"{tip.label}1")
+        zero_2, way_2 = self._frame_chain(step, group, ends[1], tip, f"{tip.label}2")
+        (g1, n1, _), (g2, n2, _) = [*way_1.slides, *way_2.slides]
+        f = zero_2 - zero_1
+        f = Pair(
+            step.find(symbol("f_x", "f_x", f.x.value), f.x, "m"),
+            step.find(symbol("f_y", "f_y", f.y.value), f.y, "m"),
+        )
+        sine_is = n1.cross(n2)
+        det = step.find(symbol("k", "k", sine_is.value), sine_is, "")
+        self.displacement(step, self.book.slide(g1.joint), f.cross(n2) / det)
+        self.displacement(step, self.book.slide(g2.joint), (f.cross(n1) if apart else n1.cross(f)) / det)
+        if apart:
+            self.point(step, tip, zero_1 + n1.times(self.book.slide(g1.joint).s))
+
+    def _newton(self, step: Step, group: Group) -> None:
+        """The unknowns that Newton's method found; the closure is checked once all points are placed."""
+        step.say(self.book.say("worked.newton", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
+        for joint in chain_order(group):
+            if joint.kind == "prismatic":
+                step.give(self.book.slide(joint.joint).s, "m", f"{joint.joint}.displacement [m]")
+            else:
+                self.angles.add(joint.child)
+                step.give(self.book.turn(joint.child), "°", f"{joint.child}.angle [rad]")
+
+
+def chain_order(group: Group) -> tuple[TreeJoint, ...]:
+    """The unknown joints of a group."""
+    return group.unknowns
+
+
+__all__ = ["Places", "chain_unknowns", "turned"]

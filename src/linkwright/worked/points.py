@@ -1,0 +1,152 @@
+"""Points of a group's links: places, velocities, accelerations, each from a point that is known already."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.structure.group import Group, TreeJoint
+from linkwright.worked.book import Book, Spot
+from linkwright.worked.chains import attach, closures
+from linkwright.worked.page import Step
+from linkwright.worked.places import Places
+from linkwright.worked.terms import TWO, Pair, number, symbol
+from linkwright.worked.trail import turned
+
+
+def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:
+    """The points of a moving link, its mass centre last if it has mass."""
+    part = book.mechanism.links[link]
+    for point in part.points:
+        yield point, book.spot(link, point)
+    if part.mass:
+        yield "@centre", book.spot(link, "@centre")
+
+
+def _start(book: Book, joint: TreeJoint) -> tuple[str, Spot, str, Spot]:
+    """Where a joint holds its two links: point of the parent, point of the child."""
+    held, own = attach(joint, joint.parent, book), attach(joint, joint.child, book)
+    return held, book.spot(joint.parent, held), own, book.spot(joint.child, own)
+
+
+def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
+    """Places of all points of a group's links, and for groups without closed form the closure put in."""
+    for joint in group.tree:
+        _, held, own, start = _start(book, joint)
+        link = joint.child
+        at = next((p for p, spot in named_points(book, link) if spot.key in places.known or spot.fixed), None)
+        if at is None:
+            at = own
+            if joint.kind == "prismatic":
+                places.point(step, start, _slid(book, joint, held))
+            else:
+                places.point(step, start, held.place)
+        base = book.spot(link, at)
+        for point, spot in named_points(book, link):
+            arm = turned(book.arm(link, at, point), book.turn(link))
+            places.point(step, spot, base.place + arm)
+
+
+def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
+    """Place of the point by which a guide holds its second link."""
+    prismatic = book.mechanism.joints[joint.joint]
+    assert isinstance(prismatic, PrismaticJoint)
+    slide = book.slide(joint.joint)
+    shift = slide.along.times(slide.s)
+    if prismatic.offset:
+        name = f"h_{joint.joint}"
+        shift = shift + slide.along.perp.times(symbol(name, name, prismatic.offset))
+    return held.place + shift if joint.child == prismatic.block else held.place - shift
+
+
+def check_closure(book: Book, step: Step, group: Group) -> None:
+    """What is left of the closure equations with the numbers put in: zero but for rounding."""
+    step.say(book.say("worked.closure_check"))
+    for cut in group.cuts:
+        ends = []
+        for end in (cut.a, cut.b):
+            name = _end_name(book, cut.joint, end)
+            at = attach_of(book, group, end)
+            base = book.spot(end, at)
+            arm = turned(book.arm(end, at, name), book.turn(end)) if end != "frame" else None
+            spot = book.spot(end, name)
+            ends.append(spot.place if arm is None or spot.fixed and end == "frame" else base.place + arm)
+        gap = ends[0] - ends[1]
+        if cut.kind == "revolute":
+            rows = (("x", gap.x), ("y", gap.y))
+        else:
+            slide, joint = book.slide(cut.joint), book.mechanism.joints[cut.joint]
+            assert isinstance(joint, PrismaticJoint)
+            off = symbol(f"h_{cut.joint}", f"h_{cut.joint}", joint.offset) if joint.offset else number(0.0)
+            rows = (("n", slide.along.cross(-gap) - off),)  # type: ignore[assignment]
+        for c, row in rows:
+            zero = symbol(f"Δ{c}_{cut.joint}", rf"\Delta {c}_{{{cut.joint}}}", 0.0)
+            step.find(zero, row, "m")
+
+
+def attach_of(book: Book, group: Group, link: str) -> str:
+    """The point by which a link hangs in its chain; any point for a link solved before."""
+    for joint in group.tree:
+        if joint.child == link:
+            return attach(joint, link, book)
+    return next(iter(book.mechanism.link(link).points))
+
+
+def _end_name(book: Book, joint: str, link: str) -> str:
+    found = book.mechanism.joints[joint]
+    if isinstance(found, PrismaticJoint):
+        return found.through if link == found.guide else found.at
+    return joint
+
+
+class Movers:
+    """Writes velocities and accelerations of points; remembers which are known."""
+
+    def __init__(self, book: Book) -> None:
+        self.book = book
+        self.velocities: set[str] = set()
+        self.accelerations: set[str] = set()
+
+    def move(self, step: Step, group: Group, *, second: bool) -> None:
+        """Velocities (or accelerations) of all points of a group's links."""
+        book = self.book
+        known = self.accelerations if second else self.velocities
+        for joint in group.tree:
+            _, held, own, start = _start(book, joint)
+            if joint.kind == "prismatic":
+                formula = self._slid(joint, held, start, second=second)
+            else:
+                formula = held.acceleration if second else held.velocity
+            self._note(step, start, formula, known, second=second)
+            for point, spot in named_points(book, joint.child):
+                if point != own:
+                    self._note(step, spot, self._carried(joint.child, start, spot, second=second), known, second=second)
+
+    def _note(self, step: Step, spot: Spot, formula: Pair, known: set[str], *, second: bool) -> None:
+        if spot.key in known or spot.fixed:
+            return
+        known.add(spot.key)
+        target = spot.acceleration if second else spot.velocity
+        kind, unit = ("acceleration", "m/s²") if second else ("velocity", "m/s")
+        for c, term, part in (("x", target.x, formula.x), ("y", target.y, formula.y)):
+            step.find(term, part, unit, Places.column(spot, f"{kind}.{c} [{unit}]"))
+
+    def _carried(self, link: str, start: Spot, spot: Spot, *, second: bool) -> Pair:
+        arm = spot.place - start.place
+        omega = self.book.omega(link)
+        if not second:
+            return start.velocity + arm.perp.times(omega)
+        return start.acceleration + arm.perp.times(self.book.alpha(link)) - arm.times(omega.squared)
+
+    def _slid(self, joint: TreeJoint, held: Spot, start: Spot, *, second: bool) -> Pair:
+        """Through a guide: carried motion, motion along the guide, and for accelerations Coriolis'."""
+        book = self.book
+        slide = book.slide(joint.joint)
+        sign = 1 if joint.child == joint.connection.b else -1
+        carried = self._carried(joint.parent, held, start, second=second)
+        along = slide.along.times(slide.second if second else slide.rate)
+        found = carried + along if sign > 0 else carried - along
+        if second:
+            coriolis = slide.along.perp.times(TWO * book.omega(joint.parent) * slide.rate)
+            found = found + coriolis if sign > 0 else found - coriolis
+        return found

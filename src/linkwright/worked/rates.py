@@ -1,0 +1,190 @@
+"""Velocities and accelerations of a group: the closure differentiated, a linear system for the unknown rates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkwright.structure.group import Group
+from linkwright.worked.book import Book
+from linkwright.worked.chains import Closure, bends, closures, drift, matrix, unknown_names
+from linkwright.worked.page import Step
+from linkwright.worked.terms import TWO, ZERO, Pair, Term, symbol, total
+
+
+@dataclass
+class System:
+    """The matrix of a group, as symbols with values, with its determinant if it is small."""
+
+    entries: list[list[Term]]
+    determinant: Term | None
+
+
+def name_matrix(step: Step, group: Group, cuts: list[Closure]) -> System:
+    """Notes every entry of the group's matrix J and, for two unknowns, the determinant."""
+    formulas = matrix(group, cuts)
+    entries = []
+    for i, row in enumerate(formulas, 1):
+        named = []
+        for j, entry in enumerate(row, 1):
+            term = symbol(f"J{i}{j}", f"J_{{{i}{j}}}", entry.value)
+            unit = "m" if group.unknowns[j - 1].kind == "revolute" else ""
+            named.append(ZERO if entry.is_zero else step.find(term, entry, unit))
+        entries.append(named)
+    if len(entries) != 2:
+        return System(entries, None)
+    (a, b), (c, d) = entries
+    value = a * d - b * c
+    det = symbol("det J", r"\det J", value.value)
+    turning = sum(each.kind == "revolute" for each in group.unknowns)
+    return System(entries, step.find(det, value, ("", "m", "m²")[turning]))
+
+
+def solve(
+    step: Step, book: Book, system: System, unknowns: list[Term], right: list[Term], units: list[str],
+    columns: list[str], *, transposed: bool = False,
+) -> None:  # fmt: skip
+    """Notes the solution of J q = right (or Jᵀ q = right): Cramer's rule, or for more unknowns each row put in."""
+    rows = [list(r) for r in zip(*system.entries, strict=True)] if transposed else system.entries
+    if len(rows) == 1:
+        step.find(unknowns[0], right[0] / rows[0][0], units[0], columns[0])
+        return
+    if system.determinant is not None:
+        (a, b), (c, d) = rows
+        found = (right[0] * d - b * right[1], a * right[1] - right[0] * c)
+        for term, above, unit, column in zip(unknowns, found, units, columns, strict=True):
+            step.find(term, above / system.determinant, unit, column)
+        return
+    step.say(book.say("worked.linear_solution", count=len(rows)))
+    for term, unit, column in zip(unknowns, units, columns, strict=True):
+        step.give(term, unit, column)
+    step.say(book.say("worked.linear_check"))
+    for row, goal in zip(rows, right, strict=True):
+        left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
+        if goal.is_zero:
+            goal = symbol("0", "0", 0.0)
+        step.find(goal, left, "")
+
+
+class RateWriter:
+    """Writes the rates of a group's unknowns and links."""
+
+    def __init__(self, book: Book) -> None:
+        self.book = book
+        self.written: set[str] = set()
+
+    def velocities(self, step: Step, group: Group, cuts: list[Closure]) -> System | None:
+        """The matrix, the right sides, and the unknown velocities."""
+        book, system = self.book, None
+        self.links(step, group, second=False, before=True)
+        if group.unknowns:
+            names = unknown_names(book, group, 1)
+            self._relations(step, group, cuts, names, second=False)
+            system = name_matrix(step, group, cuts)
+            gaps = [-row for c in cuts for row in c.rows(c.joined((drift(c.chains[0], book), drift(c.chains[1], book))))]
+            right = self._right(step, gaps, "b", "m/s")
+            solve(step, book, system, names, right, *self._labels(group, second=False))
+        self.links(step, group, second=False, before=False)
+        return system
+
+    def accelerations(self, step: Step, group: Group, cuts: list[Closure], system: System | None) -> None:
+        """The known parts one by one, the right sides, and the unknown accelerations."""
+        book = self.book
+        self.links(step, group, second=True, before=True)
+        if group.unknowns:
+            assert system is not None
+            names = unknown_names(book, group, 2)
+            self._relations(step, group, cuts, names, second=True)
+            gaps = [-row for closure in cuts for row in self._bend(step, closure)]
+            right = self._right(step, gaps, "c", "m/s²")
+            solve(step, book, system, names, right, *self._labels(group, second=True))
+        self.links(step, group, second=True, before=False)
+
+    def _relations(
+        self, step: Step, group: Group, cuts: list[Closure], names: list[Term], *, second: bool
+    ) -> None:
+        joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts))
+        step.say(self.book.say("worked.acceleration_closure" if second else "worked.velocity_closure", joints=joints))
+        letter = "c" if second else "b"
+        for i, row in enumerate(matrix(group, cuts), 1):
+            entries = [
+                ZERO if entry.is_zero else symbol(f"J{i}{j}", f"J_{{{i}{j}}}", 0.0)
+                for j, entry in enumerate(row, 1)
+            ]
+            left = total([entry * name for entry, name in zip(entries, names, strict=True)])
+            step.relate(left, symbol(f"{letter}{i}", f"{letter}_{{{i}}}", 0.0))
+
+    def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
+        found = []
+        for i, gap in enumerate(gaps, 1):
+            term = symbol(f"{letter}{i}", f"{letter}_{{{i}}}", gap.value)
+            if gap.is_zero:
+                step.find(term, gap, unit)
+                found.append(ZERO)
+            else:
+                found.append(step.find(term, gap, unit))
+        return found
+
+    def _bend(self, step: Step, closure: Closure) -> list[Term]:
+        """Notes the known parts of the accelerations of both ends; gives the rows of their difference."""
+        ends = []
+        for number, chain in enumerate(closure.chains):
+            total_here = Pair(ZERO, ZERO)
+            for part in bends(chain, self.book):
+                if part.kind == "base":
+                    total_here = total_here + part.vector
+                    continue
+                total_here = total_here + self._part(step, part.kind, part.label, part.vector, closure, number)
+            ends.append(total_here)
+        rows = closure.rows(closure.joined((ends[0], ends[1])))
+        if closure.across is None:
+            return rows
+        omega = self.book.omega(closure.cut.a)
+        return [rows[0] - TWO * omega * closure.across.rate]
+
+    def _part(self, step: Step, kind: str, label: str, vector: Pair, closure: Closure, number: int) -> Pair:
+        mark = {"centripetal": "n", "tangential": "t", "coriolis": "k"}.get(kind, "d")
+        step.say(self.book.say(f"worked.part_{kind}", label=label))
+        found = []
+        for c, part in (("x", vector.x), ("y", vector.y)):
+            if part.is_zero:
+                found.append(ZERO)
+                continue
+            term = symbol(f"a{mark}_{label},{c}", rf"a^{{{mark}}}_{{\mathrm{{{label}}},{c}}}".replace("_m", r"\_m"), part.value)
+            found.append(step.find(term, part, "m/s²"))
+        return Pair(found[0], found[1])
+
+    def _labels(self, group: Group, *, second: bool) -> tuple[list[str], list[str]]:
+        units, columns = [], []
+        for joint in group.unknowns:
+            if joint.kind == "prismatic":
+                units.append("m/s²" if second else "m/s")
+                columns.append(f"{joint.joint}.{'acceleration' if second else 'velocity'} [{units[-1]}]")
+            else:
+                units.append("rad/s²" if second else "rad/s")
+                columns.append(f"{joint.child}.angular_{'acceleration' if second else 'velocity'} [{units[-1]}]")
+                self.written.add(f"{joint.child}{second}")
+        return units, columns
+
+    def links(self, step: Step, group: Group, *, second: bool, before: bool) -> None:
+        """Rotation of links that turn with another one; ``before``: those that depend on no unknown."""
+        book = self.book
+        for joint in group.tree:
+            key = f"{joint.child}{second}"
+            free = {each.child for each in group.unknowns if each.kind == "revolute"}
+            waits = any(each.child in free for each in group.path(joint.child))
+            if key in self.written or joint.child in free or (before and waits):
+                continue
+            self.written.add(key)
+            rate = book.alpha if second else book.omega
+            formula = rate(joint.parent)
+            if joint.kind == "revolute" and joint.driver is not None:
+                own = joint.child == book.mechanism.drivers[joint.driver].link
+                given = book.drive(joint.driver)[2 if second else 1]
+                formula = formula + given if own else formula - given
+            if not rate(joint.child).is_zero:
+                name = "angular_acceleration" if second else "angular_velocity"
+                unit = "rad/s²" if second else "rad/s"
+                step.find(rate(joint.child), formula, unit, f"{joint.child}.{name} [{unit}]")
+
+
+__all__ = ["RateWriter", "System", "closures", "name_matrix", "solve"]

@@ -1,0 +1,93 @@
+"""A worked solution as plain text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from unicodedata import combining, east_asian_width
+
+from linkwright.worked.page import Equation, Note, Relation, Step
+
+WIDTH = 100
+
+
+def width(text: str) -> int:
+    """Columns that a text takes."""
+    return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)
+
+
+def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
+    """All steps, equal signs in line within a step."""
+    lines = list(heading)
+    for step in steps:
+        title = f"{step.number}  {step.title}"
+        lines += ["", title, ("=" if "." not in step.number else "-") * width(title), *_step(step)]
+    return "\n".join(lines)
+
+
+def _step(step: Step) -> Iterator[str]:
+    names = [width(item.symbol) for item in step.equations if width(item.symbol) <= 14]
+    margin = max(names, default=0)
+    previous_note = False
+    for item in step.items:
+        if isinstance(item, Note):
+            if not previous_note and item is not step.items[0]:
+                yield ""
+            yield from wrapped(item.text)
+        elif isinstance(item, Relation):
+            yield f"    {item.text}"
+        else:
+            yield from _equation(item, margin)
+        previous_note = isinstance(item, Note)
+
+
+def _equation(item: Equation, margin: int) -> Iterator[str]:
+    gap = " " * max(margin - width(item.symbol), 0)
+    start = f"    {item.symbol}{gap} = "
+    unit = f" {item.unit}" if item.unit and item.unit != "°" else item.unit
+    result = f"{item.result}{unit}"
+    parts = [part for part in (item.formula, item.numbers) if part]
+    whole = start + " = ".join([*parts, result])
+    if width(whole) <= WIDTH:
+        yield whole
+        return
+    indent = " " * (4 + max(margin, width(item.symbol)))
+    yield from _long(start, parts[0] if parts else result, indent)
+    for part in [*parts[1:], result] if parts else []:
+        yield from _long(f"{indent} = ", part, indent)
+
+
+def _long(start: str, text: str, indent: str) -> Iterator[str]:
+    """A side of an equation, broken before a plus or a minus where it is too wide."""
+    line = start
+    depth = 0
+    tokens = text.replace(" + ", "\0+ ").replace(" - ", "\0- ").split("\0")
+    for i, token in enumerate(tokens):
+        glue = "" if i == 0 else " "
+        if i and width(line) + width(token) + 1 > WIDTH:
+            yield line
+            line, glue = f"{indent}     ", ""
+        line += glue + token
+        depth += token.count("(") - token.count(")")
+    yield line
+
+
+def wrapped(text: str) -> Iterator[str]:
+    """A sentence in lines; Chinese text may break anywhere."""
+    line = "  "
+    for word in _words(text):
+        if width(line) + width(word.rstrip()) > WIDTH and line.strip():
+            yield line.rstrip()
+            line = "  "
+        line += word
+    yield line.rstrip()
+
+
+def _words(text: str) -> Iterator[str]:
+    word = ""
+    for c in text:
+        word += c
+        if c == " " or east_asian_width(c) in "WF":
+            yield word
+            word = ""
+    if word:
+        yield word

@@ -1,0 +1,183 @@
+"""What holds for limit positions of any mechanism: rates, order, independence from the steps and the start."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from math import degrees, pi, radians, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.kinematics.limits import LimitPosition, limit_positions
+from linkwright.model.mechanism import Mechanism
+
+GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
+CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}
+
+
+def outputs(mechanism: Mechanism) -> list[str]:
+    guides = [name for name, joint in mechanism.joints.items() if joint.kind == "prismatic"]
+    points = [f"{link}.{point}.{axis}" for link in mechanism.links for point in ("centre",) for axis in "xy"]
+    known = [text for text in points if text.split(".")[1] in mechanism.links[text.split(".")[0]].points]
+    return [*mechanism.links, *guides, *known]
+
+
+def rates_at(mechanism: Mechanism, output: str, found: tuple[LimitPosition, ...]) -> np.ndarray:
+    motion = lw.solve_motion(mechanism, times=[each.time for each in found])
+    if output in mechanism.links:
+        return motion.link(output).angular_velocity
+    return motion.joint(output).velocity
+
+
+@pytest.mark.parametrize("name", [name for name in GALLERY if name not in CHANGE_POINTS])
+def test_gallery(name: str) -> None:
+    """At every limit the rate is zero; in a closed cycle maxima and minima take turns; values bound the cycle."""
+    mechanism = lw.load(f"gallery:{name}")
+    motion = lw.solve_motion(mechanism, steps=120)
+    for output in outputs(mechanism):
+        found = limit_positions(motion, output)
+        kinds = [each.kind for each in found]
+        assert all(a != b for a, b in pairwise(kinds))
+        if motion.positions.closed and found:
+            assert kinds.count("max") == kinds.count("min")
+        if not found or name.startswith("dyad") or motion.states:
+            continue
+        is_link = output in mechanism.links
+        values = motion.link(output).angle if is_link else motion.joint(output).displacement
+        rates = motion.link(output).angular_velocity if is_link else motion.joint(output).velocity
+        assert np.abs(rates_at(mechanism, output, found)).max() <= 1e-11 * np.abs(rates).max()
+        if motion.positions.closed and abs(values[-1] - values[0]) < pi:
+            span = np.ptp(values)
+            assert max(each.value for each in found) >= values.max() - 1e-12 * span
+            assert min(each.value for each in found) <= values.min() + 1e-12 * span
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "theo_jansen_leg", "triad", "class_four_group", "shaper_quick_return"])
+def test_independent_of_steps(name: str) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    for output in outputs(mechanism):
+        fine = limit_positions(lw.solve_motion(mechanism, steps=360), output)
+        for steps in (40, 121):
+            coarse = limit_positions(lw.solve_motion(mechanism, steps=steps), output)
+            assert [each.kind for each in coarse] == [each.kind for each in fine]
+            assert np.allclose([e.input for e in coarse], [e.input for e in fine], rtol=0, atol=5e-13)
+
+
+@pytest.mark.parametrize("start", [-200.0, 33.557309761920706, 90.0, 216.8698976458, 350.0])
+def test_independent_of_start(start: float) -> None:
+    """Also where the cycle begins exactly at a limit: none is lost, none counts twice."""
+    mechanism = lw.load("gallery:crank_rocker")
+    driver = mechanism.drivers["driver"]
+    assert isinstance(driver.law, ConstantSpeed)
+    moved = replace(mechanism, drivers={"driver": replace(driver, law=replace(driver.law, start=radians(start)))})
+    for endpoint in (False, True):
+        motion = lw.solve_motion(moved, endpoint=endpoint)
+        found = limit_positions(motion, "rocker")
+        assert sorted(round(degrees(each.input) % 360, 8) for each in found) == [33.55730976, 216.86989765]
+        for each in found:
+            after = motion.time[each.index + 1] if each.index + 1 < motion.steps else np.inf
+            assert motion.time[each.index] <= each.time <= after
+
+
+def test_backward_motion_gives_the_same_places() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    driver = mechanism.drivers["driver"]
+    assert isinstance(driver.law, ConstantSpeed)
+    law = replace(driver.law, speed=-driver.law.speed)
+    back = replace(mechanism, drivers={"driver": replace(driver, law=law)})
+    ahead = limit_positions(lw.solve_motion(mechanism), "rocker")
+    behind = limit_positions(lw.solve_motion(back), "rocker")
+    assert {(round(e.input % (2 * pi), 12), e.kind) for e in ahead} == {
+        (round(e.input % (2 * pi), 12), e.kind) for e in behind
+    }
+
+
+SLIDE = """
+format: 1
+name: driven slide
+frame: {{points: {{O: [0 m, 0 m]}}}}
+links: {{slide: {{points: [A]}}}}
+joints: {{guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: A}}}}
+driver: {{slide: guide, {law}}}
+cycle: {{duration: 2 s}}
+"""
+
+
+def driven(law: str) -> Mechanism:
+    return lw.loads(SLIDE.format(law=law))
+
+
+def test_touching_zero_is_no_limit() -> None:
+    """s = t - sin(2πt)/2π comes to rest at t = 1 s and goes on."""
+    mechanism = driven('position: "0.1 m*(t/(1 s) - sin(2*pi*t/(1 s))/(2*pi))"')
+    for steps in (16, 25, 200):
+        assert limit_positions(lw.solve_motion(mechanism, steps=steps), "guide") == ()
+
+
+def test_rest_between_rise_and_fall_is_one_limit() -> None:
+    law = "table: {time: [0 s, 0.5 s, 1 s, 1.5 s, 2 s], position: [0 m, 0.1 m, 0.1 m, 0 m, 0 m], interpolation: linear}"
+    found = limit_positions(lw.solve_motion(driven(law), steps=200), "A.x")
+    assert [each.kind for each in found] == ["max", "min"]
+    assert [each.value for each in found] == pytest.approx([0.1, 0.0], abs=1e-15)
+    assert [each.time for each in found] == pytest.approx([0.75, 1.75], abs=0.01)
+
+
+def test_kink_of_a_linear_table_is_a_limit() -> None:
+    law = "table: {time: [0 s, 0.7 s, 2 s], position: [0 m, 0.1 m, 0 m], interpolation: linear}"
+    low, high = limit_positions(lw.solve_motion(driven(law), steps=33), "guide")
+    assert (low.kind, high.kind) == ("min", "max")
+    assert (low.time % 2.0, high.time) == pytest.approx((0.0, 0.7), abs=1e-12)
+    assert (low.value, high.value) == pytest.approx((0.0, 0.1), abs=1e-12)
+
+
+def test_two_limits_between_neighbouring_positions() -> None:
+    """s = x³ - 3 ε² x with x = t - 0.93 reverses at x = ±ε, between two positions 0.1 s apart."""
+    law = 'position: "1 m*((t/(1 s) - 0.93)^3 - 3*0.03^2*(t/(1 s) - 0.93))"'
+    found = limit_positions(lw.solve_motion(driven(law), steps=20), "guide")
+    assert [each.kind for each in found] == ["max", "min"]
+    assert [each.time for each in found] == pytest.approx([0.9, 0.96], abs=1e-12)
+
+
+def test_ends_of_an_open_range_are_no_limits() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    motion = lw.solve_motion(mechanism, at=np.radians(np.arange(40.0, 200.0)))
+    assert limit_positions(motion, "rocker") == ()
+    wider = lw.solve_motion(mechanism, at=np.radians(np.arange(20.0, 200.0)))
+    (found,) = limit_positions(wider, "rocker")
+    assert degrees(found.input) == pytest.approx(33.557309761920706, abs=1e-12)
+
+
+def test_law_in_time() -> None:
+    """The ladder's head is highest where its foot passes the wall, lowest where the foot turns."""
+    motion = lw.solve_motion(lw.load("gallery:double_slider"), steps=77)
+    found = limit_positions(motion, "wall")
+    highest = [each for each in found if each.kind == "max"]
+    lowest = [each for each in found if each.kind == "min"]
+    assert [each.value for each in highest] == pytest.approx([0.5] * len(highest), abs=1e-15)
+    assert [each.value for each in lowest] == pytest.approx([sqrt(0.5**2 - 0.3**2)] * 2, abs=1e-15)
+    assert [each.time for each in lowest] == pytest.approx([0.5, 1.5], abs=1e-15)
+
+
+def test_limits_at_change_points() -> None:
+    """The pins of a parallelogram are outermost where its links line up."""
+    mechanism = replace(lw.load("gallery:parallelogram"), cycle=None)
+    for steps in (45, 360, 361):
+        motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+        for output, shift in (("A.x", 0.0), ("B.x", 2.0)):
+            found = limit_positions(motion, output)
+            assert [each.kind for each in found] == ["min", "max"]
+            assert [degrees(each.input) for each in found] == pytest.approx([180.0, 360.0], abs=1e-6)
+            assert [each.value for each in found] == pytest.approx([shift - 1.0, shift + 1.0], abs=1e-12)
+
+
+def test_cycle_that_does_not_close_has_no_limit_across_its_end() -> None:
+    """After one turn the change-point four-bar is in its other mode; its rocker reverses where its rate is zero."""
+    mechanism = lw.load("gallery:change_point_fourbar")
+    for each in limit_positions(lw.solve_motion(mechanism, steps=359), "rocker"):
+        around = lw.solve_motion(mechanism, at=np.radians(np.linspace(0.5, 359.5, 400)))
+        assert np.nanmin(around.link("rocker").angle) - 1e-4 <= each.value
+        assert each.value <= np.nanmax(around.link("rocker").angle) + 1e-4
