@@ -34,6 +34,8 @@ CONSTANT = 1e-10
 FINE = 1e-13
 #: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
 BLURRED = 1e-10
+#: Where a group cannot be computed at its change point, the mean from this share of a step on both sides is taken.
+BESIDE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -321,6 +323,9 @@ class _Search:
         brackets, share = brackets.of(np.isfinite(share)), share[np.isfinite(share)]
         time = self.motion.time[brackets.before] + share * brackets.span
         values = self._values(brackets.before, time)
+        if not np.isfinite(values).all():
+            beside = [self._values(brackets.before, time + s * brackets.span) for s in (-BESIDE, BESIDE)]
+            values = np.where(np.isfinite(values), values, 0.5 * (beside[0] + beside[1]))
         grows = brackets.rate_low * brackets.span > 0.0
         start = self.motion.time[0]
         if self.period is not None:

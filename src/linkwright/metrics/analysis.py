@@ -29,14 +29,15 @@ COSTLY_POINTS, COSTLY_ROUNDS = 5, 3
 
 @dataclass(frozen=True)
 class Extreme:
-    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m, nearest sample ``index``.
+    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (None without a driver), nearest
+    sample ``index``.
 
     ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
     """
 
     value: float
     time: float
-    input: float
+    input: float | None
     index: int
     exact: bool
 
@@ -132,7 +133,8 @@ class Analysis:
         sign = 1.0 if kind == "max" else -1.0
         index = int(np.nanargmax(sign * values))
         time = self.motion.time
-        sample = Extreme(float(values[index]), float(time[index]), float(self.motion.input[index]), index, False)
+        at = float(self.motion.input[index]) if self.motion.inputs else None
+        sample = Extreme(float(values[index]), float(time[index]), at, index, False)
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
         step = float(abs(time[1] - time[0]))

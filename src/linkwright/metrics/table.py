@@ -72,7 +72,7 @@ class MetricsTable(Sequence[MetricValue]):
         if found:
             return found
         METRICS[name]
-        raise LinkwrightError(f'"{name}" is not in the table: it does not apply to {self.title!r} or was not asked for')
+        raise LinkwrightError(f'"{name}" is not in the table: it does not apply here or was not asked for')
 
     def _one(self, name: str, subject: str) -> MetricValue:
         rows = self._of(name)

@@ -1,0 +1,186 @@
+"""The written evaluation of a comparison, built from its numbers, in the reader's language."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.metrics.quantities import shown
+from linkwright.study.text_table import aligned
+from linkwright.words import Say, speaker
+
+if TYPE_CHECKING:
+    from linkwright.study.compare import Comparison, Rank, Row
+
+#: Reasons given per alternative.
+REASONS = 3
+MARK = "*"
+
+
+def report(comparison: Comparison, language: str) -> list[str]:
+    """The table with the best values marked, the ranking, the evaluation, the notes."""
+    say = speaker(language)
+    lines = [*table(comparison, say), "", say("compare.marked"), "", say("compare.ranking")]
+    lines += ranking(comparison, say)
+    lines += ["", say("compare.evaluation"), *evaluation(comparison, language)]
+    if comparison.notes:
+        lines += ["", *comparison.notes]
+    return lines
+
+
+def table(comparison: Comparison, say: Say) -> list[str]:
+    """Criteria in rows, alternatives in columns."""
+    language = say("compare.language")
+    head = [say("compare.metric"), *comparison.labels]
+    rows = [head]
+    for row in comparison.rows:
+        cells = [row.criterion.label(language)]
+        for index, each in enumerate(row.values):
+            mark = f" {MARK}" if index in row.best else "  "
+            cells.append("—  " if each is None else shown(each.value, each.dimension, 5) + mark)
+        rows.append(cells)
+    return aligned(rows, "<" + ">" * len(comparison.labels))
+
+
+def ranking(comparison: Comparison, say: Say) -> list[str]:
+    """A line with the score of every alternative, best first, and what decided."""
+    if not comparison.judged:
+        return [say("compare.no_ranking")]
+    lines = []
+    for rank in comparison.ranking:
+        lines.append(say("compare.rank", place=rank.place, label=rank.label, score=f"{100 * rank.score:.0f}"))
+        lines += [f"   {reason}" for reason in _reasons(comparison, rank, say)]
+    return lines
+
+
+def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
+    """What an alternative is best in, and what costs it most against the best."""
+    language = say("compare.language")
+    best = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
+    found = [say("compare.best_in", names=say("compare.comma").join(best))] if best else []
+    costly = sorted(
+        (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
+        key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
+    )
+    return found + [_against(comparison, row, rank.index, say) for row in costly[:REASONS]]
+
+
+def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
+    """How an alternative compares with the best one in a metric."""
+    winner = row.best[0]
+    mine, theirs = row.values[index], row.values[winner]
+    assert mine is not None and theirs is not None
+    ratio = abs(mine.value / theirs.value) if theirs.value else float("inf")
+    return say(
+        "compare.against",
+        name=row.criterion.label(say("compare.language")),
+        mine=shown(mine.value, mine.dimension, 4),
+        theirs=shown(theirs.value, theirs.dimension, 4),
+        other=comparison.labels[winner],
+        ratio=f"{ratio:.3g}",
+    )
+
+
+def evaluation(comparison: Comparison, language: str) -> list[str]:
+    """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
+    say = speaker(language)
+    found = [_motion(comparison, say)]
+    if any(each.loaded for each in comparison.alternatives):
+        found += [_pivot(comparison, say), _torque(comparison, say), *_flywheel(comparison, say)]
+    return [*found, *_verdict(comparison, say)]
+
+
+def _motion(comparison: Comparison, say: Say) -> str:
+    parts = []
+    for each in comparison.alternatives:
+        angle = each.output.kind == "angle"
+        travel, rate, second = each.travel()
+        parts.append(
+            say(
+                "compare.motion_of",
+                label=each.label,
+                output=str(each.output),
+                travel=shown(float(np.ptp(travel)), "angle" if angle else "length", 4),
+                rate=shown(float(np.abs(rate).max()), "angular_velocity" if angle else "velocity", 4),
+                second=shown(float(np.abs(second).max()), "angular_acceleration" if angle else "acceleration", 4),
+            )
+        )
+    return say("compare.motion", parts=say("compare.semicolon").join(parts))
+
+
+def _pivot(comparison: Comparison, say: Say) -> str:
+    parts = []
+    for each in comparison.alternatives:
+        force = each.pivot_force
+        sizes = np.hypot(force[:, 0], force[:, 1])
+        place = int(sizes.argmax())
+        parts.append(
+            say(
+                "compare.pivot_of",
+                label=each.label,
+                joint=each.pivot[0],
+                most=shown(float(sizes.max()), "force", 4),
+                least=shown(float(sizes.min()), "force", 4),
+                direction=shown(float(np.arctan2(force[place, 1], force[place, 0])), "angle", 4),
+                at=shown(float(each.motion.input[place]), each.analysis.input_dimension, 4),
+            )
+        )
+    return say("compare.pivot", parts=say("compare.semicolon").join(parts))
+
+
+def _torque(comparison: Comparison, say: Say) -> str:
+    parts = []
+    for each in comparison.alternatives:
+        torque = each.forces.input_torque
+        dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
+        root = float(np.sqrt((torque * torque).mean()))
+        speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
+        gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
+        parts.append(
+            say(
+                "compare.torque_of",
+                label=each.label,
+                low=shown(float(torque.min()), dimension, 4),
+                high=shown(float(torque.max()), dimension, 4),
+                root=shown(root, dimension, 4),
+                gap=shown(gap, dimension, 2),
+            )
+        )
+    return say("compare.torque", parts=say("compare.semicolon").join(parts))
+
+
+def _flywheel(comparison: Comparison, say: Say) -> list[str]:
+    parts = []
+    for each in comparison.alternatives:
+        if each.running is None:
+            parts.append(say("compare.flywheel_none", label=each.label))
+            continue
+        numbers = each.running.data()
+        parts.append(
+            say(
+                "compare.flywheel_of",
+                label=each.label,
+                energy=shown(numbers["energy_fluctuation"], "energy", 4),
+                inertia=shown(each.running.flywheel, "inertia", 4),
+                power=shown(abs(numbers["mean_power"]), "power", 4),
+            )
+        )
+    fluctuation = f"{comparison.fluctuation:g}"
+    return [say("compare.flywheels", fluctuation=fluctuation, parts=say("compare.semicolon").join(parts))]
+
+
+def _verdict(comparison: Comparison, say: Say) -> list[str]:
+    """Who comes first, by what, and what speaks for the others."""
+    if not comparison.judged:
+        return []
+    first, *others = comparison.ranking
+    language = say("compare.language")
+    comma = say("compare.comma")
+    names = [row.criterion.label(language) for row in comparison.judged if first.index in row.best]
+    lines = [say("compare.first", label=first.label, score=f"{100 * first.score:.0f}", names=comma.join(names) or "—")]
+    for rank in others:
+        mine = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
+        key = "compare.other" if mine else "compare.never"
+        lines.append(say(key, label=rank.label, score=f"{100 * rank.score:.0f}", names=comma.join(mine)))
+    return lines

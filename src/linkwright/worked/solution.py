@@ -1,0 +1,193 @@
+"""One position of a mechanism, worked out step by step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.structure.group import Group
+from linkwright.words import LANGUAGES, Say, speaker
+from linkwright.worked.book import Book
+from linkwright.worked.chains import closures
+from linkwright.worked.page import Equation, Step
+from linkwright.worked.places import Places
+from linkwright.worked.points import Movers, check_closure, place_points
+from linkwright.worked.rates import RateWriter, System
+from linkwright.worked.text import page
+
+
+@dataclass(frozen=True)
+class Worked:
+    """The worked solution of one position: ``steps`` in the order in which a textbook solves it.
+
+    Every step holds sentences, relations and equations (formula, numbers put in, result); ``text`` prints them,
+    ``data`` gives them as plain data with LaTeX forms.
+    """
+
+    title: str
+    legend: tuple[str, ...]
+    position: int
+    steps: tuple[Step, ...]
+
+    @property
+    def equations(self) -> tuple[Equation, ...]:
+        """All results in order."""
+        return tuple(equation for step in self.steps for equation in step.equations)
+
+    def text(self) -> str:
+        """Plain text, up to 100 columns wide."""
+        return page((self.title, "", *self.legend), self.steps)
+
+    def data(self) -> dict[str, object]:
+        """Plain data for programs and reports."""
+        return {
+            "title": self.title,
+            "legend": list(self.legend),
+            "position": self.position,
+            "steps": [step.data() for step in self.steps],
+        }
+
+    def __repr__(self) -> str:
+        return f"Worked({self.title!r}: {len(self.steps)} steps, {len(self.equations)} equations)"
+
+
+def worked(
+    source: Forces | Motion, position: int = 0, *, at: float | None = None, language: str = "en"
+) -> Worked:
+    """The worked solution of one position: motion group by group, then forces in reverse order.
+
+    Args:
+        source: a motion, or forces (with their motion).
+        position: index of the position.
+        at: coordinate of the first driver (rad or m) instead; that position is solved anew.
+        language: ``en`` or ``zh``.
+
+    Returns:
+        The solution. Every result is the solver's number to six significant digits, fewer where the formula
+        cancels digits; the numbers put in have as many digits as the result needs.
+
+    Raises:
+        LinkwrightError: a position that does not exist or was not reached, an unknown language.
+    """
+    if language not in LANGUAGES:
+        raise LinkwrightError(f"there is no language {language!r}; choose one of {', '.join(LANGUAGES)}")
+    if at is not None:
+        source, position = _solved_at(source, at), 0
+    motion = source.motion if isinstance(source, Forces) else source
+    _refuse_missing(motion, position)
+    index = position % motion.steps
+    say = speaker(language)
+    book = Book(motion, index, say)
+    steps = _Kinematics(book).steps()
+    if isinstance(source, Forces):
+        from linkwright.worked.kinetics import force_steps
+
+        steps += force_steps(source, book, len(steps) and int(steps[-1].number.split(".")[0]))
+    title = say("worked.title", name=motion.mechanism.name)
+    return Worked(title, tuple(_legend(book)), index, tuple(step for step in steps if step.items))
+
+
+def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
+    mechanism = source.mechanism
+    if not mechanism.drivers:
+        raise LinkwrightError(f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out")
+    motion = solve_motion(mechanism, at=np.array([at]))
+    return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
+
+
+def _refuse_missing(motion: Motion, position: int) -> None:
+    if not -motion.steps <= position < motion.steps:
+        raise LinkwrightError(
+            f"there is no position {position}; the motion has {motion.steps}, from 0 to {motion.steps - 1}"
+        )
+    if not motion.ok[position]:
+        raise LinkwrightError(f"position {position} was not reached: {motion.outcomes[position].sentence}")
+
+
+def _legend(book: Book) -> list[str]:
+    say = book.say
+    links = ", ".join(f"{number} {name}" for name, number in book.numbers.items())
+    return [say("worked.links", links=links), say("worked.convention"), say("worked.digits")]
+
+
+class _Kinematics:
+    """Steps of the motion, group by group."""
+
+    def __init__(self, book: Book) -> None:
+        self.book = book
+        self.places = Places(book)
+        self.movers = Movers(book)
+        self.rates = RateWriter(book)
+
+    def steps(self) -> list[Step]:
+        found = [self._input()] if self.book.mechanism.drivers else []
+        for group in self.book.motion.structure.groups:
+            number = len({step.number.split(".")[0] for step in found}) + 1
+            found += self._group(group, number)
+        return found
+
+    def _input(self) -> Step:
+        book, say = self.book, self.book.say
+        step = Step("1", say("worked.input"))
+        for name, driver in book.mechanism.drivers.items():
+            turning = isinstance(book.mechanism.joints[driver.joint], RevoluteJoint)
+            key = "worked.input_turn" if turning else "worked.input_slide"
+            step.say(say(key, name=name, link=driver.link, relative=driver.relative_to, joint=driver.joint))
+            unit = "rad" if turning else "m"
+            for order, term in enumerate(book.drive(name)):
+                if term.is_zero:
+                    step.say(say("worked.no_second"))
+                else:
+                    step.give(term, unit + ("", "/s", "/s²")[order], f"{name} [{unit}]" if not order else "")
+        return step
+
+    def _group(self, group: Group, number: int) -> list[Step]:
+        say, name = self.book.say, group.name
+        links = ", ".join(f"{self.book.numbers[link]} {link}" for link in group.links)
+        moving = bool(self.book.mechanism.drivers)
+        head = Step(str(number), self._title(group, links), name)
+        head.say(self._joints(group))
+        places = Step(f"{number}.1", say("worked.positions"), name)
+        self.places.place(places, group)
+        place_points(self.book, self.places, places, group)
+        if any("newton" in str(self._kind(group)) for _ in (0,)):
+            check_closure(self.book, places, group)
+        if not moving:
+            return [head, places]
+        cuts = closures(self.book, group)
+        first = Step(f"{number}.2", say("worked.velocities"), name)
+        system: System | None = self.rates.velocities(first, group, cuts)
+        self.movers.move(first, group, second=False)
+        second = Step(f"{number}.3", say("worked.accelerations"), name)
+        self.rates.accelerations(second, group, cuts, system)
+        self.movers.move(second, group, second=True)
+        return [head, places, first, second]
+
+    def _kind(self, group: Group) -> str:
+        from linkwright.kinematics.groups import dyad_shape
+
+        if not group.unknowns:
+            return "hung"
+        return "newton" if dyad_shape(group) is None else "closed"
+
+    def _title(self, group: Group, links: str) -> str:
+        key = "worked.group_driven" if group.assur_class == 1 and group.drivers else "worked.group"
+        return self.book.say(key, signature=group.signature, links=links, order=group.assur_order)
+
+    def _joints(self, group: Group) -> str:
+        outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
+        inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
+        key = "worked.joints" if inner else "worked.outer_only"
+        return self.book.say(key, outer=outer, inner=inner)
+
+
+def degrees(value: float) -> float:
+    """Radians as degrees."""
+    return math.degrees(value)

@@ -1,0 +1,183 @@
+"""Input ranges against the law of cosines, and against the limits of the mechanism driven from the other side."""
+
+from __future__ import annotations
+
+from math import acos, degrees, pi, radians, sqrt
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinematics.input_range import InputRange, input_range, range_sentence
+from linkwright.kinematics.limits import limit_positions
+from linkwright.model.mechanism import Mechanism
+
+FOURBAR = """
+format: 1
+name: four-bar
+frame: {{points: {{O1: [0 m, 0 m], O2: [{d} m, 0 m]}}}}
+links:
+  crank: {{points: [O1, A], length: {a} m}}
+  coupler: {{points: [A, B], length: {b} m}}
+  rocker: {{points: [O2, B], length: {c} m}}
+assembly: {{B: {mode}}}
+driver: {{turn: {turn}, about: {about}, speed: 1 rad/s, start: {start} deg}}
+"""
+
+
+def fourbar(
+    a: float, b: float, c: float, d: float, *, start: float, mode: str = "left", turn: str = "crank"
+) -> Mechanism:
+    about = "O1" if turn == "crank" else "O2"
+    return lw.loads(FOURBAR.format(a=a, b=b, c=c, d=d, start=start, mode=mode, turn=turn, about=about))
+
+
+def opposite(a: float, d: float, reach: float) -> float:
+    """Angle between sides a and d of a triangle whose third side is ``reach``."""
+    return acos((a * a + d * d - reach * reach) / (2 * a * d))
+
+
+def ends(found: InputRange) -> tuple[float, float]:
+    assert found.start is not None and found.end is not None
+    return found.start, found.end
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "d"), [(3.0, 2.0, 2.5, 4.0), (2.0, 1.5, 1.5, 2.2), (1.7, 1.1, 1.6, 1.3), (5.0, 5.1, 2.0, 4.0)]
+)
+@pytest.mark.parametrize("mode", ["left", "right"])
+@pytest.mark.parametrize("share", [-0.93, 0.1, 0.7])
+def test_triple_rockers(a: float, b: float, c: float, d: float, mode: str, share: float) -> None:
+    """s + l > p + q: the input stops where coupler and rocker are stretched, on both sides of the frame line, or
+    folded, on both sides of the opposite direction."""
+    assert min(a, b, c, d) + max(a, b, c, d) > 0.5 * (a + b + c + d)
+    stretched = a + d > b + c
+    end = opposite(a, d, b + c) if stretched else opposite(a, d, abs(b - c))
+    middle = 0.0 if stretched else pi
+    half = end if stretched else pi - end
+    found = input_range(fourbar(a, b, c, d, start=degrees(middle + share * half), mode=mode))
+    assert np.allclose(ends(found), (middle - half, middle + half), rtol=0, atol=4e-15 / np.sin(end))
+    how = "stretched" if stretched else "folded"
+    assert f"at both ends group RRR (coupler, rocker) is {how}" in found.explain()
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_double_rocker_has_two_ranges(sign: float) -> None:
+    """Shortest link the coupler: folded at one end, stretched at the other, apart on both sides of the frame."""
+    a, b, c, d = 3.0, 1.0, 2.8, 3.2
+    found = input_range(fourbar(a, b, c, d, start=sign * 50))
+    near, far = opposite(a, d, c - b), opposite(a, d, b + c)
+    assert sorted(abs(value) for value in ends(found)) == pytest.approx([near, far], abs=2e-15)
+    assert "is folded" in found.explain() and "is stretched" in found.explain()
+
+
+def test_sentence() -> None:
+    found = input_range(fourbar(1.9, 1.5, 2.2, 4.0, start=0))
+    limit = degrees(opposite(1.9, 4.0, 3.7))
+    assert not found.full
+    assert found.explain() == (
+        f"the crank can turn from -{limit:.4f}° to {limit:.4f}°; at both ends group RRR (coupler, rocker) is stretched"
+    )
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "jaw_crusher_sixbar", "triad", "change_point_fourbar", "oldham_coupling"])
+def test_cranks_turn_fully(name: str) -> None:
+    found = input_range(lw.load(f"gallery:{name}"))
+    assert found.full and found.start is None and found.end is None
+    assert found.explain().endswith("can turn fully")
+
+
+def test_rocker_of_a_crank_rocker() -> None:
+    """Driven at the rocker, the range is the swing that the crank gives it."""
+    swing = limit_positions(lw.solve_motion(lw.load("gallery:crank_rocker")), "rocker")
+    text = (lw.load("gallery:crank_rocker"), "gallery:crank_rocker")[0]
+    a, b, c = (text.dimension(f"{name}.length") for name in ("crank", "coupler", "rocker"))
+    d = text.frame.points["O2"][0] - text.frame.points["O1"][0]
+    assert text.frame.points["O1"][1] == text.frame.points["O2"][1]
+    start = degrees(sum(each.value for each in swing) / 2)
+    model = FOURBAR.replace("points: [O2, B]", "points: [O2, B]")
+    mechanism = lw.loads(model.format(a=a, b=b, c=c, d=d, start=start, mode="left", turn="rocker", about="O2"))
+    found = input_range(mechanism)
+    assert ends(found) == pytest.approx(sorted(each.value for each in swing), abs=4e-15)
+
+
+def test_fold_of_a_triad() -> None:
+    """The output-driven Stephenson six-bar (a triad) stops where the crank-driven one reverses its output."""
+    swing = limit_positions(lw.solve_motion(lw.load("gallery:stephenson_sixbar")), "output")
+    found = input_range(lw.load("gallery:stephenson_sixbar_triad"))
+    start, end = ends(found)
+    values = [each.value % (2 * pi) for each in swing]
+    assert min(abs(start - value) for value in values) < 1e-14
+    assert min(abs(end - value) for value in values) < 1e-14
+    assert found.low is not None and found.low.precision < 1e-13
+    assert "is singular" in found.explain()
+
+
+def test_ladder() -> None:
+    """A bar of 0.5 m between wall and floor: the foot goes 0.5 m to both sides."""
+    found = input_range(lw.load("gallery:double_slider"))
+    assert ends(found) == pytest.approx((-0.5, 0.5), abs=2e-16)
+    assert found.explain() == (
+        "the foot can slide from -0.5 m to 0.5 m; at both ends group RRP (bar, head) has its link perpendicular to "
+        "the guide"
+    )
+
+
+def test_slider_driven_slider_crank() -> None:
+    """The slider's range is the stroke √((l+r)²-e²) - √((l-r)²-e²)."""
+    r, length, e = 0.198, 0.7025, 0.0605
+    mechanism = lw.loads(f"""
+format: 1
+name: engine
+frame: {{points: {{O: [0 m, 0 m]}}}}
+links:
+  crank: {{points: [O, A], length: {r} m}}
+  rod: {{points: [A, B], length: {length} m}}
+  slider: {{points: [B]}}
+joints:
+  guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slider, at: B, offset: {e} m}}
+driver: {{slide: guide, speed: 0.1 m/s, start: 0.7 m}}
+cycle: {{from: 0.6 m, to: 0.8 m}}
+""")
+    found = input_range(mechanism)
+    expected = (sqrt((length - r) ** 2 - e**2), sqrt((length + r) ** 2 - e**2))
+    assert ends(found) == pytest.approx(expected, abs=5e-16)
+
+
+def test_tangent_mechanism_stops_at_parallel_guides() -> None:
+    found = input_range(lw.load("gallery:tangent_mechanism"))
+    assert ends(found) == pytest.approx((-pi / 2, pi / 2), abs=2e-15)
+    assert "has its guides parallel" in found.explain()
+
+
+def test_kite_passes_the_point_where_its_pins_meet() -> None:
+    """Crank and frame of 2 m, coupler and rocker of 1 m: A passes through O2 at 0°, the end is at 60°."""
+    found = input_range(fourbar(2.0, 1.0, 1.0, 2.0, start=25))
+    assert ends(found) == pytest.approx((-pi / 3, pi / 3), abs=2e-15)
+
+
+def test_named_driver_of_several() -> None:
+    found = input_range(lw.load("gallery:dyad_prp"), "swing")
+    assert ends(found) == pytest.approx((-pi / 2, pi / 2), abs=2e-15)
+    with pytest.raises(lw.LinkwrightError, match="did you mean 'swing'"):
+        input_range(lw.load("gallery:dyad_prp"), "swings")
+
+
+def test_start_out_of_reach_uses_the_nearest_position() -> None:
+    found = input_range(fourbar(3.0, 2.0, 2.5, 4.0, start=170))
+    assert ends(found)[1] == pytest.approx(opposite(3.0, 4.0, 4.5), abs=2e-15)
+
+
+def test_range_sentence_never_raises() -> None:
+    assert range_sentence(fourbar(1.0, 1.0, 1.0, 9.0, start=0)) == ""
+    assert range_sentence(lw.load("gallery:truss")) == ""
+    assert range_sentence(fourbar(3.0, 2.0, 2.5, 4.0, start=0)).startswith("the crank can turn from -78.5848°")
+
+
+def test_end_is_the_last_position_that_solves() -> None:
+    mechanism = fourbar(3.0, 2.0, 2.5, 4.0, start=10)
+    start, end = ends(input_range(mechanism))
+    inside = lw.solve_motion(mechanism, at=[start + 1e-9, 0.0, end - 1e-9])
+    assert inside.ok.all()
+    outside = lw.solve_motion(mechanism, at=[start - 1e-9, end + 1e-9, radians(180)], failures="mark")
+    assert not outside.ok.any()
