@@ -14,7 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-FLAGS = "-O3 -march=native -mprefer-vector-width=512 -ffast-math -fopenmp-simd -shared -fPIC".split()
+FLAGS = [
+    "-O3",
+    "-march=native",
+    "-mprefer-vector-width=512",
+    "-ffast-math",
+    "-fopenmp-simd",
+    "-shared",
+    "-fPIC",
+]
 SOURCE = Path(__file__).parent / "kernels" / "calls.c"
 
 

@@ -126,7 +126,11 @@ def fourbar_metrics(outputs: MotionOutputs) -> dict[str, Scalar]:
     cross = (b[0] - a[0]).cross(b[0] - fixed)
     w, g = outputs.value("w:rocker"), outputs.value("g:rocker")
     return {
-        "transmission": cross * cross, "velocity": p[1].square, "acceleration": p[2].square, "omega": w * w, "alpha": g * g
+        "transmission": cross * cross,
+        "velocity": p[1].square,
+        "acceleration": p[2].square,
+        "omega": w * w,
+        "alpha": g * g,
     }
 
 

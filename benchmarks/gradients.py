@@ -26,8 +26,12 @@ class GradientWork:
         four = name == "fourbar"
         self.program: Program = self._path_error() if four else self._forces()
         designs = fourbar_designs(count) if four else sixbar_designs(work, count)
-        self.wrt = tuple(each for each in self.program.parameters if not each.startswith(("mode:", "driver.")))
-        self.gradient: GradientProgram = value_and_gradient(self.program, [Term("objective", "mean")], self.wrt)
+        self.wrt = tuple(
+            each for each in self.program.parameters if not each.startswith(("mode:", "driver."))
+        )
+        self.gradient: GradientProgram = value_and_gradient(
+            self.program, [Term("objective", "mean")], self.wrt
+        )
         self.table = work.table(self.program, designs)
         own = [self.program.parameters.index(each) for each in self.gradient.parameters]
         self.own_table = np.ascontiguousarray(self.table[:, own])
@@ -59,7 +63,12 @@ class GradientWork:
         """Objective of every design, (designs,)."""
         reduction = Reduction("objective", "mean")
         found = sweep(
-            self.program, self.table, self.arrays, [reduction], threads=1, backend=self.backend  # type: ignore[arg-type]
+            self.program,
+            self.table,
+            self.arrays,
+            [reduction],
+            threads=1,
+            backend=self.backend,  # type: ignore[arg-type]
         )
         return np.asarray(found[reduction.name], dtype=np.float64)
 

@@ -15,6 +15,7 @@ from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 
 COMPILED, NUMPY_ROUTE, C, HAND = "linkwright, compiled", "linkwright, NumPy route", "C", "NumPy by hand"
+CHECKED = "linkwright, compiled, arguments checked"
 
 
 def c_run(name: str, work: Work) -> tuple[Callable[[], object], Floats]:
@@ -32,7 +33,8 @@ def candidates(name: str, work: Work) -> list[Candidate]:
     found: list[Candidate] = []
     if compiled is not None:
         out = aligned((len(program.outputs), work.positions.count))
-        found.append(Candidate(COMPILED, partial(compiled.run, numbers, arrays, out=out)))
+        found.append(Candidate(COMPILED, compiled.bound(numbers, arrays, out)))
+        found.append(Candidate(CHECKED, partial(compiled.run, numbers, arrays, out=out)))
     if by_c.compiler():
         found.append(Candidate(C, c_run(name, work)[0]))
     evaluator = NumpyProgram(program)
@@ -56,4 +58,7 @@ def disagreement(name: str, work: Work) -> dict[str, float]:
         run, ways[C] = c_run(name, work)
         run()
     largest = np.abs(truth).max(axis=1)
-    return {way: float((np.abs(rows[: len(truth)] - truth).max(axis=1) / largest).max()) for way, rows in ways.items()}
+    return {
+        way: float((np.abs(rows[: len(truth)] - truth).max(axis=1) / largest).max())
+        for way, rows in ways.items()
+    }

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks import by_numpy
 from benchmarks.cases import Work
-from benchmarks.kernels_alone import C, HAND, c_run
+from benchmarks.kernels_alone import HAND, C, c_run
 from benchmarks.timing import Candidate
 from linkwright.engine.llvm_backend import available
 from linkwright.study.prepared import Prepared, prepare

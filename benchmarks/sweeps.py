@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work, fourbar_designs, fourbar_metrics, sixbar_designs, sixbar_metrics
-from benchmarks.kernels_alone import C, COMPILED, HAND
+from benchmarks.kernels_alone import COMPILED, HAND, C
 from benchmarks.timing import Candidate
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
@@ -28,7 +28,9 @@ class SweepWork:
         four = name == "fourbar"
         metrics = fourbar_metrics(work.solver.outputs) if four else sixbar_metrics(work)
         self.program: Program = work.reduced(metrics)
-        self.reductions = [Reduction(metric, "min" if metric == "transmission" else "max") for metric in metrics]
+        self.reductions = [
+            Reduction(metric, "min" if metric == "transmission" else "max") for metric in metrics
+        ]
         self.designs: Floats = fourbar_designs(count) if four else sixbar_designs(work, count)
         self.table = work.table(self.program, self.designs)
         self.arrays = {key: work.positions.arrays[key] for key in self.program.positions}
@@ -36,7 +38,12 @@ class SweepWork:
     def ours(self, table: Floats, backend: str, threads: int) -> dict[str, Floats]:
         """Summaries by the package."""
         return sweep(  # type: ignore[return-value]
-            self.program, table, self.arrays, self.reductions, backend=backend, threads=threads  # type: ignore[arg-type]
+            self.program,
+            table,
+            self.arrays,
+            self.reductions,
+            backend=backend,
+            threads=threads,  # type: ignore[arg-type]
         )
 
     def few(self) -> int:

@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from linkwright.study.prepared import prepare as prepare
     from linkwright.study.sensitivity import Sensitivity as Sensitivity
     from linkwright.study.sensitivity import sensitivity as sensitivity
+    from linkwright.worked.solution import Worked as Worked
+    from linkwright.worked.solution import worked as worked
 
 __version__ = "0.1.0"
 
@@ -63,6 +65,7 @@ PUBLIC = {
     "linkwright.study.designs": ("Sweep", "sweep"),
     "linkwright.study.prepared": ("Prepared", "prepare"),
     "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
+    "linkwright.worked.solution": ("Worked", "worked"),
 }
 
 offer(__name__, PUBLIC)

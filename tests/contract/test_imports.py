@@ -25,7 +25,12 @@ STAGES = (
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["report"]
-LEADS_ON = {"model/mechanism.py": {"linkwright.structure"}}  # Mechanism.structure() imports it when called
+NOTEBOOK = "linkwright.plot.drawing.notebook"
+LEADS_ON = {  # what methods import when they are called: structure(), and the drawing that notebooks show
+    "model/mechanism.py": {"linkwright.structure", NOTEBOOK},
+    "kinematics/motion.py": {NOTEBOOK},
+    "kinetostatics/forces.py": {NOTEBOOK},
+}
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",
     "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",

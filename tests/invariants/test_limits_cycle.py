@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import degrees, pi, radians, sqrt
+from math import acos, degrees, pi, radians, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ import pytest
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.limits import LimitPosition, limit_positions
-from linkwright.model.mechanism import Mechanism
+from linkwright.model.mechanism import Cycle, Mechanism
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
 CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}
@@ -56,7 +56,9 @@ def test_gallery(name: str) -> None:
             assert min(each.value for each in found) <= values.min() + 1e-12 * span
 
 
-@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "theo_jansen_leg", "triad", "class_four_group", "shaper_quick_return"])
+@pytest.mark.parametrize(
+    "name", ["jaw_crusher_sixbar", "theo_jansen_leg", "triad", "class_four_group", "shaper_quick_return"]
+)
 def test_independent_of_steps(name: str) -> None:
     mechanism = lw.load(f"gallery:{name}")
     for output in outputs(mechanism):
@@ -73,7 +75,9 @@ def test_independent_of_start(start: float) -> None:
     mechanism = lw.load("gallery:crank_rocker")
     driver = mechanism.drivers["driver"]
     assert isinstance(driver.law, ConstantSpeed)
-    moved = replace(mechanism, drivers={"driver": replace(driver, law=replace(driver.law, start=radians(start)))})
+    moved = replace(
+        mechanism, drivers={"driver": replace(driver, law=replace(driver.law, start=radians(start)))}
+    )
     for endpoint in (False, True):
         motion = lw.solve_motion(moved, endpoint=endpoint)
         found = limit_positions(motion, "rocker")
@@ -119,7 +123,8 @@ def test_touching_zero_is_no_limit() -> None:
 
 
 def test_rest_between_rise_and_fall_is_one_limit() -> None:
-    law = "table: {time: [0 s, 0.5 s, 1 s, 1.5 s, 2 s], position: [0 m, 0.1 m, 0.1 m, 0 m, 0 m], interpolation: linear}"
+    positions = "[0 m, 0.1 m, 0.1 m, 0 m, 0 m]"
+    law = f"table: {{time: [0 s, 0.5 s, 1 s, 1.5 s, 2 s], position: {positions}, interpolation: linear}}"
     found = limit_positions(lw.solve_motion(driven(law), steps=200), "A.x")
     assert [each.kind for each in found] == ["max", "min"]
     assert [each.value for each in found] == pytest.approx([0.1, 0.0], abs=1e-15)
@@ -174,10 +179,27 @@ def test_limits_at_change_points() -> None:
             assert [each.value for each in found] == pytest.approx([shift - 1.0, shift + 1.0], abs=1e-10)
 
 
-def test_cycle_that_does_not_close_has_no_limit_across_its_end() -> None:
-    """After one turn the change-point four-bar is in its other mode; its rocker reverses where its rate is zero."""
-    mechanism = lw.load("gallery:change_point_fourbar")
-    for each in limit_positions(lw.solve_motion(mechanism, steps=359), "rocker"):
-        around = lw.solve_motion(mechanism, at=np.radians(np.linspace(0.5, 359.5, 400)))
-        assert np.nanmin(around.link("rocker").angle) - 1e-4 <= each.value
-        assert each.value <= np.nanmax(around.link("rocker").angle) + 1e-4
+CHANGE_POINT = """
+format: 1
+name: change point
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 3 m}
+  rocker: {points: [O2, B], length: 2 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 1 rad/s}
+"""
+
+
+def test_two_turns_through_a_change_point_show_the_limits_of_both_modes() -> None:
+    """After one turn the four-bar is in its other mode. Crank and coupler are stretched once in each mode: by the law
+    of cosines 28.9550° on both sides of the frame line; folded they pass the change point."""
+    mechanism = lw.loads(CHANGE_POINT)
+    one = limit_positions(lw.solve_motion(mechanism, steps=359), "rocker")
+    two = limit_positions(lw.solve_motion(replace(mechanism, cycle=Cycle(turns=2.0)), steps=719), "rocker")
+    assert [each.input for each in one] == pytest.approx([e.input for e in two if e.input < 2 * pi], abs=1e-9)
+    assert sum(each.kind == "max" for each in two) == sum(each.kind == "min" for each in two) > 0
+    assert degrees(two[0].input) == pytest.approx(degrees(acos(0.875)), abs=1e-12)
+    mirrored = sorted((2 * pi - each.input) % (4 * pi) for each in two)
+    assert mirrored == pytest.approx(sorted(each.input for each in two), abs=1e-9)

@@ -34,7 +34,9 @@ def curve(mechanism: lw.Mechanism, output: str, steps: int) -> np.ndarray:
     return forces.input_torque
 
 
-def differences(mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float) -> tuple[np.ndarray, dict]:
+def differences(
+    mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float
+) -> tuple[np.ndarray, dict]:
     """Central differences of the fourth order: of the curve, and of its summaries."""
     value = mechanism.dimension(by)
     step = part * max(abs(value), 0.1)
@@ -55,7 +57,12 @@ CASES = [
         1e-5,
     ),
     ("shaper_quick_return", ["input_torque", "reaction F on ram"], ["crank.length", "guide.offset"], 1e-4),
-    ("triad", ["input_torque", "reaction O3 on bar_3", "plate.angle"], ["crank.A.x", "plate.R.y", "bar_1.mass"], 1e-4),
+    (
+        "triad",
+        ["input_torque", "reaction O3 on bar_3", "plate.angle"],
+        ["crank.A.x", "plate.R.y", "bar_1.mass"],
+        1e-4,
+    ),
 ]
 
 
@@ -75,13 +82,21 @@ def test_derivatives_are_the_limits_of_differences(
             assert np.abs(found.slope(output, address) - slope).max() <= 1e-6 * size + 1e-9, (output, address)
             for kind, expected in summaries.items():
                 gradient = found.gradient(output, kind)[address]
-                assert abs(gradient - expected) <= 1e-6 * max(abs(expected), 1e-3 * size) + 1e-9, (output, kind, address)
+                assert abs(gradient - expected) <= 1e-6 * max(abs(expected), 1e-3 * size) + 1e-9, (
+                    output,
+                    kind,
+                    address,
+                )
 
 
 def test_angles_do_not_change_with_the_scale() -> None:
     """Σ l ∂θ/∂l = 0 over all lengths (Euler, degree 0); velocities grow with it (degree 1)."""
     mechanism = lw.load("gallery:crank_rocker")
-    lengths = [a for a in mechanism.dimensions() if a.endswith((".length", ".x", ".y")) and not a.startswith("gravity")]
+    lengths = [
+        a
+        for a in mechanism.dimensions()
+        if a.endswith((".length", ".x", ".y")) and not a.startswith("gravity")
+    ]
     found = sensitivity(mechanism, of=["coupler.angle", "coupler.P.velocity"], by=lengths)
     dimensions = mechanism.dimensions()
     total = sum(dimensions[a] * found.slope("coupler.angle", a) for a in lengths)
@@ -99,7 +114,9 @@ def test_torque_is_linear_in_masses_and_load() -> None:
     for way in ("forward", "reverse"):
         found = sensitivity(mechanism, of=["driver.effort rms"], by=linear, way=way)  # type: ignore[arg-type]
         dimensions, gradient = mechanism.dimensions(), found.gradient("driver.effort rms")
-        assert sum(dimensions[a] * gradient[a] for a in linear) == pytest.approx(found.value("driver.effort rms"), rel=1e-12)
+        assert sum(dimensions[a] * gradient[a] for a in linear) == pytest.approx(
+            found.value("driver.effort rms"), rel=1e-12
+        )
 
 
 def test_the_stroke_of_an_in_line_slider_crank_grows_by_two_cranks() -> None:

@@ -34,7 +34,7 @@ def nearest_root(value: float, roots: list[float]) -> float:
 
 
 def test_swing_conveyor_limits_as_published() -> None:
-    """The published limit 231.6500775° with the slider at 0.662387 m, and 348.743° (see the gallery file's source)."""
+    """The published limits 231.6500775°, with the slider at 0.662387 m, and 348.743° (source: the gallery file)."""
     found = {round(degrees(each.input)): each for each in limits("swing_conveyor", "guide")}
     first, second = found[232], found[349]
     assert degrees(first.input) == pytest.approx(231.6500775, abs=2e-7)

@@ -22,7 +22,9 @@ def test_the_stroke_of_an_in_line_slider_crank_is_twice_the_crank() -> None:
     assert found["cylinder.displacement range"] == pytest.approx(2 * CRANK, rel=1e-13)
     assert np.all(found["cylinder.displacement argmax"] == 0.0)
     # at the outer dead point: r ω² (1 + r/l)
-    assert found["cylinder.acceleration", "peak"] == pytest.approx(CRANK * omega**2 * (1 + CRANK / ROD), rel=1e-12)
+    assert found["cylinder.acceleration", "peak"] == pytest.approx(
+        CRANK * omega**2 * (1 + CRANK / ROD), rel=1e-12
+    )
     assert np.all(found.assembled == 360)
     assert found.failures() == ()
 
@@ -80,7 +82,9 @@ def _reductions(values: np.ndarray) -> dict[str, float]:
         ("triad", {"crank.A.x": (0.026, 0.034), "bar_1.mass": (0.5, 2.0)}),
     ],
 )
-def test_summaries_are_those_of_every_design_solved_alone(name: str, varied: dict[str, tuple[float, float]]) -> None:
+def test_summaries_are_those_of_every_design_solved_alone(
+    name: str, varied: dict[str, tuple[float, float]]
+) -> None:
     mechanism = lw.load(f"gallery:{name}")
     rng = np.random.default_rng(3)
     nominal = mechanism.dimensions()
@@ -89,7 +93,11 @@ def test_summaries_are_those_of_every_design_solved_alone(name: str, varied: dic
     joint = next(j for j in mechanism.joints if last in mechanism.joints[j].joined)
     reaction = f"reaction {joint} on {last}"
     kinds = ("min", "max", "mean", "rms", "peak", "range")
-    asked = [(output, kind) for output in ("input_torque", reaction, f"{last}.centre.acceleration") for kind in kinds]
+    asked = [
+        (output, kind)
+        for output in ("input_torque", reaction, f"{last}.centre.acceleration")
+        for kind in kinds
+    ]
     found = sweep(mechanism, columns, outputs=asked)
     for index in range(6):
         design = mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()})
@@ -131,7 +139,9 @@ joints:
   cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
 driver: {turn: crank, about: O, speed: 10 rad/s}
 """
-    found = sweep(lw.loads(text), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"])
+    found = sweep(
+        lw.loads(text), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"]
+    )
     assert found["cylinder.displacement max"] == pytest.approx([0.04 * 4, 0.06 * 6], rel=1e-13)
 
 

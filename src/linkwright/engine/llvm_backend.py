@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -110,6 +110,32 @@ class CompiledProgram:
         call.set_out(out)
         self._function(call.address)
         return out
+
+    def bound(
+        self, parameters: Floats, positions: Arrays, out: Floats, fields: Arrays = _NONE
+    ) -> Callable[[], None]:
+        """A call of one design on arrays that are read and written where they lie, without a further look.
+
+        Shapes as for :meth:`run`; what ``parameters`` holds at the time of the call counts. Raises
+        ValueError for arrays that are not contiguous floats of these shapes, for fewer positions than
+        numbers in a vector, and for programs that carry states.
+        """
+        call = SingleCall(self.program, self.width, positions, fields)
+        if self.program.next_states or call.inputs.stride != call.inputs.length:
+            raise ValueError(f"only programs without states are bound, to {self.width} or more positions")
+        if not call.fits(positions, fields) or not (
+            parameters.flags.c_contiguous and parameters.dtype == float
+        ):
+            raise ValueError("give parameters, positions and fields as contiguous arrays of floats")
+        for _ in range(2):  # given again, they are no longer copied
+            call.set_parameters(parameters)
+        call.set_out(out)
+        function, address = self._function, call.address
+
+        def run(kept: object = (call, parameters, out)) -> None:
+            function(address)
+
+        return run
 
     def _run_by_store(
         self,

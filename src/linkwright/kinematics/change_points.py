@@ -10,14 +10,15 @@ Erdman & Sandor, Mechanism Design, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import Floats, Positions, at_times
+from linkwright.kinematics.groups import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.structure import Structure
 
@@ -33,15 +34,18 @@ ON_IT = 1e-5
 #: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
 LARGEST_STEP = 0.55
 
+Kind = Literal["change", "meeting", "gap", "pole"]
 Way = Callable[[Floats], Positions]
 
 
 @dataclass(frozen=True)
 class Passage:
-    """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass (``gap``).
+    """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
+    (``gap``), or infinitely far as its guides become parallel (``pole``).
 
     It lies at ``share`` of the step from the position ``before`` to the position ``after``; ``quality`` is the
-    least square of the sine of the group's transmission angle there.
+    least square of the sine of the group's transmission angle there. ``flips``: the places between which the
+    group has its other sign because of it.
     """
 
     group: str
@@ -49,17 +53,18 @@ class Passage:
     after: int
     share: float
     quality: float
-    kind: Literal["change", "meeting", "gap"]
+    kind: Kind
+    flips: tuple[float, float] = (0.0, np.inf)
 
     @property
     def touches(self) -> bool:
         """Whether the motion passes, with the other sign."""
-        return self.kind != "gap"
+        return self.kind in ("change", "meeting")
 
     @property
     def barred(self) -> bool:
         """Whether the group cannot be assembled there, though it can be before and after."""
-        return self.kind == "gap"
+        return not self.touches
 
     @property
     def place(self) -> float:
@@ -112,6 +117,12 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
     return mixed
 
 
+def modal(solver: MotionSolver) -> list[str]:
+    """Names of the groups with two assembly modes, in solving order."""
+    placed = solver.motion.placed
+    return [name for name, p in placed.items() if p.dyad is not None and p.dyad.words[0]]
+
+
 class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
@@ -127,19 +138,58 @@ class _Search:
         return way(self.base, self.positions)
 
     def found(self) -> list[Passage]:
-        groups = list(modal_groups(self.base.structure))
+        groups = modal(self.base)
         names = tuple(name for group in groups for name in self._measures(group))
         if not names:
-            return []
+            return self._poles()
         whole = np.arange(float(self.positions.count))
         rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
+        blocked = np.zeros(len(whole), dtype=bool)
         for group in groups:
-            new = self._of_group(group, rows)
+            blocked = blocked | ~(rows[f"quality:{group}"] > -TOUCH)
+            new = [replace(p, flips=self._flips(p, blocked)) for p in self._of_group(group, rows)]
             self.passing += new
             if any(p.touches for p in new):
                 self.solver = self.base.with_flips({p.group for p in self.passing if p.touches})
                 rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
-        return self.passing
+        return self.passing + self._poles()
+
+    def _poles(self) -> list[Passage]:
+        """Where two guides of a group become parallel, and its pin goes through infinity."""
+        placed = self.base.motion.placed
+        groups = {name: p.cuts[0].connection.joint for name, p in placed.items() if "sine" in p.facts}
+        if not groups:
+            return []
+        names = tuple(f"fact:{name}|sine" for name in groups)
+        rows = self._evaluate(names, np.arange(float(self.positions.count)), at_positions=True)
+        found = []
+        for (group, pin), name, row in zip(groups.items(), names, rows, strict=True):
+            sign = np.where(row < 0.0, -1.0, 1.0)
+            following = np.append(sign[1:], sign[0] if self.positions.closed else sign[-1])
+            for i in np.flatnonzero(sign != following):
+                place = self._crossing(name, float(i))
+                ends = self._evaluate((f"p:{pin}.x", f"p:{pin}.y"), np.array([place - 1e-6, place + 1e-6]))
+                if not np.hypot(*(ends[:, 1] - ends[:, 0])) < mechanism_size(self.base.motion.dimensions):
+                    found.append(self._passage(group, place, 0.0, "pole"))
+        return found
+
+    def _crossing(self, name: str, low: float) -> float:
+        """The place in the step after ``low`` where a value changes its sign."""
+        high = low + 1.0
+        for _ in range(13):
+            places = np.linspace(low, high, 17)
+            row = self._evaluate((name,), places)[0]
+            k = max(int(np.argmax(np.sign(row) != np.sign(row[0]))), 1)
+            low, high = float(places[k - 1]), float(places[k])
+        return low
+
+    def _flips(self, p: Passage, blocked: NDArray[np.bool_]) -> tuple[float, float]:
+        """From there on; in a closed cycle that cannot be passed, backwards from its first position."""
+        bars = np.flatnonzero(blocked)
+        if not self.positions.closed or not len(bars):
+            return p.place, np.inf
+        first, last = float(bars[0]), float(bars[-1])
+        return (p.place, first) if p.place < first else (min(last, p.place), p.place)
 
     def _measures(self, group: str) -> list[str]:
         facts = self.base.motion.placed[group].facts
@@ -197,9 +247,7 @@ class _Search:
             place += float(h * (a - b) / (a + b)) if a + b > 0 else 0.0
         return place
 
-    def _passage(
-        self, group: str, place: float, quality: float, kind: Literal["change", "meeting", "gap"]
-    ) -> Passage:
+    def _passage(self, group: str, place: float, quality: float, kind: Kind) -> Passage:
         n = self.positions.count
         if abs(place - round(place)) < ON_IT:
             place = float(round(place))
@@ -227,7 +275,7 @@ def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) ->
     sign = np.full(len(place), mode)
     for p in passing:
         if p.group == group and p.touches and p.place > 0.0:
-            sign = np.where(place > p.place, -sign, sign)
+            sign = np.where((place > p.flips[0]) & (place < p.flips[1]), -sign, sign)
     return sign
 
 
@@ -240,7 +288,7 @@ def signs(passing: Sequence[Passage], modes: Mapping[str, float], place: Floats 
 
 def closes(passing: Sequence[Passage]) -> bool:
     """Whether every group is back in its first mode at the end of a closed cycle."""
-    groups = [p.group for p in passing if p.touches]
+    groups = [p.group for p in passing if p.touches and p.flips[1] == np.inf]
     return all(groups.count(group) % 2 == 0 for group in groups)
 
 
@@ -302,6 +350,11 @@ def _note(p: Passage, positions: Positions) -> str:
         return f"change point of {group} at {where}: the motion goes on smoothly"
     if p.kind == "meeting":
         return f"the outer pins of {group} meet at {where}, where it could turn freely: the motion goes on smoothly"
+    if p.kind == "pole":
+        return (
+            f"the guides of {group} become parallel at {where}: the mechanism cannot pass there, and positions "
+            "beyond it are not reached"
+        )
     return (
         f"{group} cannot be assembled in a short stretch at {where}, between two positions: the mechanism cannot "
         "pass there, and positions beyond it are not reached"

@@ -10,8 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.assembly import modal_groups
-from linkwright.kinematics.change_points import mark_singular, passages, signs
+from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
@@ -28,6 +27,9 @@ SLIDE_STEP = 1.0 / 100
 FARTHEST = 20.0
 #: How near (rad, or share of the size) the end of a group without closed form is known before Newton's method.
 COARSE = 1e-6
+#: What the search leaves: where a square comes to zero, and where continuation stalls near a singular Jacobian.
+ROUNDED = 4e-16
+CONTINUED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -146,7 +148,7 @@ class _Search:
         self.base = self._at_start()
         self.rotary = self.base.rotary[driver]
         self.size = mechanism_size(mechanism)
-        self.modal = list(modal_groups(self.solver.structure))
+        self.modal = modal(self.solver)
         self.begin = self._beginning()
 
     # where to begin -------------------------------------------------------------------------------
@@ -196,12 +198,13 @@ class _Search:
         group, how = self._reason(stop, good, bad)
         value = None
         if stop.state and not self._closed_form(group):
-            value = fold(self.solver, self.positions(np.array([self.begin, good])), self.driver)
+            value = fold(self.solver, self.positions(self._towards(stop.good, good)), self.driver)
         if value is not None and min(good, bad) - rough <= value <= max(good, bad) + rough:
             precision = 1e-14 * (1.0 + abs(value))
         else:
             good, bad = self._narrowed(replace(stop, good=good, bad=bad, state=self._state(stop, good)), 0.0)
-            value, precision = good, abs(bad - good) + 4e-16 * (abs(good) + 1.0)
+            rounding = CONTINUED if stop.state and not self._closed_form(group) else ROUNDED
+            value, precision = good, abs(bad - good) + rounding * (1.0 + abs(good))
         return RangeEnd(value, f"group {group.signature} ({', '.join(group.links)})", how, precision)
 
     def _stop(self, direction: float) -> _Stop | None:
@@ -211,10 +214,9 @@ class _Search:
         states = self.solver.states(positions)
         found = passages(self.solver, positions, states)
         modes = signs(found, self.solver.assembly.modes, len(q))
-        sines = self._sines(positions, states)
         codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
         mark_singular(codes, found, self.solver.structure)
-        fine = (codes <= 0) & _finite(states, len(q)) & (sines > 0).all(axis=0)
+        fine = (codes <= 0) & _finite(states, len(q))
         gaps = [(p.before, float(np.interp(p.place, np.arange(len(q)), q))) for p in found if p.barred]
         last = int(np.argmin(fine)) - 1 if not fine.all() else len(q) - 1
         bad = q[last + 1] if last < len(q) - 1 else None
@@ -278,6 +280,11 @@ class _Search:
             reached = follower._step(way, 0, 1, [stop.state[name] for name in follower.names])
             rows.append(reached or [np.nan] * len(follower.names))
         return dict(zip(follower.names, np.array(rows).T, strict=True))
+
+    def _towards(self, last: float, good: float) -> Floats:
+        """The way from the beginning over the last position of the search to the end."""
+        count = 1 + round(abs(last - self.begin) / (STEP if self.rotary else SLIDE_STEP * self.size))
+        return np.append(np.linspace(self.begin, last, count), good)
 
     def _state(self, stop: _Stop, q: float) -> dict[str, float]:
         return {name: float(row[0]) for name, row in self._states(stop, np.array([q])).items()}

@@ -25,6 +25,8 @@ from linkwright.structure import Structure
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.plot import Diagram
+
 
 @dataclass(frozen=True)
 class PointMotion:
@@ -227,6 +229,18 @@ class Motion:
         from linkwright.kinematics.table import dataframe
 
         return dataframe(self.columns())
+
+    def _repr_svg_(self) -> str | None:
+        """The drawing, as notebooks show it; None where it cannot be put together."""
+        from linkwright.plot.drawing.notebook import picture_of
+
+        return picture_of(self)
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """A diagram of the result, by default displacement, velocity and acceleration of the output; see :func:`linkwright.plot.plot` for kinds and options."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         failed = self.steps - int(self.ok.sum())

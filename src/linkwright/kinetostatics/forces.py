@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from linkwright.registry import nearest
 
 if TYPE_CHECKING:
     import pandas
+
+    from linkwright.plot import Diagram
 
 
 @dataclass(frozen=True)
@@ -172,6 +174,12 @@ class Forces:
 
         return dataframe(self.columns())
 
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """A diagram of the result, by default the driver's torque; see :func:`linkwright.plot.plot` for kinds and options."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
+
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.mechanism.joints[joint].joined
         if link != links[0]:
@@ -229,6 +237,12 @@ class Forces:
         if not self.motion.ok.all():
             values[:, ~self.motion.ok] = np.nan
         return values
+
+    def _repr_svg_(self) -> str | None:
+        """The drawing, as notebooks show it; None where it cannot be put together."""
+        from linkwright.plot.drawing.notebook import picture_of
+
+        return picture_of(self)
 
     def __repr__(self) -> str:
         joints = ", ".join(self.mechanism.joints)

@@ -140,7 +140,9 @@ def _steady_rate(motion: Motion) -> float:
             f"the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns"
         )
     if not motion.ok.all():
-        raise LinkwrightError(f"{name!r} does not reach all positions of its cycle, so it cannot run steadily")
+        raise LinkwrightError(
+            f"{name!r} does not reach all positions of its cycle, so it cannot run steadily"
+        )
     return float(rate[0])
 
 

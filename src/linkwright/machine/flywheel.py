@@ -38,7 +38,9 @@ def on_faster_shaft(inertia: float, ratio: float) -> float:
     Raises LinkwrightError for a ratio of zero.
     """
     if not abs(ratio) > 0:
-        raise LinkwrightError("the speed ratio of the flywheel's shaft to the crank is zero; give another number")
+        raise LinkwrightError(
+            "the speed ratio of the flywheel's shaft to the crank is zero; give another number"
+        )
     return inertia / (ratio * ratio)
 
 
@@ -84,7 +86,9 @@ def rim(
         if not value > 0:
             raise LinkwrightError(f"the {name} of the flywheel is {value:g}; give a value above zero")
     if thickness_ratio > 0.5:
-        raise LinkwrightError(f"a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less")
+        raise LinkwrightError(
+            f"a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less"
+        )
     hole = 1.0 - 2.0 * thickness_ratio
     diameter = (32 * inertia / (density * pi * width_ratio * (1 - hole**4))) ** 0.2
     width = width_ratio * diameter
@@ -98,4 +102,6 @@ def _require(fluctuation: float, speed: float) -> None:
             f"the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, such as 0.02"
         )
     if not abs(speed) > 0:
-        raise LinkwrightError("the mean speed of the flywheel's shaft is zero; a flywheel needs a turning shaft")
+        raise LinkwrightError(
+            "the mean speed of the flywheel's shaft is zero; a flywheel needs a turning shaft"
+        )

@@ -19,6 +19,8 @@ TO_LEGENDRE = (ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, 
 #: whole.
 FINE, TAIL = 1e-13, 1e-11
 HALVINGS = 44
+#: More cells than this that want halving mean rounding noise, which no halving smooths.
+NOISE = 3000
 
 
 class Antiderivative:
@@ -48,13 +50,21 @@ class Antiderivative:
         half = 0.5 * (self.high[cell] - self.low[cell])
         place = np.clip((x - self.low[cell]) / half - 1.0, -1.0, 1.0)
         known = np.polynomial.legendre.legvander(place, POINTS)
-        gained = np.concatenate([place[:, None] + 1.0, (known[:, 2:] - known[:, :-2]) / (2 * ORDERS[1:] + 1)], axis=1)
+        gained = np.concatenate(
+            [place[:, None] + 1.0, (known[:, 2:] - known[:, :-2]) / (2 * ORDERS[1:] + 1)], axis=1
+        )
         return np.asarray(self._before[cell] + half * (gained * self._orders[cell]).sum(axis=1))
 
     @property
     def edges(self) -> Floats:
         """Ends of all cells."""
         return np.append(self.low, self.high[-1])
+
+    @property
+    def quadrature(self) -> tuple[Floats, Floats]:
+        """Gauss points of all cells and their weights, (m,) each, for integrals of what is smooth where W is."""
+        half, middle = 0.5 * (self.high - self.low), 0.5 * (self.high + self.low)
+        return (middle[:, None] + half[:, None] * NODES).ravel(), (half[:, None] * WEIGHTS).ravel()
 
     def _legendre(self, low: Floats, high: Floats) -> Floats:
         """Coefficients of the function in cells, (cells, orders)."""
@@ -78,14 +88,16 @@ class Antiderivative:
             again = ~good
             low, high = np.append(low[again], middle[again]), np.append(middle[again], high[again])
             orders = np.concatenate([left[again], right[again]])
-            if not len(low):
+            if not 0 < len(low) <= NOISE:
                 break
         starts, coefficients = np.concatenate([*kept_low, low]), np.concatenate([*kept, orders])
         by_place = np.argsort(starts, kind="stable")
         return starts[by_place], coefficients[by_place]
 
 
-def extremes(function: Function, low: Floats, high: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
+def extremes(
+    function: Function, low: Floats, high: Floats
+) -> tuple[tuple[float, float], tuple[float, float]]:
     """(place, value) of the smallest and of the largest value of a function in brackets around its samples' best.
 
     ``low`` and ``high``: ends (n,) of stretches that together cover the range; the best three are searched.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,7 +16,28 @@ from linkwright.machine.integral import Antiderivative, Floats
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve, speed_of
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.metrics.quantities import shown
+from linkwright.words import say
 
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
+
+DIMENSIONS = {
+    "speed": "angular_velocity",
+    "mean_torque": "torque",
+    "mean_power": "power",
+    "motor_power": "power",
+    "energy_fluctuation": "energy",
+    "energy_lowest_at": "angle",
+    "energy_highest_at": "angle",
+    "equivalent_inertia_smallest": "inertia",
+    "equivalent_inertia_largest": "inertia",
+    "required_fluctuation": "dimensionless",
+    "flywheel": "inertia",
+    "reached_fluctuation": "dimensionless",
+    "exact_flywheel": "inertia",
+    "shaft_flywheel": "inertia",
+}
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
 
@@ -54,7 +76,23 @@ class SteadyRunning:
     @property
     def own(self) -> float:
         """Speed fluctuation by the formula without any flywheel."""
-        return speed_fluctuation(self.energy.value, self.equivalent.speed, float(self.equivalent.inertia.mean()))
+        return speed_fluctuation(
+            self.energy.value, self.equivalent.speed, float(self.equivalent.inertia.mean())
+        )
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """A diagram of the result, by default the speed over the cycle; see :func:`linkwright.plot.plot` for kinds and options."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
+
+    def text(self, language: str = "en") -> str:
+        """The numbers with labels and units, one per line."""
+        lines = []
+        for key, value in self.data().items():
+            label = say(f"metrics.running.{key}", language)
+            lines.append(f"{label}: {shown(value, DIMENSIONS[key])}")
+        return "\n".join(lines)
 
     def data(self) -> dict[str, float]:
         """The numbers, SI."""

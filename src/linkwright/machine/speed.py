@@ -11,6 +11,9 @@ from linkwright.errors import LinkwrightError
 from linkwright.machine.integral import Antiderivative, Floats, Function, extremes
 from linkwright.machine.torque_curve import TorqueCurve
 
+#: A machine whose kinetic energy falls below this share of that at its mean speed stops.
+STOPPED = 1e-9
+
 
 @dataclass(frozen=True)
 class SpeedCurve:
@@ -78,13 +81,14 @@ def speed_of(
 ) -> SpeedCurve:
     """The same from the excess work over one period, J."""
     start, period = float(work.edges[0]), float(work.edges[-1] - work.edges[0])
-    grid = start + period * np.arange(4 * steps) / (4 * steps)
-    energy = _initial_energy(work(grid), total(grid), speed)
+    edges = np.union1d(work.edges, np.linspace(start, start + period, steps + 1))
+    least = extremes(work, edges[:-1], edges[1:])[0][1]
+    places, weights = work.quadrature
+    energy = _initial_energy(work(places), total(places), weights / period, speed, least)
 
     def at(angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
 
-    edges = np.union1d(work.edges, np.linspace(start, start + period, steps + 1))
     slowest, fastest = extremes(at, edges[:-1], edges[1:])
     angle = np.linspace(start, start + period, steps + 1)
     return SpeedCurve(angle, at(angle), speed, slowest, fastest, motor_torque, at)
@@ -96,28 +100,34 @@ def _constant(inertia: float) -> Function:
     return lambda angle: np.full(angle.shape, float(inertia))
 
 
-def _initial_energy(work: Floats, inertia: Floats, speed: float) -> float:
-    """E0 with which the mean of 1/ω over equal steps of the angle is 1/speed, by safeguarded Newton steps."""
+def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float, least: float) -> float:
+    """E0 with which the mean of 1/ω over the angle is 1/speed, by safeguarded Newton steps.
+
+    ``weights`` of the mean over the angle at the places of ``work`` and ``inertia``; ``least``: smallest work, J.
+    """
     if not (inertia > 0).all():
-        raise LinkwrightError("the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel")
-    low = -float(work.min())
-    high = 0.5 * speed * speed * float(inertia.max()) + low
+        raise LinkwrightError(
+            "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel"
+        )
+    low, scale = -least, 0.5 * speed * speed * float(inertia.max())
+    high = low + scale
     energy = high
 
     def slowness(value: float) -> tuple[float, float]:
         root = np.sqrt(0.5 * inertia / (value + work))
-        return float(root.mean()) - 1.0 / speed, float((-0.5 * root / (value + work)).mean())
+        return float(weights @ root) - 1.0 / speed, float(weights @ (-0.5 * root / (value + work)))
 
     for _ in range(200):
-        with np.errstate(all="ignore"):
-            gap, slope = slowness(energy)
+        gap, slope = slowness(energy)
         low, high = (energy, high) if gap > 0 else (low, energy)
         newton = energy - gap / slope
         following = newton if low < newton < high else 0.5 * (low + high)
-        if abs(following - energy) <= 1e-15 * (abs(energy) + high):
-            return following
+        if abs(following - energy) <= 1e-15 * scale:
+            break
         energy = following
-    raise LinkwrightError(
-        "the kinetic energy does not suffice to carry the machine over its cycle at this mean speed: it would stop; "
-        "add a flywheel or raise the speed"
-    )
+    if energy + least <= STOPPED * scale:
+        raise LinkwrightError(
+            "the kinetic energy does not suffice to carry the machine over its cycle at this mean speed: it would "
+            "stop; add a flywheel or raise the speed"
+        )
+    return energy

@@ -42,7 +42,9 @@ class TorqueCurve:
             return cls(_expression(torque), period)
         if callable(torque):
             given = torque
-            return cls(lambda theta: np.broadcast_to(np.asarray(given(theta), dtype=float), theta.shape), period)
+            return cls(
+                lambda theta: np.broadcast_to(np.asarray(given(theta), dtype=float), theta.shape), period
+            )
         values = np.asarray(torque, dtype=float)
         return cls.from_table(np.arange(values.size) * period / max(values.size, 1), values, period=period)
 
@@ -123,4 +125,6 @@ def _expression(text: str) -> Callable[[Floats], Floats]:
 
     read = parse(text, ("theta",))
     functions = array_functions()
-    return lambda theta: np.broadcast_to(np.asarray(read.evaluate({"theta": theta}, functions), float), theta.shape)
+    return lambda theta: np.broadcast_to(
+        np.asarray(read.evaluate({"theta": theta}, functions), float), theta.shape
+    )

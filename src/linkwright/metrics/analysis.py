@@ -29,15 +29,15 @@ COSTLY_POINTS, COSTLY_ROUNDS = 5, 3
 
 @dataclass(frozen=True)
 class Extreme:
-    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (None without a driver), nearest
-    sample ``index``.
+    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (NaN without a driver).
 
+    ``index``: the nearest sample.
     ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
     """
 
     value: float
     time: float
-    input: float | None
+    input: float
     index: int
     exact: bool
 
@@ -112,14 +112,35 @@ class Analysis:
         span = time[-1] - time[0]
         return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
 
-    def rms(self, values: Floats) -> float:
-        """Root of the mean square over the time of the cycle."""
-        return float(np.sqrt(self.mean(values * values)))
+    def mean_of(self, signal: Callable[[Forces], Floats]) -> float:
+        """Mean over the time of the cycle of what the forces give, (n,).
+
+        Over a closed cycle by integration between the positions, so that the jumps of loads fall where they are;
+        else, and for mechanisms solved by iteration, from the positions.
+        """
+        assert self.forces is not None
+        positions = self.motion.positions
+        if not (self.whole and self.resolver.possible and positions.period) or self.resolver.costly:
+            return self.mean(signal(self.forces))
+        from linkwright.machine.integral import Antiderivative
+
+        start, sense = float(positions.time[0]), float(np.sign(positions.time[-1] - positions.time[0])) or 1.0
+
+        def values(time: Floats) -> Floats:
+            return signal(self.resolver.at(start + sense * time, "forces"))
+
+        return Antiderivative(values, 0.0, positions.period, cells=60).total / positions.period
+
+    def rms_of(self, signal: Callable[[Forces], Floats]) -> float:
+        """Root of the mean square over the time of the cycle, found in the same way."""
+        return float(np.sqrt(self.mean_of(lambda forces: signal(forces) ** 2)))
 
     @overload
     def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> Extreme | None: ...
     @overload
-    def extreme(self, signal: Callable[[Forces], Floats], kind: Kind, *, of: Literal["forces"]) -> Extreme | None: ...
+    def extreme(
+        self, signal: Callable[[Forces], Floats], kind: Kind, *, of: Literal["forces"]
+    ) -> Extreme | None: ...
     def extreme(self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion") -> Extreme | None:
         """Largest or smallest value of a signal over the cycle, found between the positions where that can be.
 
@@ -133,7 +154,7 @@ class Analysis:
         sign = 1.0 if kind == "max" else -1.0
         index = int(np.nanargmax(sign * values))
         time = self.motion.time
-        at = float(self.motion.input[index]) if self.motion.inputs else None
+        at = float(self.motion.input[index]) if self.motion.inputs else float("nan")
         sample = Extreme(float(values[index]), float(time[index]), at, index, False)
         if not self.resolver.possible or self.motion.steps < 3:
             return sample

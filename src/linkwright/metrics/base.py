@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import isnan
 from typing import Any, ClassVar, Literal
 
 from linkwright.metrics.analysis import Analysis, Result
@@ -134,11 +135,19 @@ class Metric(ABC):
         """The values, from what several numbers share."""
 
     def value(
-        self, analysis: Analysis, subject: str, value: float, *, dimension: str | None = None, **more: Any
+        self,
+        analysis: Analysis,
+        subject: str,
+        value: float,
+        *,
+        dimension: str | None = None,
+        at: float | None = None,
+        **more: Any,
     ) -> MetricValue:
-        """A value of this number."""
+        """A value of this number; an ``at`` that is NaN is left out."""
         kind = dimension or self.dimension
-        return MetricValue(self.name, subject, float(value), kind, at_dimension=analysis.input_dimension, **more)
+        where = None if at is None or isnan(at) else at
+        return MetricValue(self.name, subject, float(value), kind, where, analysis.input_dimension, **more)
 
 
 METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics")

@@ -34,7 +34,6 @@ class BearingPv(Metric):
         return super().suits(analysis) and bool(_bearings(analysis))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        assert analysis.forces is not None
         for joint in _bearings(analysis):
             assert joint.pin_radius is not None
             for link in joint.links[1:]:
@@ -42,8 +41,10 @@ class BearingPv(Metric):
                 found = analysis.extreme(signal, "max", of="forces")
                 if found is None:
                     continue
-                mean = shown(analysis.mean(signal(analysis.forces)), "power")
-                remarks = (Remark("bearing_pv.mean", {"mean": mean, "radius": shown(joint.pin_radius, "length")}),)
+                mean = shown(analysis.mean_of(signal), "power")
+                remarks = (
+                    Remark("bearing_pv.mean", {"mean": mean, "radius": shown(joint.pin_radius, "length")}),
+                )
                 subject = joint.name if len(joint.links) == 2 else f"{joint.name} on {link}"
                 yield self.value(
                     analysis, subject, found.value, remarks=remarks, at=found.input, exact=found.exact

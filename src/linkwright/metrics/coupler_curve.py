@@ -54,7 +54,9 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     motion = analysis.motion
     if not analysis.whole:
-        raise LinkwrightError(f"the path of {point} is not closed: solve a whole cycle of {motion.mechanism.name!r}")
+        raise LinkwrightError(
+            f"the path of {point} is not closed: solve a whole cycle of {motion.mechanism.name!r}"
+        )
     track = motion.point(point)
     period = motion.positions.period or 0.0
     speed = np.hypot(*track.velocity.T)
@@ -76,7 +78,9 @@ def _doubles(analysis: Analysis, point: str, path: Floats, length: float) -> Ite
         position, velocity = _pairs(analysis, point, times)
         gap, turn = position[:, 1] - position[:, 0], cross(velocity[:, 0], velocity[:, 1])
         with np.errstate(all="ignore"):
-            change = np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
+            change = (
+                np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
+            )
         times = times + np.where(np.isfinite(change), np.clip(change, -abs(step), abs(step)), 0.0)
     position, _ = _pairs(analysis, point, times)
     period = analysis.motion.positions.period or 0.0
@@ -102,9 +106,13 @@ def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot
     if not analysis.resolver.possible:
         return
     mean, step = float(np.mean(speed)), float(abs(analysis.motion.time[1] - analysis.motion.time[0]))
-    for i in np.flatnonzero((speed <= np.roll(speed, 1)) & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)):
+    for i in np.flatnonzero(
+        (speed <= np.roll(speed, 1)) & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)
+    ):
         t = float(analysis.motion.time[i])
-        low = analysis.extreme_between(lambda m: np.hypot(*m.point(point).velocity.T), "min", t - step, t + step)
+        low = analysis.extreme_between(
+            lambda m: np.hypot(*m.point(point).velocity.T), "min", t - step, t + step
+        )
         if low is not None and low.value <= STANDING * mean:
             x, y = analysis.resolver.motion(np.array([low.time])).point(point).position[0]
             yield (float(x), float(y)), low.input

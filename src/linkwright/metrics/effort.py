@@ -46,7 +46,9 @@ class PeakInputTorque(EffortMetric):
             found = analysis.extreme(partial(_size, name=name), "max", of="forces")
             if found is not None:
                 kind = self.effort_dimension(analysis, name)
-                yield self.value(analysis, name, found.value, dimension=kind, at=found.input, exact=found.exact)
+                yield self.value(
+                    analysis, name, found.value, dimension=kind, at=found.input, exact=found.exact
+                )
 
 
 @METRICS.register("rms_input_torque")
@@ -56,9 +58,8 @@ class RmsInputTorque(EffortMetric):
     name = "rms_input_torque"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        assert analysis.forces is not None
         for name in analysis.motion.mechanism.drivers:
-            root = analysis.rms(analysis.forces.driver_effort(name))
+            root = analysis.rms_of(partial(_size, name=name))
             yield self.value(analysis, name, root, dimension=self.effort_dimension(analysis, name))
 
 
@@ -89,5 +90,4 @@ class MeanPower(EffortMetric):
     dimension = "power"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        assert analysis.forces is not None
-        yield self.value(analysis, analysis.motion.mechanism.name, analysis.mean(power(analysis.forces)))
+        yield self.value(analysis, analysis.motion.mechanism.name, analysis.mean_of(power))

@@ -55,7 +55,9 @@ class FourBar:
 def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
     """All four-bar loops that contain the frame and have pins only."""
     pins = {name: joint for name, joint in mechanism.joints.items() if isinstance(joint, RevoluteJoint)}
-    grounded = [(link, name) for name, joint in pins.items() if "frame" in joint.links for link in joint.links]
+    grounded = [
+        (link, name) for name, joint in pins.items() if "frame" in joint.links for link in joint.links
+    ]
     sides = [(link, pin) for link, pin in grounded if link != "frame"]
     found = []
     for (first, a0), (second, b0) in combinations(sides, 2):

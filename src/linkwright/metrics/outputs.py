@@ -38,7 +38,9 @@ def output_link(mechanism: Mechanism, output: Output) -> str:
 
 def value(motion: Motion, output: Output) -> Floats:
     """Angle (rad, continuous) or displacement (m), (n,)."""
-    return motion.link(output.owner).angle if output.kind == "angle" else motion.joint(output.owner).displacement
+    return (
+        motion.link(output.owner).angle if output.kind == "angle" else motion.joint(output.owner).displacement
+    )
 
 
 def rate(motion: Motion, output: Output) -> Floats:
@@ -71,7 +73,10 @@ def free_points(mechanism: Mechanism) -> tuple[str, ...]:
         if isinstance(joint, PrismaticJoint):
             used |= {joint.through, joint.at, *(joint.direction_points or ())}
     return tuple(
-        f"{name}.{point}" for name, link in mechanism.links.items() for point in link.points if point not in used
+        f"{name}.{point}"
+        for name, link in mechanism.links.items()
+        for point in link.points
+        if point not in used
     )
 
 

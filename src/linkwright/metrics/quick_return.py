@@ -38,7 +38,9 @@ class QuickReturnRatio(Metric):
 
     def suits(self, analysis: Analysis) -> bool:
         steady = analysis.whole and bool(np.ptp(analysis.input_rate) <= 1e-9 * abs(analysis.input_rate[0]))
-        return super().suits(analysis) and steady and any(slow_and_fast(analysis, o) for o in analysis.outputs)
+        return (
+            super().suits(analysis) and steady and any(slow_and_fast(analysis, o) for o in analysis.outputs)
+        )
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in analysis.outputs:

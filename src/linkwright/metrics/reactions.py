@@ -66,6 +66,5 @@ class RmsReaction(Metric):
         return analysis.loaded
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        assert analysis.forces is not None
         for subject, joint, link in sides(analysis.motion.mechanism):
-            yield self.value(analysis, subject, analysis.rms(size(joint, link)(analysis.forces)))
+            yield self.value(analysis, subject, analysis.rms_of(size(joint, link)))

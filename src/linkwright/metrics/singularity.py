@@ -37,6 +37,11 @@ class Singularity(Metric):
             if found is None:
                 continue
             near = found.value < NEAR ** len(group.cuts)
-            place: dict[str, object] = {"group": group.name, "at": shown(found.input, analysis.input_dimension)}
+            place: dict[str, object] = {
+                "group": group.name,
+                "at": shown(found.input, analysis.input_dimension),
+            }
             remarks = (Remark("singularity.near", place, warning=True),) if near else ()
-            yield self.value(analysis, group.name, found.value, at=found.input, exact=found.exact, remarks=remarks)
+            yield self.value(
+                analysis, group.name, found.value, at=found.input, exact=found.exact, remarks=remarks
+            )

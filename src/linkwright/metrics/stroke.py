@@ -34,11 +34,17 @@ class Stroke(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in self._swinging(analysis):
-            yield self.value(analysis, str(output), travel(analysis, output), exact=analysis.resolver.possible)
+            yield self.value(
+                analysis, str(output), travel(analysis, output), exact=analysis.resolver.possible
+            )
 
     def _swinging(self, analysis: Analysis) -> list[Output]:
         motion = analysis.motion
-        return [o for o in analysis.outputs if o.kind == self.kind and motion.ok.any() and not turns_fully(motion, o)]
+        return [
+            o
+            for o in analysis.outputs
+            if o.kind == self.kind and motion.ok.any() and not turns_fully(motion, o)
+        ]
 
 
 @METRICS.register("swing_angle")

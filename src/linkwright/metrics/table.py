@@ -86,7 +86,9 @@ class MetricsTable(Sequence[MetricValue]):
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
-        head = [say(f"metrics.column.{name}", language) for name in ("metric", "subject", "value", "unit", "at")]
+        head = [
+            say(f"metrics.column.{name}", language) for name in ("metric", "subject", "value", "unit", "at")
+        ]
         lines = [head, *(self._cells(row, language) for row in self.rows)]
         text = _aligned(lines, "<<><>")
         warnings = [f"! {warning}" for warning in self.warnings_in(language)]
@@ -107,7 +109,9 @@ class MetricsTable(Sequence[MetricValue]):
         try:
             import pandas
         except ImportError:
-            raise LinkwrightError("tables need pandas; install it: pip install linkwright[notebook]") from None
+            raise LinkwrightError(
+                "tables need pandas; install it: pip install linkwright[notebook]"
+            ) from None
         return pandas.DataFrame(self.data())
 
     def __repr__(self) -> str:

@@ -64,7 +64,9 @@ class TransmissionAngleOfStroke(Metric):
             limits = analysis.limits(output)
             for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
                 end = last.time if last.time > first.time else last.time + period
-                found = analysis.extreme_between(partial(transmission_angle, group=group), "min", first.time, end)
+                found = analysis.extreme_between(
+                    partial(transmission_angle, group=group), "min", first.time, end
+                )
                 if found is not None:
                     subject = f"{group.name}: {output} {first.kind}→{last.kind}"
                     yield self.value(analysis, subject, found.value, **_where(found))

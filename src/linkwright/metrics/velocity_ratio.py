@@ -61,7 +61,9 @@ class VelocityRatio(Metric):
             if found is not None:
                 kind = RATIO[output.dimension, analysis.input_dimension]
                 subject = str(output)
-                yield self.value(analysis, subject, found.value, dimension=kind, at=found.input, exact=found.exact)
+                yield self.value(
+                    analysis, subject, found.value, dimension=kind, at=found.input, exact=found.exact
+                )
 
 
 @METRICS.register("mechanical_advantage")
@@ -78,4 +80,6 @@ class MechanicalAdvantage(VelocityRatio):
             if found is not None and found.value != 0.0:
                 kind = RATIO[analysis.input_dimension, output.dimension]
                 advantage = 1.0 / abs(found.value)
-                yield self.value(analysis, str(output), advantage, dimension=kind, at=found.input, exact=found.exact)
+                yield self.value(
+                    analysis, str(output), advantage, dimension=kind, at=found.input, exact=found.exact
+                )

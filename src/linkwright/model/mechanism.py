@@ -199,6 +199,12 @@ class Mechanism:
 
         return structure(self)
 
+    def _repr_svg_(self) -> str | None:
+        """The drawing, as notebooks show it; None where it cannot be put together."""
+        from linkwright.plot.drawing.notebook import picture_of
+
+        return picture_of(self)
+
     def link(self, name: str) -> Link:
         """The link of that name, the frame included; raises for an unknown name."""
         if name == "frame":

@@ -14,8 +14,8 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.drawing.draw import STEPS, Names, solved, vector_groups
-from linkwright.plot.drawing.frames import frame_indices, usual_seconds
+from linkwright.plot.drawing.draw import Names, solved, vector_groups
+from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.legend import legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[int, int], None]
 FILM_RATE = 25
+STEPS = 360
 
 
 def animate(
@@ -63,7 +64,8 @@ def animate(
         curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, a column of
             ``motion.columns()`` or of the forces').
         seconds: time of one cycle on the screen; default that of the motion, within 2 to 6 s.
-        frames: number of positions shown in one cycle.
+        frames: number of positions shown in one cycle; the moving SVG takes more where pins would part visibly
+            between them.
         labels: names of the points, moving with them.
 
     Returns:
@@ -91,6 +93,7 @@ def animate(
     return Animation(
         scene=scene,
         run=tuple(run),
+        keys=tuple(key_indices(scene.machine, frames)),
         seconds=seconds or usual_seconds(motion),
         traces=tuple(traces),
         families=tuple(families),
@@ -104,10 +107,14 @@ def animate(
 
 @dataclass(frozen=True)
 class Animation:
-    """A moving drawing; ``svg`` moves by itself, ``save`` writes .svg, .gif or .mp4."""
+    """A moving drawing; ``svg`` moves by itself, ``save`` writes .svg, .gif or .mp4.
+
+    ``run``: positions of the frames; ``keys``: those of the keyframes of the moving SVG.
+    """
 
     scene: Scene
     run: tuple[int, ...]
+    keys: tuple[int, ...]
     seconds: float
     traces: tuple[str, ...]
     families: tuple[tuple[Vectors, float], ...]
@@ -120,7 +127,7 @@ class Animation:
     @cached_property
     def svg(self) -> str:
         """SVG text that moves by itself in browsers, notebooks and readme files."""
-        scene, run, seconds = self.scene, self.run, self.seconds
+        scene, run, seconds = self.scene, self.keys, self.seconds
         content = scene.traces(self.traces)
         content += moving_springs(scene, run, seconds)
         content += moving_links(scene, run, seconds)
@@ -204,7 +211,7 @@ class Animation:
 
     def _track(self, point: str) -> Floats:
         motion = self.scene.machine.motion
-        return self.scene.machine.view.paper(motion.point(point).position[list(self.run)])
+        return self.scene.machine.view.paper(motion.point(point).position[list(self.keys)])
 
     def _share(self, index: int) -> float:
         return index / max(self.scene.machine.motion.steps - 1, 1)

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.machine import SteadyRunning, steady_running
+from linkwright.machine import SteadyRunning, flywheel_inertia, steady_running
 from linkwright.metrics import Analysis
 from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
 from linkwright.model.file import load
@@ -23,6 +24,9 @@ from linkwright.model.signal_fields import Output
 from linkwright.registry import nearest
 
 Floats = NDArray[np.float64]
+
+#: A mean torque of this share of the largest one is zero but for rounding.
+IDLE = 1e-9
 
 
 @dataclass(eq=False)
@@ -54,16 +58,23 @@ class Alternative:
     @cached_property
     def running(self) -> SteadyRunning | None:
         """Steady running with a flywheel; None, with a note, where there is none to lay out."""
+        torque = self.forces.input_torque
+        if abs(torque.mean()) <= IDLE * np.abs(torque).max():
+            self.notes.append(
+                f"{self.label}: the mean torque over its cycle is zero, so no work is done and there is no flywheel "
+                "to lay out"
+            )
+            return None
         try:
             return steady_running(self.forces, fluctuation=self.fluctuation)
         except LinkwrightError as error:
-            self.notes.append(str(error))
+            self.notes.append(f"{self.label}: {error}")
             return None
 
     @property
     def loaded(self) -> bool:
         """Whether anything in it has mass or a load."""
-        return bool(self.mechanism.loads) or any(link.mass or link.inertia for link in self.mechanism.links.values())
+        return has_loads(self.mechanism)
 
     @property
     def pivot(self) -> tuple[str, str]:
@@ -86,7 +97,16 @@ class Alternative:
 
     def travel(self) -> tuple[Floats, Floats, Floats]:
         """The output and its rates in time, (n,) each."""
-        return value(self.motion, self.output), rate(self.motion, self.output), second(self.motion, self.output)
+        return (
+            value(self.motion, self.output),
+            rate(self.motion, self.output),
+            second(self.motion, self.output),
+        )
+
+
+def has_loads(mechanism: Mechanism) -> bool:
+    """Whether there is anything that joints would have to carry."""
+    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
 
 def alternatives(
@@ -101,12 +121,15 @@ def alternatives(
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
     if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
-        raise LinkwrightError("a comparison needs two or more alternatives; give a list of mechanisms or files")
+        raise LinkwrightError(
+            "a comparison needs two or more alternatives; give a list of mechanisms or files"
+        )
+    flywheel_inertia(1.0, 1.0, fluctuation)
     machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
     labels = _labels(machines)
     names = _outputs(machines, labels, sources, output)
     return [
-        Alternative(label, machine, _output(machine, name), steps, fluctuation)
+        Alternative(label, machine, output_of_machine(machine, name), steps, fluctuation)
         for label, machine, name in zip(labels, machines, names, strict=True)
     ]
 
@@ -133,7 +156,9 @@ def _outputs(
         return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
     if output is not None:
         if len(output) != len(machines):
-            raise LinkwrightError(f"{len(output)} outputs are named for {len(machines)} alternatives; name one for each")
+            raise LinkwrightError(
+                f"{len(output)} outputs are named for {len(machines)} alternatives; name one for each"
+            )
         return list(output)
     own = [[str(each) for each in mechanism_outputs(machine)] for machine in machines]
     shared = [name for name in own[0] if all(name in names for names in own[1:])]
@@ -147,27 +172,42 @@ def _outputs(
 
 
 def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Path) -> str:
-    keys = [label] if isinstance(source, Mechanism) else [label, str(source), Path(str(source)).stem]
+    keys = (
+        [label]
+        if isinstance(source, Mechanism)
+        else [label, str(source), Path(str(source).removeprefix("gallery:")).stem]
+    )
     for key in keys:
         if key in output:
             return output[key]
-    raise LinkwrightError(f"no output is named for {label!r}; output names them for {', '.join(map(repr, output))}")
+    raise LinkwrightError(
+        f"no output is named for {label!r}; output names them for {', '.join(map(repr, output))}"
+    )
 
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
     told = "; ".join(
         f"{label!r} has {', '.join(names) or 'none'}" for label, names in zip(labels, own, strict=True)
     )
-    example = ", ".join(f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True))
+    example = ", ".join(
+        f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
+    )
     return (
         f"the alternatives share no output to compare: {told}; say which output of each is meant, such as "
-        f"output={{{example}}}"
+        f"output={{{example}}} (on the command line --of, one name per file)"
     )
 
 
-def _output(machine: Mechanism, name: str) -> Output:
+def output_of_machine(machine: Mechanism, name: str) -> Output:
+    """An output by its name, that of a block on a frame's guide its displacement.
+
+    Raises LinkwrightError with the nearest one.
+    """
     from linkwright.kinematics.limits import output_of
 
+    for joint_name, joint in machine.joints.items():
+        if isinstance(joint, PrismaticJoint) and joint.guide == "frame" and joint.block == name:
+            name = joint_name
     try:
         return output_of(machine, name)
     except LinkwrightError:

@@ -49,7 +49,10 @@ class Row:
     @property
     def comparable(self) -> bool:
         """Whether every alternative has a value of the same dimension."""
-        return all(each is not None for each in self.values) and len({v.dimension for v in self.values if v}) == 1
+        return (
+            all(each is not None for each in self.values)
+            and len({v.dimension for v in self.values if v}) == 1
+        )
 
     def score(self, index: int) -> float:
         """1 for the best, else how near the value comes to it: best/value where lower is better, or the inverse."""
@@ -125,9 +128,20 @@ class Comparison:
             f"{metric!r} is not among the compared metrics" + (f"; did you mean {offer!r}?" if offer else "")
         )
 
+    def units(self) -> list[tuple[Row, str]]:
+        """Rows with the SI units of their values."""
+        return [(row, si_unit(row.dimension)) for row in self.rows]
+
+    def column(self, index: int) -> list[float]:
+        """Values of one alternative over the rows, SI; NaN where a metric does not apply."""
+        found = [row.values[index] for row in self.rows]
+        return [float("nan") if each is None else each.value for each in found]
+
     def _index(self, label: str) -> int:
         if label not in self.labels:
-            raise LinkwrightError(f"there is no alternative {label!r}; there is {', '.join(map(repr, self.labels))}")
+            raise LinkwrightError(
+                f"there is no alternative {label!r}; there is {', '.join(map(repr, self.labels))}"
+            )
         return self.labels.index(label)
 
     def evaluation(self, language: str = "en") -> str:
@@ -146,7 +160,8 @@ class Comparison:
         """Plain data, SI."""
         return {
             "alternatives": [
-                {"label": each.label, "output": str(each.output), "pivot": each.pivot[0]} for each in self.alternatives
+                {"label": each.label, "output": str(each.output), "pivot": each.pivot[0]}
+                for each in self.alternatives
             ],
             "metrics": [
                 {
@@ -171,13 +186,9 @@ class Comparison:
 
         from linkwright.kinematics.table import dataframe
 
-        nothing = float("nan")
-        columns = {
-            label: np.array([nothing if row.values[i] is None else row.values[i].value for row in self.rows])  # type: ignore[union-attr]
-            for i, label in enumerate(self.labels)
-        }
+        columns = {label: np.array(self.column(i)) for i, label in enumerate(self.labels)}
         frame = dataframe(columns)
-        frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]  # type: ignore[assignment]
+        frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
         return frame
 
     def __repr__(self) -> str:
@@ -226,7 +237,10 @@ def compare(
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
-            raise LinkwrightError(f"{each.name!r} does not apply to any of the alternatives; leave it out")
+            known = "; ".join(note for a in found for note in a.notes)
+            raise LinkwrightError(
+                f"{each.name!r} does not apply to any of the alternatives: {known or 'leave it out'}"
+            )
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
 
@@ -242,7 +256,9 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
         if not weight >= 0.0 or weight == float("inf"):
             raise LinkwrightError(f"the weight of {name!r} is {weight}; give a number that is not negative")
         if known[name].better is None and weight > 0.0:
-            raise LinkwrightError(f"{name!r} has no better direction, so it cannot be weighted; leave its weight out")
+            raise LinkwrightError(
+                f"{name!r} has no better direction, so it cannot be weighted; leave its weight out"
+            )
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
         raise LinkwrightError("all weights are zero; give one metric a weight above zero")

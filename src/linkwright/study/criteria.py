@@ -11,9 +11,13 @@ from linkwright.errors import LinkwrightError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import nearest
-from linkwright.study.alternatives import Alternative
+from linkwright.study.alternatives import IDLE, Alternative
 from linkwright.study.summary import KINDS, wanted
 from linkwright.words import say
+
+
+class NoSuchSubject(LinkwrightError):
+    """A design number that is asked for a joint, link or output for which it has no value."""
 
 
 @dataclass(frozen=True)
@@ -57,18 +61,23 @@ def criterion(name: str) -> Criterion:
     """``peak_reaction``, ``peak_reaction O5``, ``flywheel``, or a summary such as ``driver.effort rms``."""
     if name in OWN:
         return OWN[name]
+    if is_summary(name):
+        return Criterion(name, _better(name), lambda each: _summary(each, name), True)
     metric, _, subject = name.partition(" ")
     if metric in METRICS:
         kind = METRICS[metric]
         return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
-    if name.rpartition(" ")[2] in KINDS or name.rpartition(".")[2] in KINDS:
-        return Criterion(name, _better(name), lambda each: _summary(each, name), True)
     known = [*OWN, *METRICS]
     offer = nearest(name, known)
     hint = f"did you mean {offer!r}?" if offer else f"known: {', '.join(known)}"
     raise LinkwrightError(
         f'there is no metric {name!r}; {hint} An output with a summary will do as well, such as "driver.effort rms"'
     )
+
+
+def is_summary(name: str) -> bool:
+    """Whether a metric is a summary of an output, ``driver.effort rms``."""
+    return any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
 
 
 def _better(name: str) -> str | None:
@@ -92,9 +101,11 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
         if subject and values:
             offer = nearest(subject, subjects)
             hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(subjects)}"
-            raise LinkwrightError(f"{metric.name!r} of {each.label!r} has no value for {subject!r}; {hint}")
+            raise NoSuchSubject(f"{metric.name!r} of {each.label!r} has no value for {subject!r}; {hint}")
         return None
     worst = _governing(found, metric)
+    if metric.name == "mean_power" and abs(worst.value) <= IDLE * np.abs(each.forces.power).max():
+        return Measured(0.0, worst.dimension)
     return Measured(worst.value, worst.dimension, worst.at)
 
 
@@ -115,7 +126,9 @@ def _summary(each: Alternative, name: str) -> Measured:
     """A summary of an output, from the program of sweeps."""
     from linkwright.study.designs import sweep
 
-    found = sweep(each.mechanism, {"gravity.x": [each.mechanism.gravity[0]]}, outputs=[name], steps=each.steps)
+    found = sweep(
+        each.mechanism, {"gravity.x": [each.mechanism.gravity[0]]}, outputs=[name], steps=each.steps
+    )
     summary = next(iter(found.summaries))
     if found.unloaded:
         raise LinkwrightError(found.unloaded[0])

@@ -69,7 +69,9 @@ class Sweep:
         """A summary (designs,), by output and kind."""
         (found, *more) = wanted([key])
         if found not in self.summaries or more:
-            raise LinkwrightError(f"{key!r} was not asked for; there is {', '.join(s.name for s in self.summaries)}")
+            raise LinkwrightError(
+                f"{key!r} was not asked for; there is {', '.join(s.name for s in self.summaries)}"
+            )
         return self.summaries[found]
 
     def columns(self) -> dict[str, Floats | Counts]:
@@ -99,7 +101,8 @@ class Sweep:
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())
-        return f"Sweep({self.mechanism.name!r}: {self.designs} designs, {kept} pass the cycle; {', '.join(self.columns())})"
+        names = ", ".join(self.columns())
+        return f"Sweep({self.mechanism.name!r}: {self.designs} designs, {kept} pass the cycle; {names})"
 
 
 def sweep(
@@ -193,7 +196,9 @@ class _Run:
         )
 
     def _input(self) -> Floats:
-        return next(iter(self.positions.coordinates.values()))[0] if self.positions.coordinates else np.zeros(1)
+        return (
+            next(iter(self.positions.coordinates.values()))[0] if self.positions.coordinates else np.zeros(1)
+        )
 
     def _block(self, part: Mapping[str, Floats], first: int) -> Results:
         if self.follow is not None:
@@ -226,5 +231,7 @@ class _Run:
 
 def with_values(mechanism: Mechanism, columns: Mapping[str, Floats], index: int) -> Mechanism:
     """One of the designs."""
-    changed = mechanism.with_dimensions({address: float(column[index]) for address, column in columns.items()})
+    changed = mechanism.with_dimensions(
+        {address: float(column[index]) for address, column in columns.items()}
+    )
     return replace(changed, name=mechanism.name)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.metrics.quantities import shown
+from linkwright.metrics.quantities import SHOWN, shown
+from linkwright.study.criteria import OWN
 from linkwright.study.text_table import aligned
 from linkwright.words import Say, speaker
 
@@ -16,6 +17,12 @@ if TYPE_CHECKING:
 #: Reasons given per alternative.
 REASONS = 3
 MARK = "*"
+
+
+def told(value: float, dimension: str) -> str:
+    """A value with its unit for a sentence: four digits, large numbers written out."""
+    size = abs(value) * SHOWN.get(dimension, ("", 1.0))[1]
+    return shown(value, dimension, 4 if size < 1e4 else 6)
 
 
 def report(comparison: Comparison, language: str) -> list[str]:
@@ -73,10 +80,10 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
     assert mine is not None and theirs is not None
     ratio = abs(mine.value / theirs.value) if theirs.value else float("inf")
     return say(
-        "compare.against",
+        "compare.against" if ratio < float("inf") else "compare.against_nothing",
         name=row.criterion.label(say("compare.language")),
-        mine=shown(mine.value, mine.dimension, 4),
-        theirs=shown(theirs.value, theirs.dimension, 4),
+        mine=told(mine.value, mine.dimension),
+        theirs=told(theirs.value, theirs.dimension),
         other=comparison.labels[winner],
         ratio=f"{ratio:.3g}",
     )
@@ -96,14 +103,16 @@ def _motion(comparison: Comparison, say: Say) -> str:
     for each in comparison.alternatives:
         angle = each.output.kind == "angle"
         travel, rate, second = each.travel()
+        exact = OWN["travel"].measure(each)
+        reach = float(np.ptp(travel)) if exact is None else exact.value
         parts.append(
             say(
                 "compare.motion_of",
                 label=each.label,
                 output=str(each.output),
-                travel=shown(float(np.ptp(travel)), "angle" if angle else "length", 4),
-                rate=shown(float(np.abs(rate).max()), "angular_velocity" if angle else "velocity", 4),
-                second=shown(float(np.abs(second).max()), "angular_acceleration" if angle else "acceleration", 4),
+                travel=told(reach, "angle" if angle else "length"),
+                rate=told(float(np.abs(rate).max()), "angular_velocity" if angle else "velocity"),
+                second=told(float(np.abs(second).max()), "angular_acceleration" if angle else "acceleration"),
             )
         )
     return say("compare.motion", parts=say("compare.semicolon").join(parts))
@@ -120,10 +129,10 @@ def _pivot(comparison: Comparison, say: Say) -> str:
                 "compare.pivot_of",
                 label=each.label,
                 joint=each.pivot[0],
-                most=shown(float(sizes.max()), "force", 4),
-                least=shown(float(sizes.min()), "force", 4),
-                direction=shown(float(np.arctan2(force[place, 1], force[place, 0])), "angle", 4),
-                at=shown(float(each.motion.input[place]), each.analysis.input_dimension, 4),
+                most=told(float(sizes.max()), "force"),
+                least=told(float(sizes.min()), "force"),
+                direction=told(float(np.arctan2(force[place, 1], force[place, 0])), "angle"),
+                at=told(float(each.motion.input[place]), each.analysis.input_dimension),
             )
         )
     return say("compare.pivot", parts=say("compare.semicolon").join(parts))
@@ -141,9 +150,9 @@ def _torque(comparison: Comparison, say: Say) -> str:
             say(
                 "compare.torque_of",
                 label=each.label,
-                low=shown(float(torque.min()), dimension, 4),
-                high=shown(float(torque.max()), dimension, 4),
-                root=shown(root, dimension, 4),
+                low=told(float(torque.min()), dimension),
+                high=told(float(torque.max()), dimension),
+                root=told(root, dimension),
                 gap=shown(gap, dimension, 2),
             )
         )
@@ -161,9 +170,9 @@ def _flywheel(comparison: Comparison, say: Say) -> list[str]:
             say(
                 "compare.flywheel_of",
                 label=each.label,
-                energy=shown(numbers["energy_fluctuation"], "energy", 4),
-                inertia=shown(each.running.flywheel, "inertia", 4),
-                power=shown(abs(numbers["mean_power"]), "power", 4),
+                energy=told(numbers["energy_fluctuation"], "energy"),
+                inertia=told(each.running.flywheel, "inertia"),
+                power=told(abs(numbers["mean_power"]), "power"),
             )
         )
     fluctuation = f"{comparison.fluctuation:g}"
@@ -178,7 +187,14 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
     language = say("compare.language")
     comma = say("compare.comma")
     names = [row.criterion.label(language) for row in comparison.judged if first.index in row.best]
-    lines = [say("compare.first", label=first.label, score=f"{100 * first.score:.0f}", names=comma.join(names) or "—")]
+    lines = [
+        say(
+            "compare.first",
+            label=first.label,
+            score=f"{100 * first.score:.0f}",
+            names=comma.join(names) or "—",
+        )
+    ]
     for rank in others:
         mine = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
         key = "compare.other" if mine else "compare.never"

@@ -65,7 +65,9 @@ def _by_group(
     """Each design under the group that fails at most of its positions."""
     traced = _traced(mechanism, columns, count)
     if traced.solver.motion.next_states:
-        groups = [g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states]
+        groups = [
+            g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states
+        ]
         sentence = sentence_of(traced, _changes(columns, 0))
         return [Failure(groups[0], "followed", numbers, sentence)]
     flags = traced.failure_flags()

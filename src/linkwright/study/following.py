@@ -42,7 +42,11 @@ class Following:
         self.ways: dict[int, _Way] = {}
 
     def block(
-        self, columns: Mapping[str, Floats], wanted: Sequence[Reduction], threads: int | None, backend: Backend
+        self,
+        columns: Mapping[str, Floats],
+        wanted: Sequence[Reduction],
+        threads: int | None,
+        backend: Backend,
     ) -> Results:
         """Reductions (designs,) of designs with the given columns."""
         results = self._way(self.finer).reduced(columns, wanted, threads, backend)
@@ -104,7 +108,11 @@ class _Way:
         return passed
 
     def reduced(
-        self, columns: Mapping[str, Floats], wanted: Sequence[Reduction], threads: int | None, backend: Backend
+        self,
+        columns: Mapping[str, Floats],
+        wanted: Sequence[Reduction],
+        threads: int | None,
+        backend: Backend,
     ) -> Results:
         start = {**start_states(self.asked, columns), "alive": np.ones(len(next(iter(columns.values()))))}
         found = engine_sweep(

@@ -22,12 +22,12 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import output_named
-from linkwright.loads.phases import MovingPhase, Stretch, SwingPhase, activity, outermost, stretches
+from linkwright.loads.phases import Stretch, activity, outermost, stretches
 from linkwright.loads.signals import Limit
 from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.model.expressions import Expression, array_functions
 from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output, Table
+from linkwright.model.signal_fields import MovingPhase, Output, SwingPhase, Table
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -184,7 +184,9 @@ class LoadSlopes:
         """Derivatives (n,) of an output at fixed input."""
         if output.kind == "angle":
             return self._between("frame", output.owner)
-        name = {"x": f"p:{self._key(output)}.x", "y": f"p:{self._key(output)}.y"}.get(output.kind, f"s:{output.owner}")
+        name = {"x": f"p:{self._key(output)}.x", "y": f"p:{self._key(output)}.y"}.get(
+            output.kind, f"s:{output.owner}"
+        )
         values = self._forward({"value": name}, self.traced.positions)
         return {by: _slope(values, "value", by, self.count) for by in self.by}
 
@@ -224,7 +226,9 @@ class LoadSlopes:
         if expression is None or address in self.by:
             return 0.0
         values = self.mechanism.dimensions()
-        return sum(expression.diff(name).evaluate(values) * self._own(name, by) for name in expression.names)
+        return float(
+            sum(expression.diff(name).evaluate(values) * self._own(name, by) for name in expression.names)
+        )
 
 
 def _slope(values: Mapping[str, Floats], name: str, by: str, count: int) -> Floats:

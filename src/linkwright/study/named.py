@@ -21,9 +21,17 @@ from linkwright.structure.group import Group
 
 Floats = NDArray[np.float64]
 
-POINT_PARTS = {"position": ("p", "length"), "velocity": ("v", "velocity"), "acceleration": ("a", "acceleration")}
+POINT_PARTS = {
+    "position": ("p", "length"),
+    "velocity": ("v", "velocity"),
+    "acceleration": ("a", "acceleration"),
+}
 LINK_PARTS = {"angular_velocity": "w", "angular_acceleration": "g"}
-SLIDE_PARTS = {"displacement": ("s", "length"), "velocity": ("sv", "velocity"), "acceleration": ("sa", "acceleration")}
+SLIDE_PARTS = {
+    "displacement": ("s", "length"),
+    "velocity": ("sv", "velocity"),
+    "acceleration": ("sa", "acceleration"),
+}
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,10 @@ class Overlay:
 
 def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
     """Output, its rates, pivot reaction with its hodograph, input torque."""
-    found = [_motion(alternatives, name, place) for place, name in enumerate(("travel", "velocity", "acceleration"))]
+    found = [
+        _motion(alternatives, name, place)
+        for place, name in enumerate(("travel", "velocity", "acceleration"))
+    ]
     if any(each.loaded for each in alternatives):
         sizes = {a.label: (_passed(a), np.hypot(*a.pivot_force.T)) for a in alternatives}
         hodograph = {a.label: (a.pivot_force[:, 0], a.pivot_force[:, 1]) for a in alternatives}
@@ -43,11 +46,15 @@ def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
 
 def _motion(alternatives: Sequence[Alternative], name: str, place: int) -> Overlay:
     turning = all(each.output.kind == "angle" for each in alternatives)
-    kinds = ("angle", "angular_velocity", "angular_acceleration") if turning else ("length", "velocity", "acceleration")
+    kinds = (
+        ("angle", "angular_velocity", "angular_acceleration")
+        if turning
+        else ("length", "velocity", "acceleration")
+    )
     return Overlay(name, kinds[place], {a.label: (_passed(a), a.travel()[place]) for a in alternatives})
 
 
 def _passed(alternative: Alternative) -> Floats:
     """How far the input has gone since the cycle began."""
     q = alternative.motion.input
-    return np.abs(q - q[0])
+    return np.asarray(np.abs(q - q[0]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
@@ -16,7 +16,7 @@ from linkwright.kinematics.explain import refusal
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.named import Quantity
 from linkwright.study.slopes import Slopes
-from linkwright.study.summary import KINDS, Summary
+from linkwright.study.summary import Summary
 from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses
 
@@ -83,12 +83,14 @@ class Sensitivity:
         table = {"value": np.array(list(self.values.values()))}
         table |= {by: np.array([row[i] for row in self.gradients.values()]) for i, by in enumerate(self.by)}
         frame = dataframe(table)
-        frame.index = [summary.name for summary in self.gradients]  # type: ignore[assignment]
+        frame.index = [summary.name for summary in self.gradients]
         return frame
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise LinkwrightError(f"no curve of {output!r} was asked for; there is {', '.join(self.curves) or 'none'}")
+            raise LinkwrightError(
+                f"no curve of {output!r} was asked for; there is {', '.join(self.curves) or 'none'}"
+            )
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
@@ -133,7 +135,9 @@ def sensitivity(
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
-        raise LinkwrightError("no dimension is given to differentiate by; name some, such as by=['crank.length']")
+        raise LinkwrightError(
+            "no dimension is given to differentiate by; name some, such as by=['crank.length']"
+        )
     _refuse_input(dimensions)
     asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
     if not asked:
@@ -153,7 +157,9 @@ def split(each: str | tuple[str, str]) -> str | Summary:
     if len(found) == 2 and output is not None:
         return output
     if found[0].kind in ("argmin", "argmax"):
-        raise LinkwrightError(f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme")
+        raise LinkwrightError(
+            f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme"
+        )
     return found[0]
 
 
@@ -201,16 +207,7 @@ class _Derivation:
 
     def _value(self, summary: Summary) -> float:
         curve = self._curve(summary.output)
-        found = {
-            "mean": lambda: curve.mean(),
-            "rms": lambda: np.sqrt((curve * curve).mean()),
-            "min": lambda: curve.min(),
-            "max": lambda: curve.max(),
-            "range": lambda: np.ptp(curve),
-            "peak": lambda: np.abs(curve).max(),
-        }
-        assert summary.kind in KINDS
-        return float(found[summary.kind]())
+        return float(_SUMMARIES[summary.kind](curve))
 
     def _gradient(self, summary: Summary) -> Floats:
         """Derivatives of a summary, as a weighted sum of those at the positions."""
@@ -239,3 +236,17 @@ class _Derivation:
         if summary.kind in ("min", "range"):
             weights[int(curve.argmin())] -= 1.0 if summary.kind == "range" else -1.0
         return weights
+
+
+def _range(curve: Floats) -> float:
+    return float(curve.max() - curve.min())
+
+
+_SUMMARIES: Mapping[str, Callable[[Floats], float]] = {
+    "mean": lambda curve: float(curve.mean()),
+    "rms": lambda curve: float(np.sqrt((curve * curve).mean())),
+    "min": lambda curve: float(curve.min()),
+    "max": lambda curve: float(curve.max()),
+    "range": _range,
+    "peak": lambda curve: float(np.abs(curve).max()),
+}

@@ -91,7 +91,9 @@ class Slopes:
         table = np.array([[nominal[each] for each in gradient.parameters]])
         known = {each: self.inputs[each] for each in program.fields}
         fields = {each: row[None, :] for each, row in {**known, f"seed:{name}": seeds}.items()}
-        return gradient.evaluate(table, self.traced.positions.arrays, fields, backend=self.backend)[1][0]
+        return np.array(
+            gradient.evaluate(table, self.traced.positions.arrays, fields, backend=self.backend)[1][0]
+        )
 
     def _forward(self, name: str) -> tuple[Floats, Floats]:
         """Carrier (n,) and its derivatives (dimensions, n)."""
@@ -130,5 +132,7 @@ class Slopes:
             if compiled is None:
                 raise LinkwrightError("llvmlite cannot be loaded: install it, or use the numpy back end")
             rows = {name: row[None, :] for name, row in inputs.items()}
-            return np.array(compiled.store(numbers[None, :], arrays, rows, length=self.traced.positions.count)[0])
+            return np.array(
+                compiled.store(numbers[None, :], arrays, rows, length=self.traced.positions.count)[0]
+            )
         return NumpyProgram(program).run(numbers, arrays, inputs, length=self.traced.positions.count)

@@ -93,13 +93,18 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
 
 
 def finished(
-    summary: Summary, quantity: Quantity, results: Mapping[str, NDArray[np.float64] | NDArray[np.int64]], input_: Floats
+    summary: Summary,
+    quantity: Quantity,
+    results: Mapping[str, NDArray[np.float64] | NDArray[np.int64]],
+    input_: Floats,
 ) -> Floats:
     """The summary (designs,) from the engine's reductions; NaN where no position counts."""
     if summary.kind in ("argmin", "argmax"):
         place = np.asarray(results[f"{summary.output}.{summary.kind}"], dtype=np.int64)
         return np.where(place >= 0, input_[np.maximum(place, 0)], np.nan)
-    parts = [quantity.shown(np.asarray(results[f"{summary.output}.{k}"], dtype=float)) for k in KINDS[summary.kind]]
+    parts = [
+        quantity.shown(np.asarray(results[f"{summary.output}.{k}"], dtype=float)) for k in KINDS[summary.kind]
+    ]
     if summary.kind == "range":
         return np.asarray(parts[1] - parts[0])
     if summary.kind == "peak":

@@ -91,7 +91,7 @@ class Traced:
         for name, placed in motion.placed.items():
             if placed.valid is True:
                 continue
-            bad = logic("and", before, ~placed.valid)
+            bad = logic("and", before, _not(placed.valid))
             flags[f"out:{name}"] = select(logic("and", bad, _not(placed.reached)), 1.0, 0.0)
             flags[f"singular:{name}"] = select(logic("and", bad, placed.reached), 1.0, 0.0)
             before = logic("and", before, placed.valid)

@@ -24,7 +24,9 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
         if address not in known:
             offer = nearest(address, known)
             hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(list(known)[:6])}"
-            raise LinkwrightError(f"there is no dimension or parameter {address!r} in {mechanism.name!r}; {hint}")
+            raise LinkwrightError(
+                f"there is no dimension or parameter {address!r} in {mechanism.name!r}; {hint}"
+            )
     return wanted
 
 
@@ -38,15 +40,21 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     checked_addresses(mechanism, vary)
     if not vary:
         raise LinkwrightError('nothing varies; give dimensions with their values: {"crank.length": values}')
-    columns = {address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()}
+    columns = {
+        address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()
+    }
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise LinkwrightError(f"the values of {address} have the shape {column.shape}; give one per design")
+            raise LinkwrightError(
+                f"the values of {address} have the shape {column.shape}; give one per design"
+            )
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
-        raise LinkwrightError(f"the dimensions have different numbers of values ({told}); give one per design each")
+        raise LinkwrightError(
+            f"the dimensions have different numbers of values ({told}); give one per design each"
+        )
     count = lengths.pop() if lengths else 1
     return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
 

@@ -8,15 +8,17 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
+from linkwright.model.mechanism import Link
 from linkwright.structure.group import TreeJoint
 from linkwright.words import Say
-from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, number, symbol
+from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,8 @@ class Book:
     def angle_of(self, link: str) -> float:
         """Angle of a link's x axis, degrees, -180 to 180."""
         x, y = self.motion.link(link).direction[self.index]
-        return math.degrees(math.atan2(y, x))
+        angle = math.degrees(math.atan2(y, x))
+        return 180.0 if angle < 1e-10 - 180.0 else angle
 
     def turn(self, link: str) -> Term:
         """φ of a link; nothing for the frame."""
@@ -71,8 +74,8 @@ class Book:
         return self._rate(link, "ω", r"\omega", "angular_velocity")
 
     def alpha(self, link: str) -> Term:
-        """α of a link."""
-        return self._rate(link, "α", r"\alpha", "angular_acceleration")
+        """α of a link; nothing where a constant speed drives it."""
+        return ZERO if link in self.steady else self._rate(link, "α", r"\alpha", "angular_acceleration")
 
     def _rate(self, link: str, plain: str, latex: str, name: str) -> Term:
         if link in self.resting:
@@ -93,13 +96,34 @@ class Book:
             found |= set(self.mechanism.links)
         return frozenset(found)
 
+    @cached_property
+    def steady(self) -> frozenset[str]:
+        """Links that turn at constant speed by their drivers."""
+        found = set(self.resting)
+        for _ in self.mechanism.links:
+            for driver in self.mechanism.drivers.values():
+                turning = isinstance(self.mechanism.joints[driver.joint], RevoluteJoint)
+                ends = {driver.link, driver.relative_to}
+                if turning and isinstance(driver.law, ConstantSpeed) and found & ends:
+                    found |= ends
+            for joint in self.mechanism.joints.values():
+                if not isinstance(joint, RevoluteJoint) and found & set(joint.joined):
+                    found |= set(joint.joined)
+        return frozenset(found)
+
     # points -------------------------------------------------------------------------------
     def spot(self, link: str, point: str) -> Spot:
         """A point of a link; ``@centre`` is its mass centre."""
+        point = self.centre_name(link) if point == "@centre" else point
         key = f"{link}.@centre" if point == "@centre" else canonical(self.mechanism, link, point)
         if key not in self._spots:
             self._spots[key] = self._make(key, link, point)
         return self._spots[key]
+
+    def centre_name(self, link: str) -> str:
+        """The point in which a link's mass centre lies, else ``@centre``."""
+        part = self.mechanism.link(link)
+        return next((name for name, place in part.points.items() if place == part.centre), "@centre")
 
     def _make(self, key: str, link: str, point: str) -> Spot:
         label = self._label(key, link, point)
@@ -107,19 +131,23 @@ class Book:
         fixed = link == "frame" or (isinstance(joint, RevoluteJoint) and "frame" in joint.links)
         if fixed:
             x, y = self.mechanism.frame.points[point]
-            return Spot(key, label, Pair(*self._coordinates(label, x, y)), NOWHERE, NOWHERE, True)
+            known = (t if t.amount else ZERO for t in self._coordinates(label, x, y))
+            return Spot(key, label, Pair(*known), NOWHERE, NOWHERE, True)
         at = self.motion.point_of(key)
         place = Pair(*self._coordinates(label, *at.position[self.index]))
         if not self.mechanism.drivers:
             return Spot(key, label, place, NOWHERE, NOWHERE, False)
-        rates = [
-            Pair(*(symbol(f"{letter}_{label}{c}", rf"{letter}_{{{tex(label)}{c}}}", float(v)) for c, v in parts))
-            for letter, parts in (
-                ("v", zip("xy", at.velocity[self.index], strict=True)),
-                ("a", zip("xy", at.acceleration[self.index], strict=True)),
-            )
-        ]
-        return Spot(key, label, place, rates[0], rates[1], False)
+        velocity = self._components("v", label, *at.velocity[self.index])
+        acceleration = self._components("a", label, *at.acceleration[self.index])
+        return Spot(key, label, place, velocity, acceleration, False)
+
+    @staticmethod
+    def _components(letter: str, label: str, x: float, y: float) -> Pair:
+        named = (
+            symbol(f"{letter}_{label}{c}", f"{letter}_{{{tex(label)}{c}}}", float(v))
+            for c, v in (("x", x), ("y", y))
+        )
+        return Pair(*named)
 
     @staticmethod
     def _coordinates(label: str, x: float, y: float) -> list[Term]:
@@ -136,7 +164,7 @@ class Book:
         return point if len(owners) == 1 else key
 
     @cached_property
-    def _links(self) -> list[object]:
+    def _links(self) -> list[Link]:
         return [self.mechanism.frame, *self.mechanism.links.values()]
 
     def local(self, link: str, point: str) -> complex:
@@ -150,9 +178,12 @@ class Book:
         a, b = (self.spot(link, name).label for name in (start, end))
         size = abs(d)
         found = []
-        for letter, value in (("u", d.real), ("w", d.imag)):
+        straight = abs(d.imag) <= 1e-14 * size and d.real > 0.0
+        for letter, value in (("l" if straight else "u", d.real), ("w", d.imag)):
             zero = abs(value) <= 1e-14 * size
-            found.append(ZERO if zero else symbol(f"{letter}_{a}{b}", rf"{letter}_{{{tex(a)}{tex(b)}}}", value))
+            found.append(
+                ZERO if zero else symbol(f"{letter}_{a}{b}", rf"{letter}_{{{tex(a)}{tex(b)}}}", value)
+            )
         return Pair(*found)
 
     # guides and drivers -------------------------------------------------------------------
@@ -166,6 +197,9 @@ class Book:
         terms = []
         for c, value in (("x", along.real), ("y", along.imag)):
             level = prismatic.guide in self.resting and abs(value) < 1e-15
+            if prismatic.guide in self.resting and value == 1.0:
+                terms.append(ONE)
+                continue
             terms.append(ZERO if level else symbol(f"n_{joint},{c}", rf"n_{{{tex(joint)},{c}}}", value))
         moves = bool(self.mechanism.drivers)
         rates = [

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot
-from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term
+from linkwright.worked.terms import NOWHERE, TWO, Pair, Term
 
 
 @dataclass
@@ -74,7 +74,7 @@ def walk(book: Book, group: Group, end: str, tip: Spot, point: str) -> Chain:
     if not steps:
         base = book.spot(end, point)
         pieces = [] if base.key == tip.key else [Piece(end, base, tip)]
-        return Chain(base, pieces, [], [], [False])
+        return Chain(base, pieces, [], [], [False] * len(pieces))
     base = book.spot(steps[0].parent, attach(steps[0], steps[0].parent, book))
     chain = Chain(base, [], [], [], [])
     here, link, slides = base, steps[0].parent, []
@@ -100,14 +100,12 @@ def _close(chain: Chain, piece: Piece) -> None:
 
 def _end_turns(chain: Chain) -> None:
     """Every pin's part ends at the next free pin."""
-    order = [turn.step for turn in chain.free]
     for i, turn in enumerate(chain.free[:-1]):
         turn.tip = chain.free[i + 1].pivot
     for turn in chain.driven:
         later = [free for free in chain.free if _after(chain, turn, free)]
         if later:
             turn.tip = later[0].pivot
-    assert len(order) == len(chain.free)
 
 
 def _after(chain: Chain, turn: Turn, free: Turn) -> bool:
@@ -161,18 +159,12 @@ def bends(chain: Chain, book: Book) -> list[Drift]:
     for turn, _, second in _driven(chain, book):
         found.append(Drift("driven_turn", turn.pivot.label, turn.arm.perp.times(second)))
     for step, slide, sign, link in chain.slides():
-        factor = _two(book.omega(link) * slide.rate)
+        factor = TWO * book.omega(link) * slide.rate
         found.append(Drift("coriolis", step.joint, slide.along.perp.times(factor if sign > 0 else -factor)))
         if not step.free:
             second = slide.second if sign > 0 else -slide.second
             found.append(Drift("driven_slide", step.joint, slide.along.times(second)))
     return [each for each in found if not (each.vector.x.is_zero and each.vector.y.is_zero)]
-
-
-def _two(term: Term) -> Term:
-    from linkwright.worked.terms import TWO
-
-    return TWO * term
 
 
 def _driven(chain: Chain, book: Book) -> Iterator[tuple[Turn, Term, Term]]:
@@ -250,6 +242,3 @@ def unknown_names(book: Book, group: Group, order: int) -> list[Term]:
         else:
             found.append(book.omega(step.child) if order == 1 else book.alpha(step.child))
     return found
-
-
-__all__ = ["ONE", "ZERO", "Chain", "Closure", "Drift", "bends", "closures", "drift", "matrix", "unknown_names", "walk"]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
-from linkwright.worked.terms import Term
+from linkwright.worked.terms import NOTHING, Term
 
 #: Significant digits of a result, and the least and most of a number put in.
 RESULT, LEAST, MOST = 6, 6, 15
@@ -25,9 +26,15 @@ def rounded(value: float, digits: int) -> str:
 
 def put_in(term: Term, digits: int) -> str:
     """How a symbol's or a number's value is printed."""
+    if abs(term.amount) < NOTHING:
+        return "0" + ("°" if term.degrees else "")
     if term.op == "number":
         return rounded(term.amount, MOST) + ("°" if term.degrees else "")
     return rounded(term.amount, digits) + ("°" if term.degrees else "")
+
+
+def _as_put_in(leaf: Term, digits: int) -> float:
+    return float(put_in(leaf, digits).rstrip("°"))
 
 
 def last_place(value: float, error: float = 0.0) -> int:
@@ -40,7 +47,7 @@ def last_place(value: float, error: float = 0.0) -> int:
 
 def printed(value: float, place: int) -> str:
     """A result to the digit of ``10**place``."""
-    if abs(value) < 0.5 * 10.0**place:
+    if abs(value) < max(0.5 * 10.0**place, NOTHING):
         return "0"
     exponent = math.floor(math.log10(abs(value)))
     if exponent >= 7 or exponent < -4 or place > 0:
@@ -63,7 +70,11 @@ def error_of(term: Term) -> float:
             whole = math.prod(values)
             return sum(e * _share(whole, values, i) for i, e in enumerate(errors))
         case "quotient":
-            return (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1]) if values[1] else math.inf
+            return (
+                (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1])
+                if values[1]
+                else math.inf
+            )
         case "square":
             return 2.0 * abs(values[0]) * errors[0]
         case "root":
@@ -85,7 +96,7 @@ def digits_needed(term: Term, goal: str, place: int) -> int:
     """The fewest digits of the numbers put in with which the term comes out as printed, within its last digit."""
     aim, step = float(goal), 10.0**place
     for digits in range(LEAST, MOST + 1):
-        found = term.reckon(lambda leaf, n=digits: float(put_in(leaf, n).rstrip("°")))
+        found = term.reckon(partial(_as_put_in, digits=digits))
         if abs(found - aim) <= 0.98 * step:
             return digits
     return MOST

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
-from linkwright.worked.terms import Term
+from linkwright.worked.terms import Pair, Term, symbol
 
 
 @dataclass(frozen=True)
@@ -104,6 +104,14 @@ class Step:
         self.items.append(_equation(result, formula, unit, column))
         return result
 
+    def find_pair(self, names: tuple[str, str], values: complex, formula: Pair, column: str) -> Pair:
+        """Adds both components of a force; ``names``: plain, and LaTeX with its subscript still open."""
+        found = []
+        for c, value, part in (("x", values.real, formula.x), ("y", values.imag, formula.y)):
+            term = symbol(f"{names[0]}{c}", f"{names[1]}{c}}}", value)
+            found.append(self.find(term, part, "N", f"{column}.{c} [N]" if column else ""))
+        return Pair(found[0], found[1])
+
     def give(self, result: Term, unit: str, column: str = "") -> Term:
         """Adds what is known beforehand."""
         value, mark = result.amount, "°" if result.degrees else ""
@@ -123,11 +131,12 @@ def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
     place = last_place(value, error_of(formula))
     text = printed(value, place)
     digits = digits_needed(formula, text, place if text != "0" else max(place, -6))
-    known = formula.op == "symbol" and put_in(formula, digits).rstrip("°") == text
-    numbers, tex = ("", "") if known or not formula.args else (plain(formula, digits), latex(formula, digits))
-    if formula.op == "symbol" and not known:
-        numbers, tex = plain(formula, digits), latex(formula, digits)
+    shown = (plain(formula), latex(formula), plain(formula, digits), latex(formula, digits))
+    if formula.op == "number":
+        shown = ("", "", "", "")
+    elif formula.op == "symbol" and put_in(formula, digits).rstrip("°") == text:
+        shown = (shown[0], shown[1], "", "")
     return Equation(
-        plain(result), latex(result), plain(formula), latex(formula), numbers, tex, text,
+        plain(result), latex(result), *shown, text,
         "°" if result.degrees else unit, value, column,
     )  # fmt: skip

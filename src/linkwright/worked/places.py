@@ -9,13 +9,26 @@ from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.kinematics.groups import chain_unknowns, dyad_shape
+from linkwright.kinematics.groups import dyad_shape
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot, tex
 from linkwright.worked.chains import attach
 from linkwright.worked.page import Step
-from linkwright.worked.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, cosine, direction, root, sine, symbol
-from linkwright.worked.trail import Trail, trail, turned
+from linkwright.worked.terms import (
+    FOUR,
+    NOWHERE,
+    TWO,
+    ZERO,
+    Pair,
+    Term,
+    cosine,
+    direction,
+    number,
+    root,
+    sine,
+    symbol,
+)
+from linkwright.worked.trail import Trail, trail
 
 
 class Places:
@@ -26,6 +39,7 @@ class Places:
         self.known: set[str] = set()
         self.angles: set[str] = {"frame"}
         self.guides: set[str] = set()
+        self.slid: set[str] = set()
 
     # pieces that every group needs --------------------------------------------------------
     def point(self, step: Step, spot: Spot, formula: Pair) -> None:
@@ -45,7 +59,11 @@ class Places:
         """Notes the angle of a link."""
         if link not in self.angles:
             self.angles.add(link)
-            step.find(self.book.turn(link), formula, "°", f"{link}.angle [rad]")
+            turn = self.book.turn(link)
+            rounds = round((turn.amount - formula.value) / 360.0)
+            turns = number(360.0 * abs(rounds), degrees=True)
+            formula = formula - turns if rounds < 0 else formula + turns
+            step.find(turn, formula, "°", f"{link}.angle [rad]")
 
     def follow(self, step: Step, joint: TreeJoint) -> None:
         """The angle of a link that a guide, a weld or a driver turns, from that of its parent."""
@@ -67,7 +85,7 @@ class Places:
             self.guides.add(joint)
             turn = self.book.turn(prismatic.guide) + self.book.degrees(self._own_angle(prismatic))
             for term, part in ((slide.along.x, cosine(turn)), (slide.along.y, sine(turn))):
-                if not term.is_zero:
+                if term.op == "symbol":
                     step.find(term, part, "")
         return slide
 
@@ -78,11 +96,17 @@ class Places:
 
     def displacement(self, step: Step, slide: Slide, formula: Term) -> None:
         """Notes the displacement of a block."""
+        if slide.joint in self.slid:
+            return
+        self.slid.add(slide.joint)
         step.find(slide.s, formula, "m", f"{slide.joint}.displacement [m]")
 
     # a group --------------------------------------------------------------------------------
     def place(self, step: Step, group: Group) -> None:
         """Positions of a group's links and of all their points."""
+        for joint in group.tree:
+            if joint.kind == "prismatic" and joint.driver is not None:
+                self.displacement(step, self.book.slide(joint.joint), self.book.drive(joint.driver)[0])
         shape = dyad_shape(group) if group.unknowns else None
         if shape is not None and self._plain(group, shape[1]):
             self._dyad(step, group, *shape)
@@ -138,7 +162,10 @@ class Places:
         ahead, aside = reach.x, reach.y
         size = symbol(f"l_{sub}", f"l_{{{tex(sub)}}}", math.hypot(ahead.value, aside.value))
         if aside.is_zero and ahead.op == "symbol":
-            step.give(size, "m")
+            if ahead.plain[:2] in ("l_", "u_"):
+                step.give(size, "m")
+            else:
+                step.find(size, ahead if ahead.amount > 0 else -ahead, "m")
             return size, ZERO if ahead.amount > 0 else self.book.degrees(math.pi)
         parts = []
         for name, part in (("u", ahead), ("w", aside)):
@@ -263,17 +290,9 @@ class Places:
     def _newton(self, step: Step, group: Group) -> None:
         """The unknowns that Newton's method found; the closure is checked once all points are placed."""
         step.say(self.book.say("worked.newton", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
-        for joint in chain_order(group):
+        for joint in group.unknowns:
             if joint.kind == "prismatic":
                 step.give(self.book.slide(joint.joint).s, "m", f"{joint.joint}.displacement [m]")
             else:
                 self.angles.add(joint.child)
                 step.give(self.book.turn(joint.child), "°", f"{joint.child}.angle [rad]")
-
-
-def chain_order(group: Group) -> tuple[TreeJoint, ...]:
-    """The unknown joints of a group."""
-    return group.unknowns
-
-
-__all__ = ["Places", "chain_unknowns", "turned"]

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.structure.group import Group, TreeJoint
-from linkwright.worked.book import Book, Spot
-from linkwright.worked.chains import attach, closures
+from linkwright.worked.book import Book, Slide, Spot
+from linkwright.worked.chains import attach
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
-from linkwright.worked.terms import TWO, Pair, number, symbol
+from linkwright.worked.terms import TWO, Pair, Term, number, symbol
 from linkwright.worked.trail import turned
 
 
@@ -19,7 +19,7 @@ def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:
     part = book.mechanism.links[link]
     for point in part.points:
         yield point, book.spot(link, point)
-    if part.mass:
+    if part.mass and book.centre_name(link) == "@centre":
         yield "@centre", book.spot(link, "@centre")
 
 
@@ -59,6 +59,21 @@ def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
     return held.place + shift if joint.child == prismatic.block else held.place - shift
 
 
+def cut_displacements(book: Book, places: Places, step: Step, group: Group) -> None:
+    """Displacements of the guides at which a group was cut."""
+    for cut in group.cuts:
+        if cut.kind == "prismatic":
+            slide = places.guide(step, cut.joint)
+            held, block = _guide_ends(book, cut.joint)
+            places.displacement(step, slide, slide.along.dot(block.place - held.place))
+
+
+def _guide_ends(book: Book, joint: str) -> tuple[Spot, Spot]:
+    prismatic = book.mechanism.joints[joint]
+    assert isinstance(prismatic, PrismaticJoint)
+    return book.spot(prismatic.guide, prismatic.through), book.spot(prismatic.block, prismatic.at)
+
+
 def check_closure(book: Book, step: Step, group: Group) -> None:
     """What is left of the closure equations with the numbers put in: zero but for rounding."""
     step.say(book.say("worked.closure_check"))
@@ -70,7 +85,7 @@ def check_closure(book: Book, step: Step, group: Group) -> None:
             base = book.spot(end, at)
             arm = turned(book.arm(end, at, name), book.turn(end)) if end != "frame" else None
             spot = book.spot(end, name)
-            ends.append(spot.place if arm is None or spot.fixed and end == "frame" else base.place + arm)
+            ends.append(spot.place if arm is None or (spot.fixed and end == "frame") else base.place + arm)
         gap = ends[0] - ends[1]
         if cut.kind == "revolute":
             rows = (("x", gap.x), ("y", gap.y))
@@ -120,7 +135,39 @@ class Movers:
             self._note(step, start, formula, known, second=second)
             for point, spot in named_points(book, joint.child):
                 if point != own:
-                    self._note(step, spot, self._carried(joint.child, start, spot, second=second), known, second=second)
+                    self._note(
+                        step,
+                        spot,
+                        self._carried(joint.child, start, spot, second=second),
+                        known,
+                        second=second,
+                    )
+
+        self._guides(step, group, second=second)
+
+    def _guides(self, step: Step, group: Group, *, second: bool) -> None:
+        """Rates of driven guides, and of the guides at which the group was cut."""
+        book = self.book
+        for cut in group.cuts:
+            if cut.kind != "prismatic":
+                continue
+            slide = book.slide(cut.joint)
+            held, block = _guide_ends(book, cut.joint)
+            motion = block.acceleration if second else block.velocity
+            carried = self._carried(cut.a, held, block, second=second)
+            self._guide(step, slide, slide.along.dot(motion - carried), second=second)
+
+    def driven_guides(self, step: Step, group: Group, *, second: bool) -> None:
+        """Rates of driven guides, which everything else in the group follows."""
+        for joint in group.tree:
+            if joint.kind == "prismatic" and joint.driver is not None:
+                given = self.book.drive(joint.driver)[2 if second else 1]
+                self._guide(step, self.book.slide(joint.joint), given, second=second)
+
+    @staticmethod
+    def _guide(step: Step, slide: Slide, formula: Term, *, second: bool) -> None:
+        kind, unit = ("acceleration", "m/s²") if second else ("velocity", "m/s")
+        step.find(slide.second if second else slide.rate, formula, unit, f"{slide.joint}.{kind} [{unit}]")
 
     def _note(self, step: Step, spot: Spot, formula: Pair, known: set[str], *, second: bool) -> None:
         if spot.key in known or spot.fixed:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.structure.group import Group
-from linkwright.worked.book import Book
-from linkwright.worked.chains import Closure, bends, closures, drift, matrix, unknown_names
+from linkwright.worked.book import Book, tex
+from linkwright.worked.chains import Closure, bends, drift, matrix, unknown_names
 from linkwright.worked.page import Step
 from linkwright.worked.terms import TWO, ZERO, Pair, Term, symbol, total
 
@@ -80,7 +80,11 @@ class RateWriter:
             names = unknown_names(book, group, 1)
             self._relations(step, group, cuts, names, second=False)
             system = name_matrix(step, group, cuts)
-            gaps = [-row for c in cuts for row in c.rows(c.joined((drift(c.chains[0], book), drift(c.chains[1], book))))]
+            gaps = [
+                -row
+                for c in cuts
+                for row in c.rows(c.joined((drift(c.chains[0], book), drift(c.chains[1], book))))
+            ]
             right = self._right(step, gaps, "b", "m/s")
             solve(step, book, system, names, right, *self._labels(group, second=False))
         self.links(step, group, second=False, before=False)
@@ -103,7 +107,11 @@ class RateWriter:
         self, step: Step, group: Group, cuts: list[Closure], names: list[Term], *, second: bool
     ) -> None:
         joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts))
-        step.say(self.book.say("worked.acceleration_closure" if second else "worked.velocity_closure", joints=joints))
+        step.say(
+            self.book.say(
+                "worked.acceleration_closure" if second else "worked.velocity_closure", joints=joints
+            )
+        )
         letter = "c" if second else "b"
         for i, row in enumerate(matrix(group, cuts), 1):
             entries = [
@@ -115,6 +123,7 @@ class RateWriter:
 
     def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
         found = []
+        step.say(self.book.say("worked.right_sides"))
         for i, gap in enumerate(gaps, 1):
             term = symbol(f"{letter}{i}", f"{letter}_{{{i}}}", gap.value)
             if gap.is_zero:
@@ -123,6 +132,11 @@ class RateWriter:
             else:
                 found.append(step.find(term, gap, unit))
         return found
+
+    def _drift(self, closure: Closure) -> list[Term]:
+        """Known part of the velocity of one end against the other."""
+        first, second = (drift(chain, self.book) for chain in closure.chains)
+        return closure.rows(closure.joined((first, second)))
 
     def _bend(self, step: Step, closure: Closure) -> list[Term]:
         """Notes the known parts of the accelerations of both ends; gives the rows of their difference."""
@@ -133,7 +147,9 @@ class RateWriter:
                 if part.kind == "base":
                     total_here = total_here + part.vector
                     continue
-                total_here = total_here + self._part(step, part.kind, part.label, part.vector, closure, number)
+                total_here = total_here + self._part(
+                    step, part.kind, part.label, part.vector, closure, number
+                )
             ends.append(total_here)
         rows = closure.rows(closure.joined((ends[0], ends[1])))
         if closure.across is None:
@@ -149,7 +165,8 @@ class RateWriter:
             if part.is_zero:
                 found.append(ZERO)
                 continue
-            term = symbol(f"a{mark}_{label},{c}", rf"a^{{{mark}}}_{{\mathrm{{{label}}},{c}}}".replace("_m", r"\_m"), part.value)
+            plain, latex = f"a{mark}_{label},{c}", f"a^{{{mark}}}_{{{tex(label)},{c}}}"
+            term = symbol(plain, latex, part.value)
             found.append(step.find(term, part, "m/s²"))
         return Pair(found[0], found[1])
 
@@ -161,7 +178,9 @@ class RateWriter:
                 columns.append(f"{joint.joint}.{'acceleration' if second else 'velocity'} [{units[-1]}]")
             else:
                 units.append("rad/s²" if second else "rad/s")
-                columns.append(f"{joint.child}.angular_{'acceleration' if second else 'velocity'} [{units[-1]}]")
+                columns.append(
+                    f"{joint.child}.angular_{'acceleration' if second else 'velocity'} [{units[-1]}]"
+                )
                 self.written.add(f"{joint.child}{second}")
         return units, columns
 
@@ -185,6 +204,3 @@ class RateWriter:
                 name = "angular_acceleration" if second else "angular_velocity"
                 unit = "rad/s²" if second else "rad/s"
                 step.find(rate(joint.child), formula, unit, f"{joint.child}.{name} [{unit}]")
-
-
-__all__ = ["RateWriter", "System", "closures", "name_matrix", "solve"]

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.groups import dyad_shape
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
-from linkwright.words import LANGUAGES, Say, speaker
+from linkwright.words import LANGUAGES, speaker
 from linkwright.worked.book import Book
 from linkwright.worked.chains import closures
 from linkwright.worked.page import Equation, Step
 from linkwright.worked.places import Places
-from linkwright.worked.points import Movers, check_closure, place_points
+from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked.rates import RateWriter, System
 from linkwright.worked.text import page
 
@@ -97,7 +97,9 @@ def worked(
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
     mechanism = source.mechanism
     if not mechanism.drivers:
-        raise LinkwrightError(f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out")
+        raise LinkwrightError(
+            f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out"
+        )
     motion = solve_motion(mechanism, at=np.array([at]))
     return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
 
@@ -157,25 +159,21 @@ class _Kinematics:
         places = Step(f"{number}.1", say("worked.positions"), name)
         self.places.place(places, group)
         place_points(self.book, self.places, places, group)
-        if any("newton" in str(self._kind(group)) for _ in (0,)):
+        cut_displacements(self.book, self.places, places, group)
+        if group.unknowns and dyad_shape(group) is None:
             check_closure(self.book, places, group)
         if not moving:
             return [head, places]
         cuts = closures(self.book, group)
         first = Step(f"{number}.2", say("worked.velocities"), name)
+        self.movers.driven_guides(first, group, second=False)
         system: System | None = self.rates.velocities(first, group, cuts)
         self.movers.move(first, group, second=False)
         second = Step(f"{number}.3", say("worked.accelerations"), name)
+        self.movers.driven_guides(second, group, second=True)
         self.rates.accelerations(second, group, cuts, system)
         self.movers.move(second, group, second=True)
         return [head, places, first, second]
-
-    def _kind(self, group: Group) -> str:
-        from linkwright.kinematics.groups import dyad_shape
-
-        if not group.unknowns:
-            return "hung"
-        return "newton" if dyad_shape(group) is None else "closed"
 
     def _title(self, group: Group, links: str) -> str:
         key = "worked.group_driven" if group.assur_class == 1 and group.drivers else "worked.group"
@@ -186,8 +184,3 @@ class _Kinematics:
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
         key = "worked.joints" if inner else "worked.outer_only"
         return self.book.say(key, outer=outer, inner=inner)
-
-
-def degrees(value: float) -> float:
-    """Radians as degrees."""
-    return math.degrees(value)

@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+#: Anything smaller (SI) is nothing but rounding.
+NOTHING = 1e-12
 Leaf = Callable[["Term"], float]
 
 
@@ -61,7 +63,7 @@ class Term:
     @property
     def value(self) -> float:
         """What the term amounts to."""
-        return self.reckon(lambda leaf: leaf.amount)
+        return self.reckon(lambda leaf: leaf.amount if abs(leaf.amount) >= NOTHING else 0.0)
 
     def reckon(self, leaf: Leaf) -> float:
         """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value."""

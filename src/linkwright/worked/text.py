@@ -17,7 +17,8 @@ def width(text: str) -> int:
 
 def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
     """All steps, equal signs in line within a step."""
-    lines = list(heading)
+    title, *legend = heading
+    lines = [title, *(line for text in legend for line in wrapped(text))]
     for step in steps:
         title = f"{step.number}  {step.title}"
         lines += ["", title, ("=" if "." not in step.number else "-") * width(title), *_step(step)]
@@ -59,7 +60,6 @@ def _equation(item: Equation, margin: int) -> Iterator[str]:
 def _long(start: str, text: str, indent: str) -> Iterator[str]:
     """A side of an equation, broken before a plus or a minus where it is too wide."""
     line = start
-    depth = 0
     tokens = text.replace(" + ", "\0+ ").replace(" - ", "\0- ").split("\0")
     for i, token in enumerate(tokens):
         glue = "" if i == 0 else " "
@@ -67,7 +67,6 @@ def _long(start: str, text: str, indent: str) -> Iterator[str]:
             yield line
             line, glue = f"{indent}     ", ""
         line += glue + token
-        depth += token.count("(") - token.count(")")
     yield line
 
 

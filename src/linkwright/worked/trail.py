@@ -26,9 +26,7 @@ def turned(arm: Pair, angle: Term) -> Pair:
     return Pair(arm.x * c - arm.y * s, arm.x * s + arm.y * c)
 
 
-def trail(
-    book: Book, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool
-) -> Trail:
+def trail(book: Book, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool) -> Trail:
     """From ``point`` of ``link`` along ``steps`` to the point ``end`` of the last link.
 
     ``local``: in the axes of ``link``; otherwise in frame axes, with the angles of all links known.

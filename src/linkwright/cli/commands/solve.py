@@ -32,6 +32,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     )
     what.add_argument("--static", action="store_true", help=say("solve.static_help"))
     what.add_argument("--mark", action="store_true", help=say("solve.mark_help"))
+    what.add_argument("--worked", action="store_true", help=say("worked.help"))
     form = parser.add_argument_group(say("solve.form_title"))
     form.add_argument("--si", action="store_true", help=say("solve.si_help"))
     form.add_argument("--output", metavar="FILE", help=say("solve.output_help"))
@@ -45,6 +46,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
 
     solved = solve(*read_model(options.file), options, session.say)
+    if options.worked and solved.trouble is None:
+        _show_worked(solved, options, session)
+        return 0
     if options.output is not None:
         _write(solved, options, session)
     if session.json:
@@ -61,7 +65,23 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(solved.trouble is not None or not solved.motion.ok.all())
 
 
+def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) -> None:
+    """The worked solution of the positions that were named, or of the first one."""
+    from linkwright.cli.data import json_text
+    from linkwright.worked.solution import worked
+
+    rows = solved.rows if options.at or options.times else solved.rows[:1]
+    source = solved.motion if solved.forces is None else solved.forces
+    pages = [worked(source, int(row), language=session.language) for row in rows]
+    if session.json:
+        session.show(json_text({"worked": [page.data() for page in pages]}))
+    else:
+        session.show("\n\n\n".join(page.text() for page in pages))
+
+
 def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
+    if options.worked and options.output is not None:
+        raise UsageError(say("cli.not_together", name="--worked", other="--output"))
     if options.static and options.forces is False:
         raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
     if options.output is None:

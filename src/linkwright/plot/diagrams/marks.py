@@ -50,7 +50,7 @@ def phase_marks(source: Source, limits: list[LimitMark]) -> list[PhaseMark]:
     for name, where in acting(source).items():
         edges = np.diff(np.concatenate([[False], where, [False]]).astype(int))
         for first, last in zip(np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1, strict=True):
-            ends = (_snapped(x, first, limits), _snapped(x, last, limits))
+            ends = (_snapped(x, int(first), limits), _snapped(x, int(last), limits))
             found.append(PhaseMark(name, *ends))
     return found
 

@@ -40,6 +40,7 @@ _STYLE: dict[str, Any] = {
     "legend.frameon": False,
     "lines.linewidth": 1.5,
     "lines.solid_joinstyle": "round",
+    "mathtext.fontset": "dejavusans",
     "text.parse_math": False,
     "text.usetex": False,
     "xtick.labelsize": 8,
@@ -78,12 +79,13 @@ class Diagram:
 
         Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write.
         """
-        ending = Path(path).suffix.lower()
+        return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi))
+
+    def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
+        """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds. Raises LinkwrightError for another one."""
         if ending not in ENDINGS:
-            raise LinkwrightError(
-                f'{path}: the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}'
-            )
-        return write_whole(path, self._bytes(ending[1:], dpi))
+            raise LinkwrightError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
+        return self._bytes(ending[1:], dpi)
 
     def svg(self) -> str:
         """The diagram as SVG text; its letters are outlines, so no font is needed to show it."""

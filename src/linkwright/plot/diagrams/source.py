@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import Literal, TypeAlias, TypeVar, cast
 
 import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
+from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -17,10 +19,12 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.words import Say
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
 TURN = 2 * np.pi
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -49,16 +53,17 @@ class Source:
     """
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
-        self._running = result if isinstance(result, SteadyRunning) else None
+        self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static
         self._result = result
         self._label = label
+        self._made: dict[str, object] = {}
 
     @property
     def label(self) -> str:
         """Its name in the legend."""
-        return self._label or (self.mechanism.name if self._running is None else "")
+        return self._label or (self.mechanism.name if self.result_running is None else "")
 
     @property
     def mechanism(self) -> Mechanism:
@@ -84,9 +89,52 @@ class Source:
         """The forces of the motion."""
         return solve_forces(self.motion, static=self._static) if self._forces is None else self._forces
 
+    @property
+    def input_dimension(self) -> Literal["angle", "length", "time"]:
+        """What says where a position is: the first driver's angle or length; the time where a driver follows a law."""
+        drivers = self.mechanism.drivers
+        if not drivers or not all(isinstance(each.law, ConstantSpeed) for each in drivers.values()):
+            return "time"
+        turning = isinstance(self.mechanism.joints[next(iter(drivers.values())).joint], RevoluteJoint)
+        return "angle" if turning else "length"
+
+    def at(self, place: float | None) -> Motion:
+        """The motion at one position: at an input (time), else at the first position that is reached."""
+        if place is None or not self.mechanism.drivers:
+            first = int(np.flatnonzero(self.motion.ok)[0])
+            place = float((self.motion.time if self.input_dimension == "time" else self.motion.input)[first])
+        if self.input_dimension == "time":
+            return solve_motion(self.mechanism, times=[place])
+        return solve_motion(self.mechanism, at=[place])
+
+    def forces_at(self, place: float | None) -> Forces:
+        """The forces at one position."""
+        static = self._static if self._forces is None else self._forces.static
+        return solve_forces(self.at(place), static=static)
+
+    def place_text(self, motion: Motion, say: Say) -> str:
+        """Where the one position of a motion is: ``φ = 30°``."""
+        dimension = self.input_dimension
+        if not self.mechanism.drivers:
+            return say("at_rest")
+        value = float(motion.time[0] if dimension == "time" else motion.input[0])
+        symbol = {"angle": "φ", "length": "s", "time": "t"}[dimension]
+        return f"{symbol} = {unit_of(dimension).text(value, 6)}"
+
+    @property
+    def has_motion(self) -> bool:
+        """Whether there is a motion, not only a machine's steady running."""
+        return self.result_running is None
+
+    def once(self, name: str, make: Callable[[], T]) -> T:
+        """Something costly that several parts of a diagram need, made when it is first asked for."""
+        if name not in self._made:
+            self._made[name] = make()
+        return cast(T, self._made[name])
+
     def running(self, fluctuation: float) -> SteadyRunning:
         """Steady running with a flywheel for a required fluctuation."""
-        return steady_running(self.forces, fluctuation=fluctuation) if self._running is None else self._running
+        return steady_running(self.forces, fluctuation=fluctuation) if self.result_running is None else self.result_running
 
     @cached_property
     def axis(self) -> InputAxis:

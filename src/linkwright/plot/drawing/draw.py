@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
+from linkwright.plot.drawing.beside import At, Shown, at_input, at_time, with_limits
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.legend import legend
-from linkwright.plot.drawing.limits import limit_positions
+from linkwright.plot.drawing.limits import limits_of
 from linkwright.plot.drawing.loads import load_marks
 from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.picture import Drawing, bounds, document
@@ -35,12 +38,15 @@ if TYPE_CHECKING:
 
 Names = Sequence[str] | bool
 STEPS = 120
+MOST_FADED = 60
 
 
 def draw(
     source: Motion | Mechanism,
     *,
-    position: int = 0,
+    position: int | None = None,
+    at: At | None = None,
+    time: float | None = None,
     overlay: Sequence[int] | str = (),
     paths: Sequence[str] = (),
     velocities: Names = (),
@@ -58,9 +64,11 @@ def draw(
 
     Args:
         source: a motion, or a mechanism whose cycle is solved first.
-        position: index of the position drawn in full.
-        overlay: positions drawn faded under it; ``"limits"`` dashes the limit positions of the last output,
-            ``"limits:jaw"`` those of a link or a guide.
+        position: index of the position drawn in full; default the first that was reached.
+        at: instead, the first driver's coordinate (rad or m), or those of drivers by name.
+        time: instead, a time (s).
+        overlay: positions drawn faded under it; ``"faded:8"`` as many over the motion; ``"limits"`` dashes the
+            exact limit positions of the last output, ``"limits:jaw"`` those of a link or a guide.
         paths: points whose paths over the motion are drawn.
         velocities: points whose velocities are drawn; True for all points.
         accelerations: the same for accelerations.
@@ -85,14 +93,14 @@ def draw(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
-    index = _index(motion, position)
-    ghosts, ghost_style = _overlay(motion, overlay)
-    scene = laid_out(motion, index, inputs=inputs, centres=centres)
-    sheet = Sheet(scene, index)
-    sheet.ghosts(ghosts, ghost_style)
+    shown = _shown(motion, position, at, time)
+    ghosts, style = _overlay(motion, overlay)
+    scene, index, others = laid_out_beside(motion, shown, ghosts, inputs=inputs, centres=centres)
+    sheet = Sheet(scene, index, shown.index)
+    sheet.ghosts(others, style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
-    known = solved(motion, forces)
-    families = vector_groups(motion, velocities, accelerations, known, reactions_of)
+    known = _forces_shown(motion, shown, forces)
+    families = vector_groups(shown.motion, velocities, accelerations, known, reactions_of)
     sheet.machine(pushes=known is None)
     sheet.vectors(families)
     sheet.dimensions(dimensions)
@@ -102,10 +110,13 @@ def draw(
 
 
 class Sheet:
-    """A drawing in the making: elements in order, ink, and vectors with their scales."""
+    """A drawing in the making: elements in order, ink, and vectors with their scales.
 
-    def __init__(self, scene: Scene, index: int) -> None:
-        self.scene, self.index = scene, index
+    ``index``: the position in the scene; ``shown``: the same position in the motion of the vectors.
+    """
+
+    def __init__(self, scene: Scene, index: int, shown: int) -> None:
+        self.scene, self.index, self.shown = scene, index, shown
         self.elements: list[Element] = []
         self.ink: list[Floats] = []
         self.extent: list[Floats] = []
@@ -132,10 +143,10 @@ class Sheet:
     def vectors(self, groups: Sequence[Sequence[Vectors]]) -> None:
         """Vectors; those of one group share a scale."""
         for families in groups:
-            scale = scale_of(families, [self.index])
+            scale = scale_of(families, [self.shown])
             for family in families:
-                if family.largest([self.index]) > 0:
-                    shape = family.shape(self.index, self.scene.machine.view, scale)
+                if family.largest([self.shown]) > 0:
+                    shape = family.shape(self.shown, self.scene.machine.view, scale)
                     self.add(shape.elements, shape.ink)
                     self.families.append((family, scale))
 
@@ -169,6 +180,38 @@ class Sheet:
         return Drawing(document(self.elements, bounds([*self.ink, *self.extent]), title, size))
 
 
+def laid_out_beside(
+    motion: Motion, shown: Shown, ghosts: Sequence[Shown], *, inputs: bool, centres: bool
+) -> tuple[Scene, int, list[int]]:
+    """The scene of a motion with positions beside it; their indices in the scene."""
+    beside = [each for each in (shown, *ghosts) if each.motion is not motion]
+    places = {(id(each.motion), each.index): motion.steps + k for k, each in enumerate(beside)}
+
+    def place(each: Shown) -> int:
+        return places.get((id(each.motion), each.index), each.index)
+
+    scene = laid_out(
+        motion,
+        place(shown),
+        inputs=inputs,
+        centres=centres,
+        beside=[(each.motion, each.index) for each in beside],
+    )
+    return scene, place(shown), [place(each) for each in ghosts]
+
+
+def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
+    if sum(each is not None for each in (position, at, time)) > 1:
+        raise LinkwrightError("a drawing shows one position; give one of position, at and time")
+    if at is not None:
+        return at_input(motion, at).checked()
+    if time is not None:
+        return at_time(motion, time).checked()
+    if position is None:
+        return Shown(motion, int(np.argmax(motion.ok))).checked()
+    return Shown(motion, _index(motion, position))
+
+
 def _index(motion: Motion, position: int) -> int:
     if not -motion.steps <= position < motion.steps:
         raise LinkwrightError(
@@ -181,13 +224,27 @@ def _index(motion: Motion, position: int) -> int:
     return index
 
 
-def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[int], str]:
+def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown], str]:
     if not isinstance(overlay, str):
-        return [_index(motion, each) for each in overlay], "lw-faded"
-    word, _, output = overlay.partition(":")
-    if word != "limits":
-        raise LinkwrightError(f'overlay "{overlay}" is unknown; give positions, "limits" or "limits:LINK"')
-    return list(dict.fromkeys(limit_positions(motion, output or None))), "lw-dashed"
+        return [Shown(motion, _index(motion, each)) for each in overlay], "lw-faded"
+    word, _, rest = overlay.partition(":")
+    if word == "limits":
+        denser, indices = with_limits(motion, limits_of(motion, rest or None))
+        return [Shown(denser, each) for each in indices], "lw-dashed"
+    if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
+        return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
+    raise LinkwrightError(
+        f'overlay "{overlay}" is unknown; give positions, "limits", "limits:LINK" or "faded:8" '
+        f"(1 to {MOST_FADED} positions)"
+    )
+
+
+def _spread(motion: Motion, count: int) -> list[int]:
+    """Positions over the motion, as many as asked for or reached."""
+    reached = np.flatnonzero(motion.ok)
+    whole = motion.positions.closed and len(reached) == motion.steps
+    places = np.linspace(0, len(reached) - (0 if whole else 1), count, endpoint=not whole)
+    return [int(each) for each in np.unique(reached[places.round().astype(int) % max(len(reached), 1)])]
 
 
 def vector_groups(
@@ -206,6 +263,16 @@ def vector_groups(
     if forces is not None:
         found.append([reactions(forces, of), loads(forces)])
     return found
+
+
+def _forces_shown(motion: Motion, shown: Shown, forces: Forces | bool | None) -> Forces | None:
+    """Forces of the motion that has the shown position."""
+    if shown.motion is motion or not forces:
+        return solved(motion, forces)
+    from linkwright.kinetostatics.forces import solve_forces
+
+    known = None if forces is True else solved(motion, forces)
+    return solve_forces(shown.motion, static=known is not None and known.static)
 
 
 def solved(motion: Motion, forces: Forces | bool | None) -> Forces | None:

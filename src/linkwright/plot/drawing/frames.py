@@ -6,6 +6,9 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
+from linkwright.plot.drawing.machine import Machine
+from linkwright.plot.svg.element import Floats
+from linkwright.plot.symbols.base import LINE, Vec
 
 
 def frame_indices(motion: Motion, frames: int) -> list[int]:
@@ -24,6 +27,47 @@ def frame_indices(motion: Motion, frames: int) -> list[int]:
     ).tolist()
     there_and_back = [*way, *way[-2::-1]]
     return there_and_back if len(there_and_back) > 1 else [start, start]
+
+
+def key_indices(machine: Machine, frames: int) -> list[int]:
+    """Positions of one cycle between which links move evenly: so many that pins part by half a line at most.
+
+    At least as many as ``frame_indices`` gives; no more than the motion has.
+    """
+    run = frame_indices(machine.motion, frames)
+    while parting(machine, run) > LINE / 2:
+        finer = frame_indices(machine.motion, 2 * frames)
+        if len(finer) == len(run):
+            break
+        run, frames = finer, 2 * frames
+    return run
+
+
+def parting(machine: Machine, run: list[int]) -> float:
+    """How far links part at their common pins half-way between two keyframes, in units of the paper.
+
+    Shift and turn of each link change evenly from one keyframe to the next, so its pins run along flat arcs.
+    """
+    largest = 0.0
+    for name, joint in machine.pins.items():
+        places = [
+            _half_way(machine, link, machine.motion.mechanism.link(link).points[name], run)
+            for link in joint.links
+        ]
+        for other in places[1:]:
+            largest = max(largest, float(np.hypot(*(other - places[0]).T).max(initial=0.0)))
+    return largest
+
+
+def _half_way(machine: Machine, link: str, point: Vec, run: list[int]) -> Floats:
+    """Where a point of a link is half-way between keyframes, on the paper, (k - 1, 2)."""
+    placed = machine.placed[link]
+    origin = machine.view.paper(placed.origin[run])
+    turn = np.unwrap(np.arctan2(placed.direction[run, 1], placed.direction[run, 0]))
+    (x, y), middle = machine.view.local(point), -(turn[1:] + turn[:-1]) / 2
+    c, s = np.cos(middle), np.sin(middle)
+    local = np.stack([c * x - s * y, s * x + c * y], axis=1)
+    return np.asarray((origin[1:] + origin[:-1]) / 2 + local)
 
 
 def usual_seconds(motion: Motion) -> float:

@@ -1,4 +1,4 @@
-"""Positions at which an output turns back."""
+"""The two limit positions of an output."""
 
 from __future__ import annotations
 
@@ -6,36 +6,37 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
-from linkwright.plot.svg.element import Floats
 
 
-def limit_positions(motion: Motion, output: str | None = None) -> tuple[int, int]:
-    """Indices of the positions with the largest and the smallest displacement or angle of an output.
+def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
+    """The reversals of an output with its largest and its smallest value, exact in the input.
 
-    ``output``: a link or a guide; by default the last in solving order that goes to and fro.
-    Raises LinkwrightError where nothing does.
+    ``output``: a link, a guide or a point's coordinate; by default the last link or block on the frame, in
+    solving order, that goes to and fro. Raises LinkwrightError where nothing turns back.
     """
-    values = _course(motion, output) if output is not None else _default(motion)
-    return int(np.nanargmax(values)), int(np.nanargmin(values))
+    name = output or _last_to_and_fro(motion)
+    found = limit_positions(motion, name)
+    if not found:
+        raise LinkwrightError(f'"{name}" does not turn back in this motion, so it has no limit positions')
+    high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
+    return (high,) if high is low else (high, low)
 
 
-def _course(motion: Motion, output: str) -> Floats:
-    if isinstance(motion.mechanism.joints.get(output), PrismaticJoint):
-        return motion.joint(output).displacement
-    return motion.link(output).angle
-
-
-def _default(motion: Motion) -> Floats:
+def _last_to_and_fro(motion: Motion) -> str:
+    joints = motion.mechanism.joints
     driven = {driver.joint for driver in motion.mechanism.drivers.values()}
     for group in reversed(motion.structure.groups):
         for link in reversed(group.links):
-            for name, joint in motion.mechanism.joints.items():
+            for name, joint in joints.items():
                 if name in driven or set(joint.joined) != {"frame", link}:
                     continue
-                values = _course(motion, name if isinstance(joint, PrismaticJoint) else link)
-                if isinstance(joint, PrismaticJoint) or np.nanmax(values) - np.nanmin(values) < 1.9 * np.pi:
-                    return values
+                if isinstance(joint, PrismaticJoint):
+                    return name
+                angle = motion.link(link).angle
+                if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
+                    return link
     raise LinkwrightError(
         f"no link of {motion.mechanism.name!r} on the frame goes to and fro, so there are no limit positions; "
         "name a link or a guide: overlay='limits:coupler'"

@@ -5,18 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from linkwright.kinematics.drawing import guide_angle
 from linkwright.loads.base import LinkPoint, Load
 from linkwright.loads.damper import Damper
 from linkwright.loads.force import Force
+from linkwright.loads.pressure import Pressure
 from linkwright.loads.spring import Spring
 from linkwright.loads.torque import Torque
 from linkwright.loads.torsion_damper import TorsionDamper
 from linkwright.loads.torsion_spring import TorsionSpring
+from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+from linkwright.plot.symbols.slider import HEIGHT, LENGTH
 
 PUSH = 52.0
 GAP, BLOCK_GAP = 7.0, 19.0
@@ -35,17 +39,19 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
         return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=_sign(load), style="lw-load")
     if forces and isinstance(load, Force):
         return _push(machine, load, index)
+    if forces and isinstance(load, Pressure):
+        return _pressed(machine, load, index)
     return EMPTY
 
 
 def _stretched(machine: Machine, load: Load, index: int) -> Shape:
-    """What of a load changes its shape: a spring or damper between two points, a spiral at a pin."""
+    """What of a load changes its shape: a spring or damper between two points or about a pin."""
     if isinstance(load, Spring | Damper):
         start, end = (machine.paper(each.link, each.point, index) for each in load.between)
         return SYMBOLS[load.kind](start=start, end=end)
     if isinstance(load, TorsionSpring | TorsionDamper):
         at = _common_pin(machine, load.links, index)
-        return EMPTY if at is None else SYMBOLS["torsion_spring"](at=at)
+        return EMPTY if at is None else SYMBOLS[load.kind](at=at)
     return EMPTY
 
 
@@ -76,6 +82,22 @@ def _push(machine: Machine, load: Force, index: int) -> Shape:
     gap = BLOCK_GAP if on_block else GAP
     tip = (x - gap * way[0], y - gap * way[1])
     return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
+
+
+def _pressed(machine: Machine, load: Pressure, index: int) -> Shape:
+    """Arrows on the face of the block on which a pressure pushes; one arrow at the end of a cylinder's rod."""
+    joint = machine.guides[load.joint]
+    c, s = machine.placed[joint.guide].direction[index]
+    angle = math.atan2(s, c) + guide_angle(machine.motion.mechanism, joint)
+    along = (math.cos(angle), -math.sin(angle))
+    sign = (_sign(load) or 1) * (-1 if load.pushes == "backward" else 1)
+    way = (sign * along[0], sign * along[1])
+    x, y = machine.paper(joint.block, joint.at, index)
+    if is_cylinder(machine, load.joint):
+        return SYMBOLS["arrow"](start=(x - PUSH * way[0], y - PUSH * way[1]), end=(x, y), style="lw-load")
+    shift = clear_shift(machine, load.joint, joint) - sign * LENGTH / 2
+    face = (x + shift * along[0], y + shift * along[1])
+    return SYMBOLS["pressure"](at=face, along=way, height=HEIGHT)
 
 
 def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Element]:

@@ -59,6 +59,12 @@ def bounds(clouds: Iterable[Floats]) -> Box:
     return float(left), float(top), float(right), float(bottom)
 
 
+def _paper(left: float, top: float, width: float, height: float) -> Element:
+    """The white ground, a little larger than the picture so that its last row of pixels is white as well."""
+    box = {"x": left - 2.0, "y": top - 2.0, "width": width + 4.0, "height": height + 4.0}
+    return element("rect", {"class": "lw-paper", **box})
+
+
 def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
     """A whole SVG document over a box; ``size`` is its longer side in pixels."""
     if size is not None and not (np.isfinite(size) and size > 0):
@@ -77,7 +83,7 @@ def document(content: Sequence[Element], box: Box, title: str, size: float | Non
         },
         element("title", None, title),
         element("style", None, CSS),
-        element("rect", {"class": "lw-paper", "x": left, "y": top, "width": width, "height": height}),
+        _paper(left, top, width, height),
         *content,
     )
     return str(root)

@@ -13,7 +13,7 @@ from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import Machine, bodies, pins
 from linkwright.plot.drawing.parts import LAYERS, Part
-from linkwright.plot.drawing.view import fitted, moved, placements
+from linkwright.plot.drawing.view import fitted, followed, moved, placements
 from linkwright.plot.svg.element import Element, Floats, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
 
@@ -78,9 +78,19 @@ class Scene:
         return [path(self.trace(name), f"lw-trace lw-trace-{k % 4}") for k, name in enumerate(names)]
 
 
-def laid_out(motion: Motion, index: int, *, inputs: bool = True, centres: bool = False) -> Scene:
-    """The scene of a motion; arrows of the drivers stand as at the position ``index``."""
-    placed = placements(motion)
+def laid_out(
+    motion: Motion,
+    index: int,
+    *,
+    inputs: bool = True,
+    centres: bool = False,
+    beside: Sequence[tuple[Motion, int]] = (),
+) -> Scene:
+    """The scene of a motion; arrows of the drivers stand as at the position ``index``.
+
+    ``beside``: positions of other motions of the mechanism, counted on after its own.
+    """
+    placed = followed(placements(motion), beside)
     machine = Machine(motion, placed, fitted(motion, placed))
     parts = [*bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
     if inputs:

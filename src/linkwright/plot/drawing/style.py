@@ -38,6 +38,7 @@ CSS = "".join((
     _arrow("input", ORANGE),
     _arrow("force", RED),
     _arrow("load", PURPLE, 2.4),
+    f".lw-load-thin{{fill:none;stroke:{PURPLE};stroke-width:1.6}}",
     _arrow("velocity", BLUE),
     _arrow("acceleration", GREEN),
     f"text{{font-family:{FAMILY_LIST}}}",

@@ -14,7 +14,9 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     try:
         from PIL import Image
     except ImportError:
-        raise LinkwrightError("GIF animations need Pillow; install linkwright[plot]") from None
+        raise LinkwrightError(
+            'GIF animations need Pillow; install it with: pip install "linkwright[plot]"'
+        ) from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
     palette = pictures[0].quantize(colors=64)
     small = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures]
@@ -33,7 +35,9 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
         import numpy as np
         from PIL import Image
     except ImportError:
-        raise LinkwrightError("MP4 animations need PyAV and Pillow; install linkwright[video]") from None
+        raise LinkwrightError(
+            'MP4 animations need PyAV and Pillow; install them with: pip install "linkwright[video]"'
+        ) from None
     stream = io.BytesIO()
     with av.open(stream, "w", format="mp4") as container:
         track: Any = None

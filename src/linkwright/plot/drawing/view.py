@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,14 +29,6 @@ class Placement:
         x, y = local
         return np.stack([self.origin[:, 0] + c * x - s * y, self.origin[:, 1] + s * x + c * y], axis=1)
 
-    @property
-    def angle(self) -> Floats:
-        """Angle of the x axis, (n,) rad, without jumps over the solved positions."""
-        raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
-        good = np.isfinite(raw)
-        raw[good] = np.unwrap(raw[good])
-        return raw
-
 
 def placements(motion: Motion) -> dict[str, Placement]:
     """Placement of every link, the frame included."""
@@ -49,6 +41,17 @@ def placements(motion: Motion) -> dict[str, Placement]:
         at = motion.point(f"{name}.{point}").position
         found[name] = Placement(at - np.stack([c * x - s * y, s * x + c * y], axis=1), direction)
     return found
+
+
+def followed(placed: Mapping[str, Placement], beside: Sequence[tuple[Motion, int]]) -> dict[str, Placement]:
+    """Placements with those at positions of other motions of the same mechanism after them."""
+    rows = [(placements(motion), [index]) for motion, index in beside]
+
+    def of(name: str, part: str) -> Floats:
+        more = [getattr(other[name], part)[row] for other, row in rows]
+        return np.concatenate([getattr(placed[name], part), *more])
+
+    return {name: Placement(of(name, "origin"), of(name, "direction")) for name in placed}
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,9 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     try:
         import resvg_py
     except ImportError:
-        raise LinkwrightError("PNG pictures need resvg-py; install linkwright[plot]") from None
+        raise LinkwrightError(
+            'PNG pictures need resvg-py; install it with: pip install "linkwright[plot]"'
+        ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     size: dict[str, Any] = {"width": int(width)} if width is not None else {"zoom": float(zoom)}
@@ -45,7 +47,9 @@ def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
     try:
         typst: Any = importlib.import_module("typst")
     except ImportError:
-        raise LinkwrightError("PDF pictures need typst; install linkwright[plot]") from None
+        raise LinkwrightError(
+            'PDF pictures need typst; install it with: pip install "linkwright[plot]"'
+        ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     source = (

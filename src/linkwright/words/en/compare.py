@@ -13,8 +13,8 @@ linkwright compare a.yaml b.yaml --metrics peak_input_torque flywheel
 linkwright compare a.yaml b.yaml --weights flywheel=3 peak_reaction=0
 linkwright compare a.yaml b.yaml --of jaw ram          the output of each""",
     "files_help": "two or more model files, or gallery:NAME",
-    "metrics_help": "what to compare by: design numbers, travel, output_velocity, output_acceleration, pivot_reaction, "
-    'flywheel, or a summary of an output in quotes ("driver.effort rms")',
+    "metrics_help": "what to compare by: design numbers, travel, output_velocity, output_acceleration, "
+    'pivot_reaction, flywheel, or a summary of an output in quotes ("driver.effort rms")',
     "weights_help": "weights in the ranking, NAME=NUMBER each (1 where none is given)",
     "of_help": "the link or guide that does the work: one name for all, or one per file",
     "fluctuation_help": "coefficient of speed fluctuation for the flywheels (default 0.02)",
@@ -38,13 +38,15 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each""",
     "best_in": "best in: {names}",
     "against": "{name}: {mine}, against {theirs} of {other} ({ratio} times)",
     "motion": "Motion: {parts}.",
-    "motion_of": "in {label} the output {output} travels {travel}, at most {rate} fast, with accelerations up to {second}",
+    "motion_of": "in {label} the output {output} travels {travel}, at most {rate} fast, with "
+    "accelerations up to {second}",
     "pivot": "Pivot reaction: {parts}.",
     "pivot_of": "pivot {joint} of {label} carries at most {most} (at input {at}, direction {direction}) and at least "
     "{least}",
     "torque": "Balancing torque: {parts}.",
-    "torque_of": "that of {label} lies between {low} and {high}, root mean square {root}; found from the joint forces "
-    "and from the powers it agrees within {gap}",
+    "torque_of": "that of {label} lies between {low} and {high}, root mean square {root}; found from the joint "
+    "forces and from the powers it agrees within {gap}",
+    "against_nothing": "{name}: {mine}, against {theirs} of {other}",
     "flywheels": "Flywheel on the crank for a speed fluctuation of {fluctuation}: {parts}.",
     "flywheel_of": "{label} has an energy fluctuation of {energy} at a mean power of {power} and needs {inertia}",
     "flywheel_none": "for {label} there is none to lay out",

@@ -3,12 +3,14 @@
 WORDS = {
     "title": "{name}: worked solution of one position",
     "links": "Links: {links}.",
-    "convention": "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, v_Ax, a_Ax: place, "
-    "velocity, acceleration of point A; φ, ω, α: angle of a link's x axis and its rates; u, w: coordinates of a "
-    "point in the axes of its link, from the first point named to the second; s, s', s'': displacement of a block "
-    "and its rates; atan2(y, x): angle of the vector (x, y) in its own quadrant.",
-    "digits": "Every line: symbol = formula = numbers put in = result. Numbers put in have as many digits as the result "
-    "needs.",
+    "convention": "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, v_Ax, a_Ax: "
+    "place, velocity, acceleration of point A; φ, ω, α: angle of a link's x axis and its rates; l, u, w: coordinates "
+    "of a point in the axes of its link, from the first point named to the second (l along the x axis); s, s', s'': "
+    "displacement of a block and its rates; atan2(y, x): angle of the vector (x, y) in its own quadrant.",
+    "digits": "Every line: symbol = formula = numbers put in = result. Numbers put in have as many digits as the "
+    "result needs.",
+    "help": "the worked solution of the position (of each one named with --at or --times): every equation, the "
+    "numbers put in, the result",
     "input": "Input",
     "input_turn": "Driver {name}: {link} turns against {relative} about {joint}.",
     "input_slide": "Driver {name}: {link} slides on {relative} in {joint}.",
@@ -29,13 +31,38 @@ WORDS = {
     "zero_slide": "{name}: where {b} would be with the displacement 0.",
     "newton": "No closed form. The chains are cut at {joints}; Newton's method on the closure equations gives",
     "closure_check": "The closure put in: what is left is zero to the digits shown.",
-    "velocity_closure": "Both ends at {joints} have the same velocity (across the guide, for a guide):",
-    "acceleration_closure": "Both ends at {joints} have the same acceleration (for a guide: across it, Coriolis included):",
+    "velocity_closure": "Both ends at {joints} have the same velocity:",
+    "velocity_closure_guide": "Both ends at {joints} have the same velocity (for a guide: across it):",
+    "acceleration_closure": "Both ends at {joints} have the same acceleration:",
+    "acceleration_closure_guide": "Both ends at {joints} have the same acceleration (for a guide: across it, with "
+    "Coriolis' part):",
     "part_tangential": "Tangential part α × r of {label}:",
     "part_centripetal": "Centripetal part -ω² r of {label}:",
     "part_coriolis": "Coriolis' part 2 ω s' n⊥ of {label}:",
     "part_driven_turn": "Part of the driver's angular acceleration at {label}:",
     "part_driven_slide": "Part of the driver's acceleration along {label}:",
+    "right_sides": "Right sides:",
+    "forces": "Forces",
+    "force_names": "F_A,2: force that joint A exerts on link 2 (F_A,1→2: that link 1 exerts on link 2 at A); "
+    "K, M_J: weight and inertia force at the mass centre, inertia couple. The other link of a joint feels the "
+    "reverse. Groups in reverse order.",
+    "inertia": "Weight and inertia: K = m (g - a_G), M_J = -J α",
+    "weights": "Weights",
+    "loads": "Loads",
+    "load_idle": "{name}: does not act in this position.",
+    "load_acts": "{name}, on link {link}:",
+    "forces_of": "Forces of group {signature}: {links}",
+    "cut_forces": "The force at {joints} first; the equations are such that no other joint force enters.",
+    "moments": "Moments of the known forces on {links} about {point}, reversed:",
+    "along": "Known forces on {links} along the guide {joint}, reversed:",
+    "same_matrix": "The arms of the unknown forces form the matrix J of the velocities, read by columns:",
+    "balance": "Balance of link {link}, force of {joint} on it:",
+    "driver_torque": "Moments about {point}: torque of the driver.",
+    "shares": "Pins of several links: share of each link",
+    "power": "Check by virtual power",
+    "power_terms": "Power of weight, inertia and loads of every link:",
+    "power_effort": "The driver's power takes the sum to zero, so its effort once more:",
+    "power_balance": "With the powers of the drivers the sum is zero:",
     "linear_solution": "Solution of the {count} linear equations (by elimination):",
     "linear_check": "Put into the left sides, row by row:",
 }

@@ -1,0 +1,190 @@
+"""The sections of the report: what is measured, and what it must reach."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from benchmarks import by_c, by_numpy, kernels_alone, public
+from benchmarks.cases import Work, fourbar, sixbar
+from benchmarks.gradients import BOTH, VALUE, GradientWork
+from benchmarks.kernels_alone import COMPILED, HAND, C
+from benchmarks.peers import Peer, error, found
+from benchmarks.report import Goal, Section, short, timings
+from benchmarks.sweeps import TWO, SweepWork
+from benchmarks.timing import Candidate, in_turns
+
+_TITLES = {
+    "fourbar": "W2: crank-rocker, positions, velocities, accelerations of all joints and links",
+    "sixbar": "W3: six-bar, the same with all reactions and the balancing torque",
+}
+
+
+@dataclass(frozen=True)
+class Size:
+    """How much is measured."""
+
+    steps: int = 360
+    rounds: int = 11
+    slice_s: float = 0.05
+    fourbars: int = 100_000
+    sixbars: int = 10_000
+    gradients: int = 1000
+    peer_designs: int = 200
+    accuracy_steps: int = 72
+    starts: int = 11
+
+
+QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3)
+
+
+def _agreement(gaps: Mapping[str, float]) -> str:
+    told = ", ".join(f"{way} {gap:.1e}" for way, gap in gaps.items())
+    return f"largest relative difference from {HAND}: {told}"
+
+
+def _peers(peers: list[Peer]) -> list[Candidate]:
+    return [Candidate(peer.name, peer.run, peer.share, peer.note) for peer in peers]
+
+
+def _reference(candidates: list[Candidate]) -> str:
+    return C if any(each.name == C for each in candidates) else HAND
+
+
+def kernels(name: str, size: Size) -> Section:
+    """W2 or W3, one design."""
+    work = fourbar(size.steps) if name == "fourbar" else sixbar(size.steps)
+    rows = getattr(by_numpy, name)(work.cosine, work.sine, work.nominal())
+    truth = dict(zip(work.outputs, rows, strict=True))
+    peers, missing = found(name, work)
+    candidates = kernels_alone.candidates(name, work)
+    reference = _reference(candidates)
+    rounds = in_turns([*candidates, *_peers(peers)], size.rounds, size.slice_s)
+    errors = {peer.name: error(peer, work, truth) for peer in peers}
+    notes = [_agreement({**kernels_alone.disagreement(name, work), **errors}), *missing]
+    goals = []
+    if COMPILED in rounds and C in rounds:
+        label = "W2" if name == "fourbar" else "W3"
+        goals.append(Goal(f"{label}: speed of the kernel ÷ speed of C", rounds.ratio(C, COMPILED), 0.9, True))
+    return Section(_TITLES[name], *timings(rounds, reference, "µs"), goals, notes)
+
+
+def public_api(size: Size) -> Section:
+    """W3 through the public API."""
+    work = sixbar(size.steps)
+    candidates = public.candidates(work)
+    rounds = in_turns(candidates, size.rounds, size.slice_s)
+    label = "W3 through the public API:"
+    slow = rounds.ratio(public.NUMPY_ROUTE, HAND)
+    goals = [Goal(f"{label} NumPy route ÷ NumPy by hand, time", slow, 1.5, False)]
+    if C in rounds and public.COMPILED in rounds:
+        goals.append(Goal(f"{label} compiled route ÷ C, time", rounds.ratio(public.COMPILED, C), 4.0, False))
+    title = "W3 through the public API, new dimensions each time"
+    header, rows = timings(rounds, _reference(candidates), "µs")
+    return Section(title, header, rows, goals, [_agreement(public.disagreement(work))])
+
+
+def sweeps(name: str, size: Size) -> Section:
+    """W4, four-bars or six-bars."""
+    four = name == "fourbar"
+    work: Work = fourbar(size.steps) if four else sixbar(size.steps)
+    sweep = SweepWork(name, work, size.fourbars if four else size.sixbars)
+    peers, missing = found("fourbar_sweep", work, sweep.designs, size.peer_designs) if four else ([], [])
+    candidates = sweep.candidates()
+    rounds = in_turns([*candidates, *_peers(peers)], size.rounds, size.slice_s)
+    what = "four-bars, five metrics" if four else "six-bars, reactions and six metrics"
+    label = f"W4, {what.split(',', maxsplit=1)[0]}:"
+    goals = []
+    if COMPILED in rounds and C in rounds:
+        goals.append(Goal(f"{label} speed ÷ speed of C", rounds.ratio(C, COMPILED), 0.9, True))
+    if COMPILED in rounds:
+        goals.append(Goal(f"{label} two threads ÷ one, speed", rounds.ratio(COMPILED, TWO), 1.8, True))
+    if "pylinkage" in rounds and COMPILED in rounds:
+        goals.append(
+            Goal(f"{label} speed ÷ speed of pylinkage", rounds.ratio("pylinkage", COMPILED), 150.0, True)
+        )
+    configurations = len(sweep.designs) * size.steps
+    title = f"W4: {len(sweep.designs)} {what}, {size.steps} positions"
+    header, rows = timings(rounds, _reference(candidates), "ms", configurations)
+    return Section(title, header, rows, goals, [_agreement(sweep.disagreement()), *missing])
+
+
+def gradients(size: Size) -> Section:
+    """Value and gradient against the value."""
+    rows, goals, notes = [], [], []
+    header: list[str] = []
+    for name, what in (("fourbar", "path error of the four-bar"), ("sixbar", "forces of the six-bar")):
+        work = fourbar(size.steps) if name == "fourbar" else sixbar(size.steps)
+        gradient = GradientWork(name, work, size.gradients)
+        rounds = in_turns(gradient.candidates(), size.rounds, size.slice_s)
+        header, part = timings(rounds, VALUE, "ms", size.gradients * size.steps)
+        rows += [[f"{what}, {row[0]}", *row[1:]] for row in part]
+        goals.append(Goal(f"{what}: value and gradient ÷ value, time", rounds.ratio(BOTH, VALUE), 5.0, False))
+        gap = GradientWork(name, work, min(32, size.gradients)).disagreement()
+        notes.append(f"{what}: {len(gradient.wrt)} derivatives; largest gap to central differences {gap:.1e}")
+    return Section("Value and reverse gradient, one thread", header, rows, goals, notes)
+
+
+def cold_start(size: Size) -> Section:
+    """Process start to the printed table."""
+    from benchmarks import cold
+
+    rounds = cold.measure(size.starts)
+    goal = Goal("linkwright solve ÷ starting NumPy, time", rounds.ratio(cold.SOLVE, cold.NUMPY), 6.0, False)
+    parts = cold.parts()
+    whole = 1e3 * rounds.timings[cold.SOLVE].best
+    rest = whole - sum(parts.values())
+    told = ", ".join(f"{owner} {ms:.0f} ms" for owner, ms in parts.items() if ms >= 0.5)
+    note = f"imports, each without what it imports itself: {told}; the interpreter, solving and printing {rest:.0f} ms"
+    header, rows = timings(rounds, cold.NUMPY, "ms")
+    return Section("Cold start", header, rows, [goal], [note])
+
+
+def accuracy(size: Size) -> Section:
+    """Errors against 50 digits."""
+    from benchmarks import accuracy as precise
+
+    rows, worst = [], 0.0
+    works = {"fourbar": fourbar(size.accuracy_steps), "sixbar": sixbar(size.accuracy_steps)}
+    for name, work in works.items():
+        for route, errors in precise.cycle(name, work).items():
+            largest = max(errors, key=lambda each: errors[each])
+            worst = max(worst, errors[largest])
+            rows.append(
+                [f"{'W2' if name == 'fourbar' else 'W3'}, {route}", f"{errors[largest]:.1e}", f"in {largest}"]
+            )
+    for near in precise.near_singular(works["fourbar"], [10.0**-k for k in (1, 2, 4, 6, 8)]):
+        told = ", ".join(
+            f"{what} {gap:.1e} = {short(multiple)} {unit}"
+            for what, gap, multiple, unit in zip(
+                ("position", "velocity", "acceleration"),
+                near.errors,
+                near.multiples,
+                ("u κ", "u κ²", "u κ²"),
+                strict=True,
+            )
+        )
+        rows.append(
+            [f"dead point nearly reached, κ = {short(near.condition)}", f"{max(near.errors):.1e}", told]
+        )
+    title = "Accuracy against an evaluation with 50 digits"
+    header = ["", "largest relative error", "where; u = 1.1e-16"]
+    goal = Goal("relative error away from singular positions", worst, 1e-12, False)
+    return Section(title, header, rows, [goal])
+
+
+SECTIONS: Mapping[str, Callable[[Size], Section]] = {
+    "w2": lambda size: kernels("fourbar", size),
+    "w3": lambda size: kernels("sixbar", size),
+    "public": public_api,
+    "w4-fourbar": lambda size: sweeps("fourbar", size),
+    "w4-sixbar": lambda size: sweeps("sixbar", size),
+    "gradient": gradients,
+    "cold": cold_start,
+    "accuracy": accuracy,
+}
+
+
+def missing_compiler() -> list[str]:
+    """What is said where the C kernels cannot be made."""
+    return [] if by_c.compiler() else ["no gcc found, so ratios to C are left out"]

@@ -1,0 +1,112 @@
+"""``linkwright animate``: a model's cycle as a moving picture."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.pictures import (
+    cycle,
+    file_arguments,
+    names,
+    names_or_all,
+    refuse_unknown_points,
+    source_arguments,
+    told,
+    vector_arguments,
+)
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.kinetostatics.forces import Forces
+
+ENDINGS = (".svg", ".gif", ".mp4")
+STEPS = 360
+FRAMES = 60
+WIDTH = 640
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    source_arguments(parser, say, steps=STEPS)
+    what = parser.add_argument_group(say("draw.what_title"))
+    what.add_argument("--traces", nargs="+", metavar="POINT", help=say("animate.traces_help"))
+    what.add_argument("--curves", nargs="+", metavar="RESULT", help=say("animate.curves_help"))
+    vector_arguments(what, say)
+    what.add_argument(
+        "--labels", action=argparse.BooleanOptionalAction, default=True, help=say("animate.labels_help")
+    )
+    pace = parser.add_argument_group(say("animate.pace_title"))
+    pace.add_argument("--seconds", metavar="TIME", help=say("animate.seconds_help"))
+    pace.add_argument(
+        "--frames",
+        type=whole_number,
+        default=FRAMES,
+        metavar="N",
+        help=say("animate.frames_help", frames=FRAMES),
+    )
+    file_arguments(parser, say, say("animate.output_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Writes the moving picture; 1 where positions of the cycle were left out."""
+    from linkwright.cli.progress import progress
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import refuse_output
+    from linkwright.plot.animation import animate
+
+    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    seconds = _seconds(options.seconds, session.say)
+    mechanism, _ = read_model(options.file)
+    motion = cycle(mechanism, max(options.steps, options.frames), session)
+    lists = ("traces", "velocities", "accelerations")
+    refuse_unknown_points(motion, [(f"--{name}", names(getattr(options, name))) for name in lists])
+    animation = animate(
+        motion,
+        traces=names(options.traces),
+        velocities=names_or_all(options.velocities),
+        accelerations=names_or_all(options.accelerations),
+        forces=_forces(motion, options),
+        reactions_of=names(options.forces) or None,
+        curves=names(options.curves),
+        seconds=seconds,
+        frames=options.frames,
+        centres=options.centres,
+        labels=options.labels,
+        size=options.width,
+        language=session.language,
+    )
+    with progress(session.say("animate.drawing")) as report:
+        path = animation.save(
+            options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report
+        )
+    told(path, options, session)
+    return int(not motion.ok.all())
+
+
+def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:
+    """Forces where arrows or curves need them."""
+    if options.forces is None:
+        return None
+    from linkwright.kinetostatics.forces import solve_forces
+
+    return solve_forces(motion, static=options.static)
+
+
+def _seconds(text: str | None, say: Say) -> float | None:
+    """The time of one cycle; a bare number is in seconds."""
+    if text is None:
+        return None
+    from linkwright.cli.positions import quantities
+
+    try:
+        return float(text)
+    except ValueError:
+        values = quantities(text, "time", say, "--seconds")
+    if len(values) > 1:
+        raise UsageError(say("draw.one_position", option="--seconds", text=text))
+    return values[0]

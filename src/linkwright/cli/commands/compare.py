@@ -1,0 +1,112 @@
+"""``linkwright compare``: alternatives side by side."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.study.compare import Comparison
+
+ENDINGS = (".csv", ".json")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("files", metavar="FILE", nargs="+", help=say("compare.files_help"))
+    parser.add_argument("--metrics", nargs="+", metavar="METRIC", help=say("compare.metrics_help"))
+    parser.add_argument("--weights", nargs="+", metavar="NAME=NUMBER", help=say("compare.weights_help"))
+    parser.add_argument("--of", nargs="+", metavar="NAME", help=say("compare.of_help"))
+    parser.add_argument("--fluctuation", default="0.02", metavar="δ", help=say("compare.fluctuation_help"))
+    parser.add_argument(
+        "--steps", type=whole_number, default=360, metavar="N", help=say("compare.steps_help")
+    )
+    parser.add_argument("--output", metavar="FILE", help=say("compare.output_help"))
+    parser.add_argument("--curves", metavar="FILE", help=say("compare.curves_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Compares the machines and prints or writes what came out."""
+    say = session.say
+    if len(options.files) < 2:
+        raise UsageError(f"linkwright compare: {say('compare.too_few')}")
+    weights, fluctuation = _weights(options.weights or [], say), _fluctuation(options.fluctuation, say)
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import refuse_output
+    from linkwright.study.compare import compare
+
+    for path in (options.output, options.curves):
+        refuse_output(path, ENDINGS, say, force=options.force)
+    found = compare(
+        [read_model(name)[0] for name in options.files],
+        metrics=options.metrics,
+        weights=weights,
+        output=_outputs(options, say),
+        fluctuation=fluctuation,
+        steps=options.steps,
+    )
+    _show(found, options, session)
+    return 0
+
+
+def _outputs(options: argparse.Namespace, say: Say) -> str | list[str] | None:
+    if options.of is None or len(options.of) == 1:
+        return None if options.of is None else str(options.of[0])
+    if len(options.of) != len(options.files):
+        raise UsageError(say("compare.bad_count", count=len(options.of), files=len(options.files)))
+    return list(options.of)
+
+
+def _weights(texts: list[str], say: Say) -> dict[str, float]:
+    found = {}
+    for text in texts:
+        name, _, value = text.rpartition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            name = ""
+        if not name:
+            raise UsageError(say("compare.bad_weight", text=text))
+    return found
+
+
+def _fluctuation(text: str, say: Say) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise UsageError(say("compare.bad_fluctuation", text=text))
+    return value
+
+
+def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
+    from linkwright.cli.data import json_text
+    from linkwright.cli.tables import csv_of, curve_columns, curve_data, write_table
+
+    table: dict[str, Sequence[str] | Sequence[float]] = {
+        "metric": [
+            f"{row.criterion.name} [{unit}]" if unit else row.criterion.name for row, unit in found.units()
+        ]
+    }
+    table |= {label: found.column(i) for i, label in enumerate(found.labels)}
+    write_table(options.output, lambda: csv_of(table), found.data, session, force=options.force)
+    curves = options.curves
+    write_table(
+        curves, lambda: csv_of(curve_columns(found)), lambda: curve_data(found), session, force=options.force
+    )
+    if session.json:
+        session.show(json_text(found.data()))
+        return
+    session.show(found.text(session.language))
+    for path in (options.output, options.curves):
+        if path is not None:
+            session.show(session.say("cli.written", path=Path(path)))

@@ -1,0 +1,135 @@
+"""``linkwright draw``: the kinematic drawing of a model."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.pictures import (
+    cycle,
+    file_arguments,
+    names,
+    names_or_all,
+    refuse_unknown_points,
+    source_arguments,
+    told,
+    vector_arguments,
+)
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.kinetostatics.forces import Forces
+    from linkwright.model.mechanism import Mechanism
+    from linkwright.plot.drawing.dimensions import Dimension
+
+ENDINGS = (".svg", ".png", ".pdf")
+STEPS = 120
+LABELS = ("all", "points", "none")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    source_arguments(parser, say, steps=STEPS)
+    where = parser.add_argument_group(say("draw.where_title"))
+    one = where.add_mutually_exclusive_group()
+    one.add_argument("--at", metavar="INPUTS", help=say("draw.at_help"))
+    one.add_argument("--time", metavar="TIME", help=say("draw.time_help"))
+    where.add_argument("--overlay", metavar="WHICH", default="", help=say("draw.overlay_help"))
+    what = parser.add_argument_group(say("draw.what_title"))
+    what.add_argument("--paths", nargs="+", metavar="POINT", help=say("draw.paths_help"))
+    vector_arguments(what, say)
+    what.add_argument("--dimensions", nargs="*", metavar="LENGTH", help=say("draw.dimensions_help"))
+    what.add_argument("--labels", choices=LABELS, default="all", help=say("draw.labels_help"))
+    what.add_argument(
+        "--inputs", action=argparse.BooleanOptionalAction, default=True, help=say("draw.inputs_help")
+    )
+    file_arguments(parser, say, say("draw.output_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Draws a model and writes the picture."""
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import refuse_output
+    from linkwright.plot.drawing.draw import draw
+
+    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    mechanism, _ = read_model(options.file)
+    motion = cycle(mechanism, options.steps, session)
+    _refuse_unknown_names(motion, options)
+    drawing = draw(
+        motion,
+        at=_inputs(mechanism, options.at, session.say),
+        time=_time(options.time, session.say),
+        overlay=options.overlay or (),
+        paths=names(options.paths),
+        velocities=names_or_all(options.velocities),
+        accelerations=names_or_all(options.accelerations),
+        forces=_forces(motion, options),
+        reactions_of=names(options.forces) or None,
+        dimensions=_dimensions(mechanism, options.dimensions),
+        centres=options.centres,
+        inputs=options.inputs,
+        labels={"all": True, "points": "points", "none": False}[options.labels],
+        size=options.width if Path(options.output).suffix.lower() != ".png" else None,
+        language=session.language,
+    )
+    told(drawing.save(options.output, fonts=options.fonts, width=options.width), options, session)
+    return 0
+
+
+def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float] | None:
+    """One coordinate for every driver that ``--at`` names."""
+    if text is None:
+        return None
+    from linkwright.cli.positions import inputs
+    from linkwright.joints.revolute import RevoluteJoint
+
+    if not mechanism.drivers:
+        raise UsageError(f"--at: {say('solve.no_input')}")
+    joints = mechanism.joints
+    rotary = {name: isinstance(joints[d.joint], RevoluteJoint) for name, d in mechanism.drivers.items()}
+    given = inputs(text, rotary, say)
+    if any(len(values) > 1 for values in given.values()):
+        raise UsageError(say("draw.one_position", option="--at", text=text))
+    return {name: values[0] for name, values in given.items()}
+
+
+def _time(text: str | None, say: Say) -> float | None:
+    if text is None:
+        return None
+    from linkwright.cli.positions import quantities
+
+    values = quantities(text, "time", say, "--time")
+    if len(values) > 1:
+        raise UsageError(say("draw.one_position", option="--time", text=text))
+    return values[0]
+
+
+def _forces(motion: Motion, options: argparse.Namespace) -> Forces | bool | None:
+    """Forces where they are asked for; static ones solved here, as a drawing solves with inertia."""
+    if options.forces is None:
+        return None
+    if not options.static:
+        return True
+    from linkwright.kinetostatics.forces import solve_forces
+
+    return solve_forces(motion, static=True)
+
+
+def _dimensions(mechanism: Mechanism, words: list[str] | None) -> list[Dimension]:
+    """Links, pairs of points as ``O1:O3``, or all links given by their length."""
+    if words is None:
+        return []
+    given = names(words)
+    if not given:
+        return [name for name, link in mechanism.links.items() if link.geometry == "length"]
+    return [(first, last) if sign else name for name in given for first, sign, last in [name.partition(":")]]
+
+
+def _refuse_unknown_names(motion: Motion, options: argparse.Namespace) -> None:
+    lists = ("paths", "velocities", "accelerations")
+    refuse_unknown_points(motion, [(f"--{name}", names(getattr(options, name))) for name in lists])

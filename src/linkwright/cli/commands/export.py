@@ -1,0 +1,64 @@
+"""``linkwright export``: results in files for other programs."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+NAMES = ("csv", "dxf", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument("--output", metavar="FILE", required=True, help=say("export.output_help"))
+    parser.add_argument(
+        "--format", choices=NAMES, metavar="FORMAT", help=say("export.format_help", names=", ".join(NAMES))
+    )
+    parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("export.steps_help"))
+    parser.add_argument("--degrees", action="store_true", default=None, help=say("export.degrees_help"))
+    parser.add_argument("--unit", choices=("mm", "m"), help=say("export.unit_help"))
+    parser.add_argument("--position", type=int, metavar="N", help=say("export.position_help"))
+    parser.add_argument("--paths", nargs="+", metavar="POINT", help=say("export.paths_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Solves a model and writes the file."""
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import refuse_existing
+    from linkwright.cli.source import read_model
+    from linkwright.export import export
+
+    path = Path(options.output)
+    chosen, form = _checked(path, options)
+    refuse_existing(path, session.say, force=options.force)
+    mechanism, _ = read_model(options.file)
+    export(mechanism, path, format=chosen, force=options.force, steps=options.steps, language=session.language, **form)
+    if session.json:
+        session.show(json_text({"ok": True, "path": str(path), "format": chosen}))
+    else:
+        session.show(session.say("cli.written", path=path))
+    return 0
+
+
+def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, Any]]:
+    """The format and its options; raises UsageError before any work is done."""
+    from linkwright.errors import LinkwrightError
+    from linkwright.export.base import FORMATS
+    from linkwright.export.export import check_options, chosen_format
+
+    given = {name: getattr(options, name) for name in ("degrees", "unit", "position", "paths")}
+    form = {name: value for name, value in given.items() if value is not None}
+    try:
+        chosen = chosen_format(path, options.format)
+        check_options(chosen, FORMATS[chosen], form)
+    except LinkwrightError as error:
+        raise UsageError(str(error)) from None
+    return chosen, form

@@ -1,0 +1,140 @@
+"""``linkwright plot``: diagrams of motion, forces and torque."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.plot.diagrams.picture import Diagram
+
+ENDINGS = (".svg", ".pdf", ".png")
+STEPS = 720
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    from linkwright.plot.diagrams.make import kinds
+
+    parser.add_argument("files", metavar="FILE", nargs="+", help=say("plot.files_help"))
+    what = parser.add_argument_group(say("plot.what_title"))
+    what.add_argument("--kind", default="sva", metavar="KIND", help=say("plot.kind_help", kinds=", ".join(kinds())))
+    what.add_argument("--of", nargs="+", default=[], metavar="NAME", help=say("plot.of_help"))
+    what.add_argument("--joint", metavar="JOINT", help=say("plot.joint_help"))
+    what.add_argument("--on", metavar="LINK", help=say("plot.on_help"))
+    what.add_argument("--axes", metavar="LINK", help=say("plot.axes_help"))
+    what.add_argument("--at", metavar="INPUT", help=say("plot.at_help"))
+    what.add_argument("--steps", type=whole_number, default=STEPS, metavar="N", help=say("plot.steps_help"))
+    what.add_argument("--fluctuation", default="0.03", metavar="δ", help=say("plot.fluctuation_help"))
+    what.add_argument("--static", action="store_true", help=say("plot.static_help"))
+    form = parser.add_argument_group(say("plot.form_title"))
+    form.add_argument("--no-marks", action="store_true", help=say("plot.no_marks_help"))
+    form.add_argument("--title", metavar="TEXT", help=say("plot.title_help"))
+    form.add_argument("--dpi", default="200", metavar="N", help=say("plot.dpi_help"))
+    form.add_argument("--output", metavar="FILE", help=say("plot.output_help"))
+    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Draws a diagram and writes it; 1 where a position is not reached."""
+    _require_kind(options.kind)
+    fluctuation = _number(options.fluctuation, "fluctuation", 0.0, math.inf, session.say)
+    dpi = _number(options.dpi, "dpi", 9.999, 2400.0, session.say)
+    path = _path(options, session.say)
+    motions = _solved(options, session)
+    diagram = _drawn(options, session, motions, fluctuation)
+    _write(diagram, path, dpi, options, session)
+    return int(not all(motion.ok.all() for motion in motions.values()))
+
+
+def _require_kind(name: str) -> None:
+    from linkwright.errors import LinkwrightError
+    from linkwright.plot.diagrams.make import require_kind
+
+    try:
+        require_kind(name)
+    except LinkwrightError as error:
+        raise UsageError(f"--kind: {error}") from None
+
+
+def _path(options: argparse.Namespace, say: Say) -> Path:
+    """Where the diagram goes; refused before any work is done."""
+    from linkwright.cli.files import refuse_existing
+
+    source = options.files[0].removeprefix("gallery:")
+    path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")
+    if path.suffix.lower() not in ENDINGS:
+        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
+    refuse_existing(path, say, force=options.force)
+    return path
+
+
+def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
+    """The motion of every model by a name that tells it from the others; says how far the work is."""
+    from linkwright.cli.source import read_model
+    from linkwright.errors import LinkwrightError
+    from linkwright.kinematics.solve import solve_motion
+
+    found: dict[str, Motion] = {}
+    for number, file in enumerate(options.files, 1):
+        if len(options.files) > 1:
+            session.tell(session.say("plot.solving", number=number, count=len(options.files), file=file))
+        mechanism, _ = read_model(file)
+        motion = solve_motion(mechanism, steps=options.steps, failures="mark")
+        failed = [outcome for outcome in motion.outcomes if not outcome.ok]
+        if len(failed) == motion.steps:
+            raise LinkwrightError(f"{file}: {failed[0].sentence}")
+        if failed:
+            session.tell(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
+                                     sentence=failed[0].sentence))  # fmt: skip
+        found[mechanism.name if mechanism.name not in found else f"{mechanism.name} ({file})"] = motion
+    return found
+
+
+def _drawn(
+    options: argparse.Namespace, session: Session, motions: dict[str, Motion], fluctuation: float
+) -> Diagram:
+    from linkwright.plot.diagrams.make import plot
+
+    return plot(
+        motions,
+        options.kind,
+        of=options.of,
+        joint=options.joint,
+        on=options.on,
+        axes=options.axes,
+        at=options.at,
+        fluctuation=fluctuation,
+        static=options.static,
+        marks=not options.no_marks,
+        title=options.title,
+        language=session.language,
+    )
+
+
+def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace, session: Session) -> None:
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+
+    content = diagram.content(path.suffix.lower(), dpi=dpi)
+    write_whole(path, content, session.say, force=options.force)
+    if session.json:
+        session.show(json_text({"ok": True, "kind": options.kind, "file": str(path)}))
+    else:
+        session.show(session.say("cli.written", path=path))
+
+
+def _number(text: str, name: str, above: float, most: float, say: Say) -> float:
+    good = re.fullmatch(r"\d*\.?\d+(e[+-]?\d+)?", text.strip(), re.IGNORECASE)
+    if good is None or not above < float(text) <= most:
+        raise UsageError(say(f"plot.bad_{name}", text=text))
+    return float(text)

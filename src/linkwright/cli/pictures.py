@@ -1,0 +1,91 @@
+"""What the commands that make pictures have in common."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.kinematics.motion import Motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.words import Say
+
+
+def source_arguments(parser: argparse.ArgumentParser, say: Say, *, steps: int) -> None:
+    """The model file, and the steps of its cycle."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument(
+        "--steps", type=whole_number, default=steps, metavar="N", help=say("draw.steps_help", steps=steps)
+    )
+
+
+def vector_arguments(group: argparse._ArgumentGroup, say: Say) -> None:
+    """What may be drawn as arrows."""
+    for name, metavar in (("velocities", "POINT"), ("accelerations", "POINT"), ("forces", "JOINT")):
+        group.add_argument(f"--{name}", nargs="*", metavar=metavar, help=say(f"draw.{name}_help"))
+    group.add_argument("--static", action="store_true", help=say("draw.static_help"))
+    group.add_argument("--centres", action="store_true", help=say("draw.centres_help"))
+
+
+def file_arguments(parser: argparse.ArgumentParser, say: Say, output_help: str) -> None:
+    """Where the picture goes, how large, and in which letters."""
+    group = parser.add_argument_group(say("draw.form_title"))
+    group.add_argument("--output", metavar="FILE", required=True, help=output_help)
+    group.add_argument("--force", action="store_true", help=say("cli.force_help"))
+    group.add_argument("--width", type=whole_number, metavar="PIXELS", help=say("draw.width_help"))
+    group.add_argument("--fonts", nargs="+", metavar="FILE", default=(), help=say("draw.fonts_help"))
+
+
+def names(words: Sequence[str] | None) -> tuple[str, ...]:
+    """Names given one by one or with commas between them."""
+    return tuple(name for word in words or () for name in word.split(",") if name)
+
+
+def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
+    """Names; True where the option stands without any, False where it does not stand."""
+    return False if words is None else names(words) or True
+
+
+def refuse_unknown_points(motion: Motion, options: Sequence[tuple[str, Sequence[str]]]) -> None:
+    """Raises UsageError for a point that does not exist, before any drawing."""
+    refuse_unknown(motion.point, options)
+
+
+def refuse_unknown(find: Callable[[str], object], options: Sequence[tuple[str, Sequence[str]]]) -> None:
+    """Raises UsageError where ``find`` does not know a name that follows an option."""
+    from linkwright.errors import LinkwrightError
+
+    for option, given in options:
+        for name in given:
+            try:
+                find(name)
+            except LinkwrightError as error:
+                raise UsageError(f"{option}: {error}") from None
+
+
+def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
+    """The motion over a cycle; says how many positions are out of reach."""
+    from linkwright.cli.positions import MOST
+    from linkwright.kinematics.solve import solve_motion
+
+    if steps > MOST:
+        raise UsageError(session.say("solve.too_many", steps=steps, most=MOST))
+    motion = solve_motion(mechanism, steps=steps, failures="mark")
+    failed = int((~motion.ok).sum())
+    if failed and failed < motion.steps:
+        first = next(each for each in motion.outcomes if not each.ok)
+        session.tell(session.say("draw.not_reached", count=failed, of=motion.steps, sentence=first.sentence))
+    return motion
+
+
+def told(path: Path, options: argparse.Namespace, session: Session) -> None:
+    """Says what was written; as data with ``--json``."""
+    if options.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text({"ok": True, "written": str(path)}))
+    else:
+        session.show(session.say("cli.written", path=path))

@@ -1,0 +1,90 @@
+"""Tables of comparisons and studies in files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.files import refuse_existing, write_whole
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.study.compare import Comparison
+
+
+def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: bool) -> None:
+    """Raises UsageError for a file that could not be written, before any work is done."""
+    if name is None:
+        return
+    path = Path(name)
+    if path.suffix.lower() not in endings:
+        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(endings)))
+    refuse_existing(path, say, force=force)
+
+
+def write_table(
+    name: str | None, table: Callable[[], str], data: Callable[[], Any], session: Session, *, force: bool
+) -> None:
+    """Writes the table or the data, as the file's ending says."""
+    if name is None:
+        return
+    from linkwright.cli.data import json_text
+
+    path = Path(name)
+    text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
+    write_whole(path, text, session.say, force=force)
+
+
+def csv_of(columns: Mapping[str, Sequence[Any]]) -> str:
+    """Columns as CSV; numbers to the last bit, nothing where there is no number."""
+    import csv
+    import io
+
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    count = max((len(column) for column in columns.values()), default=0)
+    for i in range(count):
+        writer.writerow([_cell(column[i]) if i < len(column) else "" for column in columns.values()])
+    return stream.getvalue()
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    number = float(value)
+    return repr(number) if number == number else ""
+
+
+def curve_columns(found: Comparison) -> dict[str, Any]:
+    """Curves of a comparison as columns, SI."""
+    from linkwright.metrics.quantities import si_unit
+
+    columns: dict[str, Any] = {}
+    for overlay in found.curves:
+        unit = si_unit(overlay.dimension)
+        for label, (across, values) in overlay.lines.items():
+            if overlay.name == "hodograph":
+                columns[f"{label}: pivot_reaction.x [{unit}]"] = across
+                columns[f"{label}: pivot_reaction.y [{unit}]"] = values
+                continue
+            columns.setdefault(f"{label}: input", across)
+            columns[f"{label}: {overlay.name} [{unit}]"] = values
+    return columns
+
+
+def curve_data(found: Comparison) -> list[dict[str, Any]]:
+    """The same as plain data."""
+    from linkwright.metrics.quantities import si_unit
+
+    return [
+        {
+            "name": overlay.name,
+            "unit": si_unit(overlay.dimension),
+            "lines": {label: {"x": x.tolist(), "y": y.tolist()} for label, (x, y) in overlay.lines.items()},
+        }
+        for overlay in found.curves
+    ]

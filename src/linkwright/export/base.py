@@ -1,0 +1,38 @@
+"""What every file format supplies, and the registry of the formats."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.registry import Registry
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format: the endings of its files, and the function that makes a file's content.
+
+    ``content(results, **options)`` takes :class:`linkwright.export.results.Results` and keyword-only options.
+    """
+
+    suffixes: tuple[str, ...]
+    content: Callable[..., bytes]
+
+
+FORMATS: Registry[Format] = Registry("export format", "linkwright.export.formats")
+
+
+def package(name: str, purpose: str, install: str | None = None) -> Any:
+    """An optional package, imported when it is needed.
+
+    Raises:
+        LinkwrightError: it is not installed; the sentence has the command that installs it.
+    """
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        command = f"pip install {install or name}"
+        raise LinkwrightError(f"{purpose} need the package {install or name}; install it with: {command}") from None

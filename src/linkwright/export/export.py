@@ -1,0 +1,90 @@
+"""The one call that writes a result to a file."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.export.base import FORMATS, Format
+from linkwright.export.results import STEPS, Results
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.svg.files import write_whole
+from linkwright.registry import nearest
+from linkwright.words import LANGUAGES
+
+
+def export(
+    result: Mechanism | Motion | Forces,
+    path: str | Path,
+    *,
+    format: str | None = None,
+    force: bool = False,
+    steps: int = STEPS,
+    language: str = "en",
+    **options: Any,
+) -> Path:
+    """Write a result to a file for other programs, whole or not at all.
+
+    Args:
+        result: forces or a motion as they are; a mechanism is solved first, with forces where it has masses or
+            loads.
+        path: the file; its ending chooses the format.
+        format: ``csv``, ``xlsx``, ``json``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``svg``, ``png``, ``pdf``,
+            where the ending does not say it.
+        force: replace a file that exists.
+        steps: positions over the cycle, for a mechanism.
+        language: ``en`` or ``zh``, of headings and drawings.
+        **options: of the format; see the format's page.
+
+    Returns:
+        The path. Numbers are SI: m, kg, s, N, rad, counter-clockwise positive.
+
+    Raises:
+        LinkwrightError: an unknown format, ending or option, a file that exists, a folder that cannot be written, a
+            package that is not installed, a result that the format cannot hold.
+    """
+    target = Path(path)
+    chosen = chosen_format(target, format)
+    check_target(target, force=force)
+    if language not in LANGUAGES:
+        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+    check_options(chosen, FORMATS[chosen], options)
+    return write_whole(target, FORMATS[chosen].content(Results.of(result, steps, language), **options))
+
+
+def chosen_format(path: Path, name: str | None) -> str:
+    """The format that is named, or else that of the path's ending; raises LinkwrightError."""
+    if name is not None:
+        FORMATS[name]
+        return name
+    by_suffix = {suffix: each for each, form in FORMATS.items() for suffix in form.suffixes}
+    suffix = path.suffix.lower()
+    if suffix in by_suffix:
+        return by_suffix[suffix]
+    offer = nearest(suffix, by_suffix) if suffix else None
+    hint = f'did you mean "{offer}"?' if offer else f"use {', '.join(sorted(by_suffix))}, or say which format"
+    raise LinkwrightError(f'{path}: no format is written to files with the ending "{suffix}"; {hint}')
+
+
+def check_target(path: Path, *, force: bool) -> None:
+    """Raises LinkwrightError where the file could not be written, before any work is done."""
+    if path.is_dir():
+        raise LinkwrightError(f"{path} is a folder; name a file")
+    if not path.parent.is_dir():
+        raise LinkwrightError(f"there is no folder {path.parent}; create it first")
+    if path.exists() and not force:
+        raise LinkwrightError(f"{path} exists; choose another name, or replace it with force=True")
+
+
+def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
+    """Raises LinkwrightError for an option that the format does not have, with the nearest one."""
+    known = [p.name for p in inspect.signature(form.content).parameters.values() if p.kind is p.KEYWORD_ONLY]
+    for option in options:
+        if option not in known:
+            offer = nearest(option, known)
+            hint = f"did you mean {offer}?" if offer else f"it has {', '.join(known) or 'no options'}"
+            raise LinkwrightError(f"the format {name} has no option {option}; {hint}")

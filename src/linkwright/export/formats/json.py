@@ -1,0 +1,75 @@
+"""JSON: everything that is known about the results, with units."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+from linkwright.export.base import FORMATS, Format
+from linkwright.export.results import Results
+from linkwright.export.tables import tables
+
+
+def content(results: Results, *, indent: int = 1) -> bytes:
+    """The model, its structure, all columns with owner, quantity and unit, outcomes, notes, design numbers.
+
+    What is not a finite number is null. ``indent``: spaces per level.
+    """
+    return (json.dumps(_plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n").encode()
+
+
+def _data(results: Results) -> dict[str, Any]:
+    from linkwright import __version__
+    from linkwright.model.file import dump
+
+    motion, mechanism = results.motion, results.mechanism
+    notes = (*motion.notes, *(results.forces.notes if results.forces is not None else ()))
+    return {
+        "format": "linkwright results",
+        "version": 1,
+        "program": f"linkwright {__version__}",
+        "conventions": "SI units; angles in rad, counter-clockwise positive; x right, y up; reactions are forces that "
+        "the joint exerts on the named link",
+        "model": {
+            "name": mechanism.name,
+            "purpose": mechanism.purpose,
+            "source": mechanism.source,
+            "text": dump(mechanism),
+        },
+        "structure": results.structure.data(),
+        "positions": motion.steps,
+        "closed": motion.positions.closed,
+        "period": {"unit": "s", "value": motion.positions.period},
+        "static": None if results.forces is None else results.forces.static,
+        "outcomes": [{"ok": each.ok, "sentence": each.sentence} for each in motion.outcomes],
+        "notes": list(notes),
+        "tables": {
+            table.subject: {
+                column.name: {
+                    "owner": column.owner,
+                    "quantity": column.quantity,
+                    "unit": column.unit,
+                    "values": column.values,
+                }
+                for column in table.columns
+            }
+            for table in tables(results)
+        },
+        "metrics": results.metrics.data(),
+    }
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {str(key): _plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+FORMATS.register("json")(Format((".json",), content))

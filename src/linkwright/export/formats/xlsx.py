@@ -1,0 +1,184 @@
+"""XLSX: a workbook with one sheet per subject."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from linkwright.export.base import FORMATS, Format, package
+from linkwright.export.results import Results
+from linkwright.export.tables import Column, Table, tables
+from linkwright.metrics.base import METRICS
+from linkwright.units import Dimension
+from linkwright.words import say
+
+Cell = str | float | int | bool | None
+#: Characters that XML cannot hold.
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+LONGEST_TEXT = 32767
+MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
+
+
+def content(results: Results, *, degrees: bool = False) -> bytes:
+    """Sheets on the model, its structure, links, points, joints, forces, loads and design numbers.
+
+    The heading of a column has its owner, quantity and unit and stays in view, as do time and inputs. Texts are
+    written as texts: none is read as a formula or a link. Values that are not finite stay empty. ``degrees``: angles
+    in degrees.
+    """
+    xlsxwriter = package("xlsxwriter", "Excel files", "XlsxWriter")
+    stream = io.BytesIO()
+    settings = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    with xlsxwriter.Workbook(stream, settings) as book:
+        book.set_properties({"title": results.mechanism.name, "comments": results.mechanism.source})
+        Workbook(book, results, degrees).write()
+    return stream.getvalue()
+
+
+class Workbook:
+    """The sheets of one result."""
+
+    def __init__(self, book: Any, results: Results, degrees: bool) -> None:
+        self.book, self.results, self.degrees = book, results, degrees
+        head = {"bold": True, "text_wrap": True, "valign": "top", "bottom": 1, "bg_color": "#E8EEF4"}
+        self.head = book.add_format(head)
+        self.text = book.add_format({"text_wrap": True, "valign": "top"})
+
+    def write(self) -> None:
+        """All sheets."""
+        self._rows("model", ("item", "value", "unit"), _model(self.results, self.say), (28, 60, 12))
+        self._rows("structure", ("number", "group", "links", "class", "order", "drivers", "joints"),
+                   _groups(self.results), (8, 14, 32, 8, 8, 20, 40))  # fmt: skip
+        first, *others = tables(self.results)
+        leading = self._turned(first.columns)
+        for table in others:
+            self._values(table, leading)
+        rows = list(_metrics(self.results))
+        if rows:
+            head = ("metric", "subject", "value", "unit", "at", "at_unit", "remark")
+            self._rows("metrics", head, rows, (34, 24, 14, 8, 12, 8, 60))
+
+    def say(self, key: str) -> str:
+        """A word of the catalogue."""
+        return say(f"export.{key}", self.results.language)
+
+    def _turned(self, columns: Sequence[Column]) -> list[Column]:
+        return [column.turned if self.degrees else column for column in columns]
+
+    def _sheet(self, subject: str) -> Any:
+        return self.book.add_worksheet(self.say(f"sheet.{subject}"))
+
+    def _rows(
+        self, subject: str, head: Sequence[str], rows: Iterable[Sequence[Cell]], widths: Sequence[int]
+    ) -> None:
+        """A sheet of texts and numbers under a heading."""
+        sheet = self._sheet(subject)
+        for column, (word, width) in enumerate(zip(head, widths, strict=True)):
+            sheet.set_column(column, column, width)
+            sheet.write_string(0, column, self.say(f"head.{word}"), self.head)
+        for row, cells in enumerate(rows, start=1):
+            for column, cell in enumerate(cells):
+                self._cell(sheet, row, column, cell)
+        sheet.freeze_panes(1, 0)
+
+    def _cell(self, sheet: Any, row: int, column: int, cell: Cell) -> None:
+        if isinstance(cell, str):
+            sheet.write_string(row, column, _CONTROL.sub("", cell)[:LONGEST_TEXT], self.text)
+        elif cell is not None and math.isfinite(cell):
+            sheet.write_number(row, column, cell)
+
+    def _values(self, table: Table, leading: Sequence[Column]) -> None:
+        """A sheet of values over the positions."""
+        sheet = self._sheet(table.subject)
+        columns = [*leading, *self._turned(table.columns)][:MOST_COLUMNS]
+        for index, column in enumerate(columns):
+            sheet.write_string(0, index, self._heading(column), self.head)
+            sheet.set_column(index, index, 14, self.book.add_format({"num_format": number_format(column.values)}))
+            for row, value in enumerate(column.values[:MOST_ROWS].tolist(), start=1):
+                if math.isfinite(value):
+                    sheet.write_number(row, index, value)
+        sheet.set_row(0, 48)
+        sheet.freeze_panes(1, len(leading))
+        sheet.autofilter(0, 0, len(columns[0].values), len(columns) - 1)
+
+    def _heading(self, column: Column) -> str:
+        """Owner, quantity in words, unit, each on a line."""
+        owner = column.owner.replace("_", " ") if column.owner == "shaking_force" else column.owner
+        if column.owner == "shaking_force":
+            owner = self.say("quantity.shaking_force")
+        word = column.words(self.results.language) if column.quantity else self.say("input")
+        return _CONTROL.sub("", "\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
+
+
+def number_format(values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
+    """Decimals that show six digits of the largest value; a power of ten where it is very large or small."""
+    finite = values[np.isfinite(values)]
+    size = float(np.max(np.abs(finite), initial=0.0))
+    if size == 0.0:
+        return "0.000"
+    place = math.floor(math.log10(size))
+    if not -4 <= place < 8:
+        return "0.00000E+00"
+    decimals = max(0, min(9, 5 - place))
+    return "0." + "0" * decimals if decimals else "0"
+
+
+def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
+    mechanism = results.mechanism
+    yield word("name"), mechanism.name, ""
+    for key, text in (("purpose", mechanism.purpose), ("source", mechanism.source)):
+        if text:
+            yield word(key), text, ""
+    yield word("mobility"), results.structure.mobility, ""
+    yield word("positions"), results.motion.steps, ""
+    yield word("reached"), int(results.motion.ok.sum()), ""
+    if results.motion.positions.period is not None:
+        yield word("period"), results.motion.positions.period, "s"
+    for note in (*results.motion.notes, *(results.forces.notes if results.forces is not None else ())):
+        yield word("note"), note, ""
+    for address, value in mechanism.dimensions().items():
+        yield address, value, _unit(results, address)
+
+
+def _unit(results: Results, address: str) -> str:
+    """SI unit of a dimension, where its address says it."""
+    from linkwright.units import SI_UNITS
+
+    mechanism = results.mechanism
+    if address in mechanism.kinds:
+        dimension: Dimension = mechanism.kinds[address]
+        return SI_UNITS[dimension]
+    owner, *middle, last = address.split(".")
+    if owner == "gravity":
+        return "m/s²"
+    if owner in mechanism.drivers:
+        rotary = results.motion.positions.rotary[owner]
+        return {"speed": "rad/s" if rotary else "m/s", "start": "rad" if rotary else "m"}.get(last, "")
+    if owner in mechanism.loads:
+        return ""
+    words = {"mass": "kg", "inertia": "kg·m²", "angle": "rad", "direction": "rad", "block_angle": "rad"}
+    lengths = ("length", "offset", "pin_radius", "x", "y")
+    return "m" if last in lengths or "lengths" in middle else words.get(last, "")
+
+
+def _groups(results: Results) -> Iterable[Sequence[Cell]]:
+    for number, group in enumerate(results.structure.groups, start=1):
+        joints = ", ".join(dict.fromkeys(connection.joint for connection in group.joints))
+        yield (number, group.signature, ", ".join(group.links), group.assur_class, group.assur_order,
+               ", ".join(group.drivers), joints)  # fmt: skip
+
+
+def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
+    for row in results.metrics:
+        data = row.data()
+        label = METRICS[row.metric]().label_in(results.language)
+        remark = "; ".join(each.text(results.language) for each in row.remarks)
+        yield label, row.subject, row.value, row.unit, row.at, data["at_unit"] or "", remark
+
+
+FORMATS.register("xlsx")(Format((".xlsx",), content))

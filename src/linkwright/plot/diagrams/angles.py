@@ -1,0 +1,66 @@
+"""Angles of links over the input, with their rates."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
+from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
+from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.source import TURN, Source
+
+
+@DIAGRAMS.register("angles")
+class Angles(OverInput):
+    """Angle, angular velocity and angular acceleration of several links, each link a curve."""
+
+    name = "angles"
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        if len(request.of) == 1:
+            return Output("angle", request.of[0], request.of[0])
+        return None if request.of else main_output(source.motion)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        motion, say = source.motion, request.say
+        links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
+        if not links:
+            raise LinkwrightError(f"no link of {motion.mechanism.name!r} turns, so there are no angle curves; draw its sva")
+        shown = [source.closed(motion.link(name).angle, turns=True) for name in links]
+        change = _flat(shown)
+        omega = [source.closed(motion.link(name).angular_velocity) for name in links]
+        alpha = [source.closed(motion.link(name).angular_acceleration) for name in links]
+        angle = [values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown]
+        return [
+            Panel(say("angle_change") if change else f"{say('angle')} θ", "angle", _curves(links, angle)),
+            Panel(f"{say('angular_velocity')} ω", "angular_velocity", _curves(links, omega)),
+            Panel(f"{say('angular_acceleration')} α", "angular_acceleration", _curves(links, alpha)),
+        ]
+
+
+def _curves(links: list[str], values: list[Floats]) -> tuple[Curve, ...]:
+    peak, found = "both" if len(links) == 1 else "", []
+    for number, (name, each) in enumerate(zip(links, values, strict=True)):
+        colour, dash = COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
+        found.append(Curve(name, each, peak, colour, dash))
+    return tuple(found)
+
+
+def _flat(angles: list[Floats]) -> bool:
+    """Whether the angles lie so far apart that their changes would not be seen in one panel."""
+    placed = [_near_zero(each)[np.isfinite(each)] for each in angles]
+    every = np.concatenate(placed)
+    return len(angles) > 1 and max(float(np.ptp(each)) for each in placed) < 0.25 * float(np.ptp(every))
+
+
+def _near_zero(angle: Floats) -> Floats:
+    """An angle moved by whole turns so that its middle lies within half a turn of zero."""
+    good = angle[np.isfinite(angle)]
+    if not len(good):
+        return angle
+    middle = 0.5 * (good.min() + good.max())
+    return np.asarray(angle - TURN * np.round(middle / TURN * (1 - 1e-12)))

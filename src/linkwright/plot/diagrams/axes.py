@@ -1,0 +1,64 @@
+"""The axis of the input, titles, and axes of equal scale."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.plot.diagrams.picture import INK
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from linkwright.plot.diagrams.base import Request
+    from linkwright.plot.diagrams.source import InputAxis
+    from linkwright.words import Say
+
+_ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
+
+
+def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
+    """Label, range and ticks of the axis below: the input in the order of the motion."""
+    from matplotlib.ticker import MultipleLocator
+
+    shown = axis.values * axis.unit.factor
+    good = shown[np.isfinite(shown)]
+    if len(good) and good[0] != good[-1]:
+        axes.set_xlim(*((good.max(), good.min()) if axis.backwards else (good.min(), good.max())))
+    if axis.dimension == "angle":
+        span = float(np.ptp(good)) if len(good) else 360.0
+        step = next((each for each in _ANGLE_STEPS if span / each <= 12.5), None)
+        if step is not None:
+            axes.xaxis.set_major_locator(MultipleLocator(step))
+    axes.set_xlabel(input_label(axis, say))
+
+
+def input_label(axis: InputAxis, say: Say) -> str:
+    """``input φ (°)``, with the driver's name where there is one."""
+    symbols = {"angle": "φ", "length": "s", "time": "t"}
+    word = say("time") if axis.dimension == "time" else say("input")
+    return f"{word} {symbols[axis.dimension]} ({axis.unit.name})"
+
+
+def framed(figure: Figure, title: str, request: Request) -> None:
+    """The title: the one asked for, or this one; none where an empty one is asked for."""
+    text = title if request.title is None else request.title
+    if text:
+        figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
+
+
+def wrapped(text: str, inches: float) -> str:
+    """A long title in lines that fit a width."""
+    import textwrap
+
+    wide = sum(2.0 if ord(c) > 0x2E7F else 1.0 for c in text) / max(len(text), 1)
+    return "\n".join(textwrap.wrap(text, max(20, int(inches * 10.5 / wide)))) or text
+
+
+def equal(axes: Axes) -> None:
+    """The same scale on both axes, with lines through the origin."""
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.axhline(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)
+    axes.axvline(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)

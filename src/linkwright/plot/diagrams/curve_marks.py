@@ -1,0 +1,111 @@
+"""Closed curves in a plane: the curve, its direction, and inputs marked along it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.plot.diagrams.marks import acting
+from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.units import round_up, significant
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Mask = NDArray[np.bool_]
+#: Two labels nearer than this share of the picture's size are not both written.
+NEAR = 0.055
+_HALO: dict[str, Any] = {"boxstyle": "round,pad=0.08", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+
+
+def jumps(source: Source) -> Floats:
+    """Indices i such that a load begins or ends to act between positions i and i + 1 of the closed cycle."""
+    found: set[int] = set()
+    for where in acting(source).values():
+        found |= set(np.flatnonzero(np.diff(where.astype(int))).tolist())
+    return np.array(sorted(found), dtype=float)
+
+
+def draw_curve(axes: Axes, curve: Floats, breaks: Floats, colour: str, dash: str = "-") -> Any:
+    """A curve (n, 2); dotted where a load jumps. Returns its line."""
+    line = None
+    starts = [0, *(int(i) + 1 for i in breaks)]
+    ends = [*(int(i) + 1 for i in breaks), len(curve)]
+    for start, end in zip(starts, ends, strict=True):
+        (line,) = axes.plot(curve[start:end, 0], curve[start:end, 1], color=colour, linestyle=dash)
+    for i in breaks.astype(int):
+        axes.plot(curve[i : i + 2, 0], curve[i : i + 2, 1], color=colour, linestyle=":", linewidth=1.0)
+    return line
+
+
+def mark_inputs(axes: Axes, curve: Floats, axis: InputAxis, colour: str) -> None:
+    """Dots at round values of the input, with the values beside them where there is room, and an arrow."""
+    good: Mask = np.isfinite(curve).all(axis=1)
+    if good.sum() < 3:
+        return
+    middle = 0.5 * (curve[good].min(axis=0) + curve[good].max(axis=0))
+    extent = float(max(np.ptp(curve[good], axis=0).max(), 1e-300))
+    written: list[Floats] = []
+    for index, text in _round_places(axis, good):
+        at = curve[index]
+        axes.plot([at[0]], [at[1]], "o", color=colour, markersize=2.8, zorder=4)
+        if any(np.abs(at - other).max() < NEAR * extent for other in written):
+            continue
+        written.append(at)
+        out = _outward(curve, index, middle)
+        side = "left" if out[0] > 0.35 else "right" if out[0] < -0.35 else "center"
+        level = "bottom" if out[1] > 0.35 else "top" if out[1] < -0.35 else "center"
+        axes.annotate(text, (at[0], at[1]), (4.5 * out[0], 4.5 * out[1]), textcoords="offset points", ha=side,
+                      va=level, fontsize=7, color=INK, bbox=_HALO, zorder=5)  # fmt: skip
+    _arrow(axes, curve, good, colour)
+
+
+def _round_places(axis: InputAxis, good: Mask) -> list[tuple[int, str]]:
+    """Indices nearest to round values of the axis, each once, with their texts."""
+    shown = axis.values * axis.unit.factor
+    span = float(np.ptp(shown[np.isfinite(shown)]))
+    if span == 0.0:
+        return []
+    step = 30.0 if axis.dimension == "angle" and 90 <= span <= 400 else round_up(span / 12.0)
+    first, last = np.ceil(shown.min() / step - 1e-9), np.floor(shown.max() / step + 1e-9)
+    found, seen = [], set()
+    values = np.arange(first, last + 1) * step
+    for value in values[::-1] if axis.backwards else values:
+        index = int(np.nanargmin(np.abs(shown - value)))
+        turned = round(value % 360.0, 6) if axis.dimension == "angle" else value
+        if good[index] and turned not in seen:
+            seen.add(turned)
+            suffix = "°" if axis.dimension == "angle" else f" {axis.unit.name}"
+            found.append((index, f"{significant(float(value), 6)}{suffix}"))
+    return found
+
+
+def _outward(curve: Floats, index: int, middle: Floats) -> Floats:
+    """Unit normal of the curve that points away from the middle."""
+    before, after = curve[max(index - 2, 0)], curve[min(index + 2, len(curve) - 1)]
+    along = after - before
+    normal = np.array([along[1], -along[0]])
+    if not np.isfinite(normal).all() or np.hypot(*normal) == 0.0:
+        normal = curve[index] - middle
+    length = float(np.hypot(*normal)) or 1.0
+    sign = 1.0 if normal @ (curve[index] - middle) >= 0 else -1.0
+    return np.asarray(sign * normal / length)
+
+
+def _arrow(axes: Axes, curve: Floats, good: Mask, colour: str) -> None:
+    """One arrow head where the curve is long, in the direction of the motion."""
+    steps = np.hypot(*np.diff(curve, axis=0).T)
+    steps = np.where(good[1:] & good[:-1], steps, 0.0)
+    if not steps.sum() > 0:
+        return
+    usual = np.where(steps < 6 * np.median(steps[steps > 0]), steps, 0.0)
+    index = int(np.searchsorted(np.cumsum(usual), 0.08 * usual.sum()))
+    index = min(max(index, 1), len(curve) - 3)
+    if not good[index - 1 : index + 2].all() or (curve[index - 1] == curve[index + 1]).all():
+        return
+    axes.annotate("", tuple(curve[index + 1]), tuple(curve[index - 1]),
+                  arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0})  # fmt: skip

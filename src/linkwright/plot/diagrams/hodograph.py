@@ -1,0 +1,81 @@
+"""Hodographs of joint forces: the polar load diagram of a pin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.plot.diagrams.axes import equal, framed
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.outputs import joint_and_link, known_link
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
+from linkwright.plot.diagrams.reactions import require_forces
+from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.units import Unit, unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@DIAGRAMS.register("hodograph")
+class Hodograph(Kind):
+    """The end of the force that a joint exerts on a link, drawn from one origin over the cycle.
+
+    Left in the frame's axes, right in the link's: where the force goes round in space, and on the link's own pin.
+    With ``axes`` one of the two alone. Both scales of an axis pair are equal; inputs are marked along the curve.
+    """
+
+    name = "hodograph"
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        require_forces(sources[0].forces)
+        joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
+        views = ("frame", link) if request.axes is None else (request.axes,)
+        for view in views:
+            known_link(sources[0].mechanism, view)
+        figure = new_figure(request.size or (4.6 * len(views) + 0.8 * (len(views) == 1), 4.9))
+        legend = Legend()
+        for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
+            _draw(place, sources, (joint, link, view), request, legend)
+        subject = request.say("hodograph_of", joint=joint, link=link)
+        framed(figure, f"{sources[0].label}: {subject}" if len(sources) == 1 else subject, request)
+        legend.put(figure)
+        return figure
+
+
+def _draw(axes: Axes, sources: Sequence[Source], what: tuple[str, str, str], request: Request, legend: Legend) -> None:
+    joint, link, view = what
+    say = request.say
+    curves = [source.closed(source.forces.reaction(joint, on=link, axes=view)) for source in sources]
+    unit = unit_of("force", curves)
+    for number, (source, curve) in enumerate(zip(sources, curves, strict=True)):
+        colour = COLOURS[number % len(COLOURS)]
+        line = draw_curve(axes, curve * unit.factor, jumps(source), colour)
+        if len(sources) > 1:
+            legend.add(source.label, line)
+        elif request.marks:
+            mark_inputs(axes, curve * unit.factor, source.axis, colour)
+            _largest(axes, curve, unit, legend, request)
+    names = ("x", "y") if view == "frame" else ("ξ", "η")
+    axes.set_title(say("in_frame") if view == "frame" else say("in_link", link=view), color=INK)
+    axes.set_xlabel(f"F{names[0]} ({unit.name})")
+    axes.set_ylabel(f"F{names[1]} ({unit.name})")
+    equal(axes)
+    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
+    axes.margins(0.13)
+
+
+def _largest(axes: Axes, curve: Floats, unit: Unit, legend: Legend, request: Request) -> None:
+    """The largest force as an arrow from the origin."""
+    length = np.hypot(curve[:, 0], curve[:, 1])
+    index = int(np.nanargmax(length))
+    x, y = curve[index] * unit.factor
+    axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
+                  "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip
+    legend.line(request.say("largest_force", value=unit.text(float(length[index]))), FAINT, "-")

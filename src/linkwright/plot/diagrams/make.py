@@ -1,0 +1,122 @@
+"""Diagrams by name: the one call behind ``plot`` and every ``.plot()``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.running import SteadyRunning
+from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.picture import Diagram, style
+from linkwright.plot.diagrams.source import Result, Source
+from linkwright.registry import nearest
+from linkwright.units import parse
+from linkwright.words import LANGUAGES
+
+
+def plot(
+    result: Result | Sequence[Result] | Mapping[str, Result],
+    kind: str | None = None,
+    *,
+    of: str | Sequence[str] = (),
+    joint: str | None = None,
+    on: str | None = None,
+    axes: str | None = None,
+    at: float | str | None = None,
+    fluctuation: float = 0.03,
+    static: bool = False,
+    marks: bool = True,
+    title: str | None = None,
+    size: tuple[float, float] | None = None,
+    language: str = "en",
+) -> Diagram:
+    """A diagram of a result, or of several over each other.
+
+    Args:
+        result: a mechanism (solved first), motion, forces, or steady running; a list, or a mapping from labels, of
+            several are compared in one diagram.
+        kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
+            ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``shaking``,
+            ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``.
+        of: outputs, links or points that the diagram is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``.
+        joint, on: the joint of reactions and hodographs, and the link on which its force acts.
+        axes: ``"frame"``, or a link in whose axes forces are resolved.
+        at: the input of a polygon: rad, m or s, or a text with its unit (``"30 deg"``).
+        fluctuation: required δ of the flywheel in ``speed``.
+        static: leave the inertia forces out where forces are solved here.
+        marks: limit positions, peaks, phases and inputs along curves.
+        title: a title of your own; ``""`` for none.
+        size: width and height in inches; polygons have their own, by their scale.
+        language: ``en`` or ``zh``.
+
+    Returns:
+        The diagram; ``save("x.svg")``, ``.pdf``, ``.png``.
+
+    Raises:
+        LinkwrightError: an unknown kind or name, a diagram that makes no sense for the mechanism, no matplotlib, or no
+            font for Chinese.
+    """
+    if language not in LANGUAGES:
+        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+    sources = _sources(result, static=static)
+    name = kind or _usual(result)
+    require_kind(name)
+    request = Request(
+        of=(of,) if isinstance(of, str) else tuple(of),
+        joint=joint,
+        on=on,
+        axes=axes,
+        at=_place(at, sources[0]),
+        fluctuation=fluctuation,
+        marks=marks,
+        title=title,
+        size=size,
+        language=language,
+    )
+    with style(language):
+        figure = DIAGRAMS[name]().draw(sources, request)
+    return Diagram(name, figure, language)
+
+
+def kinds() -> tuple[str, ...]:
+    """Names of all kinds of diagrams."""
+    return tuple(DIAGRAMS)
+
+
+def require_kind(name: str) -> None:
+    """Raises LinkwrightError, with the nearest kind and the list of all, where there is no kind of that name."""
+    if name in DIAGRAMS:
+        return
+    offer = nearest(name, list(DIAGRAMS))
+    hint = f'did you mean "{offer}"? ' if offer else ""
+    raise LinkwrightError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
+
+
+def _sources(result: Result | Sequence[Result] | Mapping[str, Result], *, static: bool) -> list[Source]:
+    if isinstance(result, Mapping):
+        found = [Source(each, label, static=static) for label, each in result.items()]
+    elif isinstance(result, Sequence):
+        found = [Source(each, static=static) for each in result]
+    else:
+        found = [Source(result, static=static)]
+    if not found:
+        raise LinkwrightError("there is nothing to draw; give at least one result")
+    if len(found) > 1 and len({source.label for source in found}) < len(found):
+        raise LinkwrightError("results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})")
+    return found
+
+
+def _usual(result: Result | Sequence[Result] | Mapping[str, Result]) -> str:
+    values = list(result.values()) if isinstance(result, Mapping) else result
+    first = values[0] if isinstance(values, Sequence) and values else values
+    return "speed" if isinstance(first, SteadyRunning) else "torque" if isinstance(first, Forces) else "sva"
+
+
+def _place(at: float | str | None, source: Source) -> float | None:
+    """The coordinate of one position, SI."""
+    if not isinstance(at, str):
+        return at
+    if not source.mechanism.drivers:
+        raise LinkwrightError(f"{source.mechanism.name!r} has no driver, so there is no input to set; leave at out")
+    return parse(at, source.input_dimension)

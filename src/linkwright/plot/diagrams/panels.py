@@ -1,0 +1,206 @@
+"""Curves over the input in stacked panels with one axis."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.axes import framed, label_input
+from linkwright.plot.diagrams.base import Kind, Request
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, phase_marks
+from linkwright.plot.diagrams.peaks import mark_peaks
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
+from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+DASHES = ("-", "--", ":", "-.")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve: SI ``values`` (n,) over the input up to the cycle's end.
+
+    ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty.
+    """
+
+    label: str
+    values: Floats
+    peak: str = "both"
+    colour: str = COLOURS[0]
+    dash: str = "-"
+    x: Floats | None = None
+    width: float = 1.5
+
+
+@dataclass(frozen=True)
+class Level:
+    """A value that holds over the whole cycle, such as a mean."""
+
+    label: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel: the quantity as a word with its symbol, its dimension, curves and levels."""
+
+    title: str
+    dimension: str
+    curves: tuple[Curve, ...]
+    levels: tuple[Level, ...] = ()
+    fill: bool = False
+
+    @property
+    def unit(self) -> Unit:
+        """The unit in which the panel is shown."""
+        return unit_of(self.dimension, [curve.values for curve in self.curves])
+
+
+class OverInput(Kind):
+    """A diagram of panels over the input."""
+
+    @abstractmethod
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        """The panels of one source, from the top down; the same number for every source."""
+
+    def subject(self, sources: Sequence[Source], request: Request) -> str:
+        """What the title names beside the mechanism."""
+        return request.say(f"kind.{self.name}")
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        """The output whose limit positions are marked."""
+        return None
+
+    def axis(self, source: Source) -> InputAxis:
+        """What the panels lie over."""
+        return source.axis
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        panels = _laid_over([(each, self.axis(each), self.panels(each, request)) for each in sources])
+        axis = self.axis(sources[0])
+        figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(panels), 1.45)))
+        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        legend = Legend()
+        for one, panel in zip(axes, panels, strict=True):
+            _draw_panel(one, panel, axis, request, legend)
+        if request.marks and len(sources) == 1:
+            _draw_marks(list(axes), sources[0], self.output(sources[0], request), legend, request.say)
+        label_input(axes[-1], axis, request.say)
+        title = f"{sources[0].label}: {self.subject(sources, request)}" if len(sources) == 1 and sources[0].label else self.subject(sources, request)
+        framed(figure, title, request)
+        figure.align_ylabels(list(axes))
+        legend.put(figure)
+        return figure
+
+
+def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel]:
+    """The panels of the first source with the curves of the others, one colour for each source."""
+    if len(parts) == 1:
+        return parts[0][2]
+    merged: list[list[Curve]] = [[] for _ in parts[0][2]]
+    for number, (source, axis, panels) in enumerate(parts):
+        for into, panel in zip(merged, panels, strict=False):
+            for which, curve in enumerate(panel.curves):
+                own = f": {curve.label}" if curve.label else ""
+                x = axis.values if curve.x is None else curve.x
+                colour, dash = COLOURS[number % len(COLOURS)], DASHES[which % len(DASHES)]
+                label = f"{source.label}{own}"
+                into.append(replace(curve, label=label, x=x, peak="", colour=colour, dash=dash))
+    return [
+        replace(panel, curves=tuple(curves), levels=(), fill=False)
+        for panel, curves in zip(parts[0][2], merged, strict=True)
+    ]
+
+
+def _draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, legend: Legend) -> None:
+    unit = panel.unit
+    many = len(panel.curves) > 1
+    axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
+    for curve in panel.curves:
+        x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
+        (line,) = axes.plot(x, curve.values * unit.factor, color=curve.colour, linestyle=curve.dash, linewidth=curve.width)
+        if many or curve.label:
+            legend.add(curve.label, line)
+    for level in panel.levels:
+        line = axes.axhline(level.value * unit.factor, color=COLOURS[1], linewidth=1.1, linestyle=(0, (6, 3)))
+        legend.add(level.label, line)
+    if panel.fill and panel.levels:
+        _fill(axes, panel, axis, unit)
+    _set_range(axes, panel, unit)
+    axes.set_ylabel(f"{panel.title}\n({unit.name})")
+    if request.marks:
+        mark_peaks(axes, panel, axis, unit)
+
+
+def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
+    """The areas between the first curve and its first level."""
+    curve, level = panel.curves[0], panel.levels[0].value * unit.factor
+    x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
+    y = curve.values * unit.factor
+    for above, colour in ((True, COLOURS[1]), (False, COLOURS[2])):
+        where = y > level if above else y < level
+        axes.fill_between(x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0)
+
+
+def _set_range(axes: Axes, panel: Panel, unit: Unit) -> None:
+    """Room for the texts at peaks, no zooming into rounding errors, zero only where it is near."""
+    numbers = [curve.values[np.isfinite(curve.values)] for curve in panel.curves]
+    numbers.append(np.array([level.value for level in panel.levels]))
+    every = np.concatenate(numbers) * unit.factor
+    if not len(every):
+        return
+    low, high = float(every.min()), float(every.max())
+    least = 1e-9 * max(abs(low), abs(high)) + 1e-12 * unit.factor
+    if high - low <= least:
+        room = max(0.1 * abs(high), 1.0)
+        axes.set_ylim(low - room, high + room)
+        return
+    room = 0.2 * (high - low)
+    grounded = 0 <= low < 0.5 * high and all(curve.peak != "both" for curve in panel.curves)
+    axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
+
+
+def _draw_marks(
+    axes: list[Axes], source: Source, output: Output | str | None, legend: Legend, say: Say
+) -> None:
+    factor = source.axis.unit.factor
+    limits = limit_marks(source, output)
+    for phase in phase_marks(source, limits):
+        _shade(axes, phase, factor)
+        legend.patch(say("acts", load=phase.name), SHADE)
+    for limit in limits:
+        for one in axes:
+            one.axvline(limit.place * factor, color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1.5)
+    if limits:
+        _name_limits(axes[0], limits, source.axis, say)
+        legend.line(say("limit_of", output=str(output)), FAINT, (0, (4, 3)))
+
+
+def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
+    for one in axes:
+        one.axvspan(phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5)
+
+
+def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Say) -> None:
+    """Inputs of the limit positions above the panel; two that are close stand one over the other."""
+    span = abs(axis.values[-1] - axis.values[0]) or 1.0
+    ordered = sorted(limits, key=lambda each: each.place)
+    row, before = 0, -np.inf
+    for limit in ordered:
+        row = 1 - row if limit.place - before < 0.14 * span else 0
+        before = limit.place
+        text = f"{say(limit.kind)} {axis.unit.text(limit.place)}"
+        axes.annotate(text, (limit.place * axis.unit.factor, 1.0), (0, 2 + 9 * row), xycoords=("data", "axes fraction"),
+                      textcoords="offset points", ha="center", va="bottom", fontsize=7.5, color=INK)  # fmt: skip

@@ -1,0 +1,92 @@
+"""Paths of points: coupler curves, with the mechanism at its first position."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.outputs import output_named, traced_points
+from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.panels import DASHES
+from linkwright.plot.diagrams.position import LINK, draw_position, reach
+from linkwright.plot.diagrams.source import Source
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@DIAGRAMS.register("paths")
+class Paths(Kind):
+    """Curves that points describe, both axes to one scale; the free points of links unless others are named."""
+
+    name = "paths"
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        single = len(sources) == 1
+        curves = [_curves(source, request) for source in sources]
+        tiny = single and not any(_worth_marks(sources[0], curve) for curve in curves[0].values())
+        figure = new_figure(request.size or ((9.6, 5.2) if tiny else (6.8, 5.6)))
+        axes = list(figure.subplots(1, 2 if tiny else 1, squeeze=False)[0])
+        legend = Legend()
+        if single:
+            _draw_machine(axes[0], sources[0])
+        for number, (source, found) in enumerate(zip(sources, curves, strict=True)):
+            for one in axes:
+                _draw(one, source, found, request, legend, None if single else number)
+        for one in axes:
+            one.set_aspect("equal", adjustable="datalim")
+            one.margins(0.1)
+            one.set_xlabel("x (mm)")
+            one.set_ylabel("y (mm)")
+        title = request.say("kind.paths")
+        framed(figure, f"{sources[0].label}: {title}" if single else title, request)
+        legend.put(figure)
+        return figure
+
+
+def _curves(source: Source, request: Request) -> dict[str, Floats]:
+    """Paths (n, 2) of the points, mm."""
+    keys = [_point(source, name) for name in request.of] or traced_points(source.mechanism)
+    return {key: source.closed(source.motion.point(key).position) * 1e3 for key in keys}
+
+
+def _draw_machine(axes: Axes, source: Source) -> None:
+    first = int(np.flatnonzero(source.motion.ok)[0])
+    for text, place in draw_position(axes, source.motion, first, factor=1e3).names:
+        axes.annotate(text, tuple(place), (4, 4), textcoords="offset points", fontsize=7.5, color=INK)
+
+
+def _draw(
+    axes: Axes, source: Source, curves: dict[str, Floats], request: Request, legend: Legend, number: int | None
+) -> None:
+    for which, (key, curve) in enumerate(curves.items()):
+        colour = COLOURS[(which if number is None else number) % len(COLOURS)]
+        dash = "-" if number is None else DASHES[which % len(DASHES)]
+        line = draw_curve(axes, curve, np.zeros(0), colour, dash)
+        legend.add(key if number is None else f"{source.label}: {key}", line)
+        alone = not any(artist.get_color() == LINK for artist in axes.lines)
+        if request.marks and number is None and source.mechanism.drivers and (alone or _worth_marks(source, curve)):
+            mark_inputs(axes, curve, source.axis, colour)
+
+
+def _worth_marks(source: Source, curve: Floats) -> bool:
+    """Whether a path is long enough, beside the whole machine, for marks along it."""
+    good = curve[np.isfinite(curve).all(axis=1)]
+    return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * reach(source.motion)
+
+
+def _point(source: Source, name: str) -> str:
+    found = output_named(source.mechanism, name)
+    if isinstance(found, Output):
+        raise LinkwrightError(f'"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D')
+    return found

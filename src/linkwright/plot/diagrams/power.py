@@ -1,0 +1,28 @@
+"""Power of the drivers, with its mean and where it goes."""
+
+from __future__ import annotations
+
+from linkwright.metrics.analysis import Analysis
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.outputs import main_output
+from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
+from linkwright.plot.diagrams.source import Source
+
+
+@DIAGRAMS.register("power")
+class Power(OverInput):
+    """Power that all drivers supply together, from the powers of all forces."""
+
+    name = "power"
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        return main_output(source.motion)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        power = source.forces.power
+        title = f"{request.say('power')} P"
+        panel = Panel(title, "power", (Curve("", source.closed(power)),))
+        mean = Analysis(source.motion, source.forces).mean(power)
+        label = request.say("mean", value=panel.unit.text(mean))
+        return [Panel(title, "power", panel.curves, (Level(label, mean),))]

@@ -1,0 +1,76 @@
+"""Joint forces over the input."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output, reaction_pairs
+from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
+from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.units import size
+
+
+@DIAGRAMS.register("reactions")
+class Reactions(OverInput):
+    """Sizes of the forces in all joints; or of one joint: size, and components in the frame's or a link's axes."""
+
+    name = "reactions"
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        return main_output(source.motion)
+
+    def subject(self, sources: Sequence[Source], request: Request) -> str:
+        if request.joint is None and request.on is None:
+            return request.say("kind.reactions")
+        joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
+        return request.say("reaction_on", joint=joint, link=link)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        require_forces(source.forces)
+        if request.joint is None and request.on is None:
+            return [_of_all(source, request)]
+        return _of_one(source, request)
+
+
+def require_forces(forces: Forces) -> None:
+    """Raises LinkwrightError where no joint carries anything."""
+    if not loaded(forces):
+        raise LinkwrightError(
+            f"no joint of {forces.mechanism.name!r} carries a force: its links have no mass and there are no loads; "
+            "give masses (mass: 5 kg) or loads (loads: …)"
+        )
+
+
+def _of_all(source: Source, request: Request) -> Panel:
+    mechanism, sizes = source.mechanism, {}
+    for joint, link in reaction_pairs(mechanism):
+        force = source.closed(source.forces.reaction(joint, on=link))
+        shared = len(mechanism.joints[joint].joined) > 2
+        sizes[f"{joint} ({link})" if shared else joint] = np.hypot(force[:, 0], force[:, 1])
+    largest = max(sizes, key=lambda label: size(sizes[label]))
+    curves = []
+    for number, (label, values) in enumerate(sizes.items()):
+        colour, dash = COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
+        curves.append(Curve(label, values, "max" if label == largest else "", colour, dash))
+    return Panel(f"{request.say('joint_force')} F", "force", tuple(curves))
+
+
+def _of_one(source: Source, request: Request) -> list[Panel]:
+    say = request.say
+    joint, link = joint_and_link(source.forces, request.joint, request.on)
+    axes = request.axes or "frame"
+    force = source.closed(source.forces.reaction(joint, on=link, axes=axes))
+    named = "xy" if axes == "frame" else ("ξ", "η")
+    parts = [Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i]) for i, name in enumerate(named)]
+    title = say("components") if axes == "frame" else say("components_in", link=axes)
+    return [
+        Panel(f"{say('joint_force')} F", "force", (Curve("", np.hypot(force[:, 0], force[:, 1]), "max"),)),
+        Panel(title, "force", tuple(parts)),
+    ]

@@ -1,0 +1,38 @@
+"""What the drivers must supply, with its mean."""
+
+from __future__ import annotations
+
+from linkwright.errors import LinkwrightError
+from linkwright.metrics.analysis import Analysis
+from linkwright.model.signal_fields import Output
+from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.outputs import main_output
+from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
+from linkwright.plot.diagrams.source import Source
+
+
+@DIAGRAMS.register("torque")
+class Torque(OverInput):
+    """Driver effort from the joint forces: torque of a turning driver, force of a sliding one; one panel a driver."""
+
+    name = "torque"
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        return main_output(source.motion)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        motion, forces, say = source.motion, source.forces, request.say
+        if not motion.mechanism.drivers:
+            raise LinkwrightError(f"{motion.mechanism.name!r} has no driver, so it has no input torque")
+        found = []
+        several = len(motion.mechanism.drivers) > 1
+        for name in motion.mechanism.drivers:
+            turning = motion.positions.rotary[name]
+            effort = forces.driver_effort(name)
+            dimension = "torque" if turning else "force"
+            title = f"{say(f'input_{dimension}')} {'T' if turning else 'F'}{f' {name}' if several else ''}"
+            panel = Panel(title, dimension, (Curve("", source.closed(effort)),))
+            mean = Analysis(motion, forces).mean(effort)
+            label = say("mean", value=panel.unit.text(mean))
+            found.append(Panel(title, dimension, panel.curves, (Level(label, mean),)))
+        return found

@@ -1,0 +1,148 @@
+"""Texts that say how a dimension varies: ``1.2..1.3 m:11``, ``1.2, 1.25, 1.3 m``."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright import units
+from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.model.mechanism import Mechanism
+
+Floats = NDArray[np.float64]
+
+#: Values of a range without a number of its own.
+USUAL_COUNT = 11
+_RANGE = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+?)(?:\s*:\s*(?P<count>[^:]+))?$")
+_QUANTITY = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
+_LAST = {
+    "length": "length",
+    "mass": "mass",
+    "inertia": "inertia",
+    "angle": "angle",
+    "direction": "angle",
+    "block_angle": "angle",
+    "offset": "length",
+}
+
+
+@dataclass(frozen=True)
+class Range:
+    """The values of one dimension, SI, between ``low`` and ``high``; ``unit`` as the user wrote it."""
+
+    address: str
+    values: Floats
+    unit: str = ""
+
+    @property
+    def low(self) -> float:
+        """Smallest value."""
+        return float(self.values.min())
+
+    @property
+    def high(self) -> float:
+        """Largest value."""
+        return float(self.values.max())
+
+    def shown(self, value: float) -> str:
+        """A value in the user's unit."""
+        factor = units.unit(self.unit)[0] if self.unit else 1.0
+        return f"{value / factor:.6g}{' ' if self.unit else ''}{self.unit}"
+
+
+def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> Range:
+    """The values from a text, or from numbers in SI.
+
+    Raises:
+        LinkwrightError: a text that is no range, a unit that does not fit the dimension.
+    """
+    if not isinstance(given, str):
+        return Range(address, np.atleast_1d(np.asarray(given, dtype=float)))
+    try:
+        found = _parsed(address, given.strip())
+        _require_unit(mechanism, address, found.unit, given)
+    except QuantityError as error:
+        raise LinkwrightError(f"{address}={given}: {error}") from None
+    return found
+
+
+def _parsed(address: str, text: str) -> Range:
+    match = _RANGE.match(text)
+    if match is None:
+        return _listed(address, text)
+    high, unit = _quantity(match["high"], "", address, text)
+    low, unit = _quantity(match["low"], unit, address, text)
+    count = _count(match["count"], address, text)
+    return Range(address, np.linspace(low, high, count), unit)
+
+
+def _listed(address: str, text: str) -> Range:
+    """One value, or several with commas; a unit at the end holds for all without one."""
+    values, unit = [], ""
+    for part in reversed(text.split(",")):
+        value, unit = _quantity(part, unit, address, text)
+        values.append(value)
+    return Range(address, np.array(values[::-1]), unit)
+
+
+def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str]:
+    """A number in SI and its unit; without a unit of its own that of ``unit``."""
+    match = _QUANTITY.match(part.strip())
+    if match is None:
+        raise LinkwrightError(
+            f'{address}={text}: "{part.strip()}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
+            "1.2, 1.25, 1.3 m"
+        )
+    number, unit = match[1], match[2].strip() or unit
+    factor = units.unit(unit)[0] if unit else 1.0
+    value = float(number) * factor
+    if not math.isfinite(value):
+        raise LinkwrightError(f"{address}={text}: a value is not finite")
+    return value, unit
+
+
+def _count(text: str | None, address: str, whole: str) -> int:
+    if text is None:
+        return USUAL_COUNT
+    if not text.strip().isdigit() or int(text) < 1:
+        raise LinkwrightError(
+            f'{address}={whole}: "{text.strip()}" is no number of values; end a range in a whole number, such as :11'
+        )
+    if int(text) > 1_000_000:
+        raise LinkwrightError(f"{address}={whole}: {text} values are too many; give a million or fewer")
+    return int(text)
+
+
+def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> None:
+    """Raises where the unit is of another dimension, or missing."""
+    expected = dimension_of(mechanism, address)
+    if expected is None:
+        return
+    kind = units.unit(unit)[1] if unit else units.NONE
+    if kind != expected and not (not unit and expected == units.NONE):
+        need = units.name_of(expected)
+        example = units.si_symbol(expected)
+        told = f"it has the unit {unit}" if unit else "it has no unit"
+        raise LinkwrightError(
+            f"{address}={text}: this is {need}, but {told}; write it with a unit such as {example or 'none'}"
+        )
+
+
+def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:
+    """The exponents of the dimension at an address; None where they cannot be told from its name."""
+    kinds: Mapping[str, units.Dimension] = mechanism.kinds
+    if address in mechanism.parameters:
+        return kinds.get(address)
+    parts = address.split(".")
+    if parts[0] in ("loads", "cycle", "driver") or parts[0] in mechanism.drivers:
+        return None
+    if parts[0] == "gravity":
+        return units.DIMENSIONS["acceleration"]
+    last = parts[-2] if parts[-1] in ("0", "1") else parts[-1]
+    name = {"lengths": "length", "x": "length", "y": "length"}.get(last) or _LAST.get(last)
+    return None if name is None else units.DIMENSIONS[name]

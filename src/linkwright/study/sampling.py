@@ -1,0 +1,47 @@
+"""Designs between the ends of ranges: every combination, or a Sobol sequence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.study.ranges import Range
+
+Floats = NDArray[np.float64]
+
+#: Designs of one study, at most.
+MOST = 1_000_000
+
+
+def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
+    """Every combination of the values; the last range varies fastest."""
+    count = 1
+    for each in ranges:
+        count *= len(each.values)
+    if count > MOST:
+        raise LinkwrightError(
+            f"the grid has {count} designs; give {MOST} or fewer, or sample it: sampling='sobol'"
+        )
+    mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
+    return {each.address: rows.ravel() for each, rows in zip(ranges, mesh, strict=True)}
+
+
+def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> dict[str, Floats]:
+    """``samples`` designs between the ends, by a scrambled Sobol sequence (Owen 1998); the same for the same seed.
+
+    Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
+    """
+    if sampling != "sobol":
+        raise LinkwrightError(f"there is no sampling {sampling!r}; use grid or sobol")
+    if not 1 <= samples <= MOST:
+        raise LinkwrightError(f"{samples} samples are asked for; give 1 to {MOST}")
+    try:
+        from scipy.stats import qmc
+    except ImportError as error:
+        raise LinkwrightError("a Sobol sequence needs scipy; install it with: pip install scipy") from error
+    power = max(0, (samples - 1).bit_length())
+    unit = qmc.Sobol(len(ranges), seed=seed).random_base2(power)[:samples]
+    return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(ranges)}

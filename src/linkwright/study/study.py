@@ -1,0 +1,329 @@
+"""Parameter studies: designs over a grid or a Sobol sequence, with any metrics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.machine import flywheel_inertia
+from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.quantities import si_unit
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+from linkwright.registry import nearest
+from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
+from linkwright.study.criteria import Criterion, NoSuchSubject, criteria, is_summary
+from linkwright.study.designs import sweep
+from linkwright.study.failures import Failure
+from linkwright.study.ranges import Range, parse_range
+from linkwright.study.sampling import MOST, grid, sobol
+from linkwright.study.vary import checked_addresses
+
+if TYPE_CHECKING:
+    import pandas
+
+Floats = NDArray[np.float64]
+Sampling = Literal["grid", "sobol"]
+Progress = Callable[[int, int], None]
+
+#: What is measured when nobody says what, as far as it applies.
+USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
+
+
+@dataclass(eq=False)
+class Study:
+    """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
+
+    ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of
+    their dimensions; ``ok``: which designs pass the cycle; ``failures``: how many do not, at which group, and why.
+    """
+
+    mechanism: Mechanism
+    ranges: tuple[Range, ...]
+    varied: Mapping[str, Floats]
+    metrics: Mapping[str, Floats]
+    dimensions: Mapping[str, str]
+    better: Mapping[str, str | None]
+    ok: NDArray[np.bool_]
+    failures: tuple[Failure, ...]
+    sampling: str = "grid"
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def designs(self) -> int:
+        """Number of designs."""
+        return len(self.ok)
+
+    def __getitem__(self, name: str) -> Floats:
+        """Values of a metric or of a varied dimension, (designs,)."""
+        for columns in (self.metrics, self.varied):
+            if name in columns:
+                return columns[name]
+        offer = nearest(name, [*self.metrics, *self.varied])
+        raise LinkwrightError(
+            f"{name!r} is not in the study" + (f"; did you mean {offer!r}?" if offer else "")
+        )
+
+    def best(self, metric: str) -> int:
+        """Number of the design that is best in a metric.
+
+        Raises LinkwrightError for a metric that has no better direction, or no value in any design.
+        """
+        values, better = self[metric], self.better.get(metric)
+        if better is None:
+            raise LinkwrightError(f"{metric!r} has no better direction, so no design is best in it")
+        if not np.isfinite(values).any():
+            raise LinkwrightError(f"{metric!r} has no value in any of the designs")
+        sizes = np.abs(values)
+        return int(np.nanargmax(sizes) if better == "higher" else np.nanargmin(sizes))
+
+    def design(self, index: int) -> Mechanism:
+        """One of the designs as a mechanism."""
+        return self.mechanism.with_dimensions({a: float(c[index]) for a, c in self.varied.items()})
+
+    def columns(self) -> dict[str, Floats]:
+        """Varied dimensions and metrics by name with their SI unit."""
+        found = {f"{each.address}": np.asarray(self.varied[each.address]) for each in self.ranges}
+        for name, values in self.metrics.items():
+            unit = si_unit(self.dimensions[name])
+            found[f"{name} [{unit}]" if unit else name] = np.asarray(values)
+        return found
+
+    def text(self, language: str = "en", rows: int = 40) -> str:
+        """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed."""
+        from linkwright.study.study_text import report
+
+        return "\n".join(report(self, language, rows))
+
+    def csv(self) -> str:
+        """The columns as CSV, SI; numbers to the last bit."""
+        columns = self.columns()
+        lines = [",".join(f'"{name}"' if "," in name else name for name in columns)]
+        lines += [
+            ",".join("" if np.isnan(v) else repr(float(v)) for v in row)
+            for row in zip(*columns.values(), strict=True)
+        ]
+        return "\n".join(lines) + "\n"
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "name": self.mechanism.name,
+            "sampling": self.sampling,
+            "designs": self.designs,
+            "movable": int(self.ok.sum()),
+            "varied": {address: values.tolist() for address, values in self.varied.items()},
+            "metrics": {
+                name: {
+                    "unit": si_unit(self.dimensions[name]),
+                    "better": self.better[name],
+                    "values": values.tolist(),
+                }
+                for name, values in self.metrics.items()
+            },
+            "best": {name: self.best(name) for name in self.metrics if self._has_best(name)},
+            "failures": [
+                {
+                    "group": f.group,
+                    "kind": f.kind,
+                    "count": f.count,
+                    "designs": f.designs.tolist(),
+                    "example": f.example,
+                }
+                for f in self.failures
+            ],
+        }
+
+    def _has_best(self, name: str) -> bool:
+        return self.better[name] is not None and bool(np.isfinite(self.metrics[name]).any())
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns as a pandas table; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        return dataframe(self.columns())
+
+    def __repr__(self) -> str:
+        return (
+            f"Study({self.mechanism.name!r}: {self.designs} designs, {int(self.ok.sum())} can move; "
+            f"{', '.join(self.columns())})"
+        )
+
+
+def study(
+    mechanism: Mechanism,
+    vary: Mapping[str, str | ArrayLike],
+    *,
+    metrics: Iterable[str] | str | None = None,
+    sampling: Sampling = "grid",
+    samples: int = 64,
+    seed: int = 0,
+    output: str | None = None,
+    fluctuation: float = 0.02,
+    steps: int = 360,
+    progress: Progress | None = None,
+) -> Study:
+    """Metrics of the designs that come from varying some dimensions.
+
+    Args:
+        mechanism: the design to start from.
+        vary: by address of a dimension or name of a parameter, a range ``1.2..1.3 m:11`` (from, to, number of
+            values), values ``1.2, 1.25, 1.3 m``, or numbers in SI.
+        metrics: registered design numbers, ``travel``, ``flywheel`` and the others of :func:`compare`, or summaries
+            of outputs (``driver.effort rms``), which are computed for all designs at once. None: the usual ones.
+        sampling: ``grid``: every combination; ``sobol``: ``samples`` designs between the ends of the ranges, spread
+            evenly (needs scipy).
+        samples, seed: of the Sobol sequence.
+        output: the link or guide whose travel counts; None: the last one solved.
+        fluctuation: coefficient of speed fluctuation δ for flywheels.
+        steps: positions over the cycle.
+        progress: called with (designs done, designs); what it raises stops the study.
+
+    Returns:
+        The study; designs that cannot move are counted and explained, the others go on.
+
+    Raises:
+        LinkwrightError: an unknown parameter or metric (nearest ones offered), a text that is no range, or none of
+            the designs can move (how many fail, at which group, why).
+    """
+    checked_addresses(mechanism, vary)
+    flywheel_inertia(1.0, 1.0, fluctuation)
+    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
+    if not ranges:
+        raise LinkwrightError('nothing varies; give dimensions with ranges: {"crank.length": "20..30 mm:11"}')
+    columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
+    count = len(next(iter(columns.values())))
+    if count > MOST:
+        raise LinkwrightError(
+            f"{count} designs are too many for a study; give {MOST} or fewer, or use sweep()"
+        )
+    work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
+    return work.study(ranges, sampling)
+
+
+def _criteria(mechanism: Mechanism, metrics: Iterable[str] | str | None) -> list[Criterion]:
+    if metrics is not None:
+        return criteria(metrics)
+    return [each for each in criteria(USUAL) if has_loads(mechanism) or not each.forces]
+
+
+class _Work:
+    """One study: summaries of outputs by one sweep, the other metrics design by design."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        columns: Mapping[str, Floats],
+        asked: list[Criterion],
+        output: str | None,
+        fluctuation: float,
+        steps: int,
+        progress: Progress | None,
+    ) -> None:
+        self.mechanism, self.columns, self.asked = mechanism, columns, asked
+        self.fluctuation, self.steps, self.progress = fluctuation, steps, progress
+        self.output = _output(mechanism, output)
+        self.count = len(next(iter(columns.values())))
+        self.values = {each.name: np.full(self.count, np.nan) for each in asked}
+        self.dimensions = {each.name: "dimensionless" for each in asked}
+        self.notes: dict[str, None] = {}
+        self.troubled: dict[int, str] = {}
+
+    def study(self, ranges: tuple[Range, ...], sampling: str) -> Study:
+        summaries = [each.name for each in self.asked if is_summary(each.name)]
+        probe = summaries or ["closeness min"] if self._closed() else summaries or [self._any_output()]
+        found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps)
+        for name in summaries:
+            summary = next(s for s in found.summaries if s.name == name or f"{s.output}.{s.kind}" == name)
+            self.values[name] = found.summaries[summary]
+            self.dimensions[name] = found.dimension(summary)
+        ok = found.ok.copy()
+        if not ok.any():
+            raise LinkwrightError(_none_moves(self.count, found.failures()))
+        single = [each for each in self.asked if not is_summary(each.name)]
+        for done, index in enumerate(np.flatnonzero(ok) if single else (), 1):
+            self._measure(int(index), single)
+            if self.progress is not None:
+                self.progress(done, int(ok.sum()))
+        failures = [*found.failures(), *self._troubles()]
+        ok[list(self.troubled)] = False
+        if not ok.any():
+            raise LinkwrightError(_none_moves(self.count, failures))
+        self._refuse_idle(ok)
+        better = {each.name: each.better for each in self.asked}
+        return Study(
+            self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
+            (*found.notes, *self.notes),
+        )  # fmt: skip
+
+    def _closed(self) -> bool:
+        """Whether there is a group with a closed form."""
+        from linkwright.kinematics.groups import dyad_shape
+        from linkwright.structure import structure
+
+        return any(group.cuts and dyad_shape(group) is not None for group in structure(self.mechanism).groups)
+
+    def _any_output(self) -> str:
+        return f"{list(self.mechanism.links)[-1]}.angular_velocity max"
+
+    def _measure(self, index: int, asked: list[Criterion]) -> None:
+        changes = {address: float(column[index]) for address, column in self.columns.items()}
+        design = self.mechanism.with_dimensions(changes)
+        each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
+        try:
+            for criterion in asked:
+                found = criterion.measure(each)
+                if found is not None:
+                    self.values[criterion.name][index] = found.value
+                    self.dimensions[criterion.name] = found.dimension
+        except NoSuchSubject:
+            raise
+        except LinkwrightError as error:
+            self.troubled[index] = str(error)
+        self.notes |= dict.fromkeys(each.notes)
+
+    def _refuse_idle(self, ok: NDArray[np.bool_]) -> None:
+        """Raises for a metric that has a value for none of the designs that move."""
+        for name, values in self.values.items():
+            if np.isnan(values[ok]).all():
+                known = "; ".join(self.notes)
+                raise LinkwrightError(
+                    f"{name!r} does not apply to {self.mechanism.name!r}"
+                    + (f": {known}" if known else "; leave it out")
+                )
+
+    def _troubles(self) -> list[Failure]:
+        """Designs for which a metric could not be found."""
+        if not self.troubled:
+            return []
+        numbers = np.array(sorted(self.troubled), dtype=np.intp)
+        return [Failure(None, "metric", numbers, self.troubled[int(numbers[0])])]
+
+
+def _output(mechanism: Mechanism, name: str | None) -> Output:
+    """The output whose travel counts."""
+    if name is not None:
+        return output_of_machine(mechanism, name)
+    own = mechanism_outputs(mechanism)
+    if own:
+        return own[-1]
+    last = list(mechanism.links)[-1]
+    return Output("angle", last, last)
+
+
+def _none_moves(count: int, failures: Iterable[Failure]) -> str:
+    told = "; ".join(
+        f"{f.count} fail{'s' if f.count == 1 else ''} {_place(f)}, such as: {f.example}" for f in failures
+    )
+    return f"none of the {count} designs can pass its cycle: {told}; widen or move the ranges"
+
+
+def _place(failure: Failure) -> str:
+    return (
+        f"at the group ({failure.group.replace('+', ', ')})" if failure.group else "by its loads or metrics"
+    )

@@ -1,0 +1,86 @@
+"""A study as text: its table, the best designs, what failed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.study.criteria import criterion
+from linkwright.study.text_table import aligned
+from linkwright.words import Say, speaker
+
+if TYPE_CHECKING:
+    from linkwright.study.failures import Failure
+    from linkwright.study.study import Study
+
+
+def report(study: Study, language: str, rows: int) -> list[str]:
+    """Table, best designs, failures, notes."""
+    say = speaker(language)
+    lines = [
+        say("study.counts", name=study.mechanism.name, designs=study.designs, movable=int(study.ok.sum())),
+        "",
+    ]
+    lines += _table(study, language, rows, say)
+    best = _best(study, language, say)
+    if best:
+        lines += ["", say("study.best"), *best]
+    if study.failures:
+        lines += ["", say("study.failed"), *(_failure(each, say) for each in study.failures)]
+    return [*lines, *([""] if study.notes else []), *study.notes]
+
+
+def _table(study: Study, language: str, rows: int, say: Say) -> list[str]:
+    chosen = _chosen(study.designs, rows)
+    head = [say("study.number"), *(each.address for each in study.ranges)]
+    head += [_heading(study, name, language) for name in study.metrics]
+    table = [head]
+    for index in chosen:
+        cells = [str(index), *(each.shown(study.varied[each.address][index]) for each in study.ranges)]
+        for name, values in study.metrics.items():
+            value = float(values[index])
+            cells.append("—" if np.isnan(value) else number(value, study.dimensions[name], 5))
+        table.append(cells)
+    lines = aligned(table, ">" * len(head))
+    if len(chosen) < study.designs:
+        lines.append(say("study.left_out", shown=len(chosen), designs=study.designs))
+    return lines
+
+
+def _chosen(designs: int, rows: int) -> list[int]:
+    """Evenly chosen numbers, the first and the last among them."""
+    if designs <= rows:
+        return list(range(designs))
+    return sorted({round(i * (designs - 1) / (rows - 1)) for i in range(rows)})
+
+
+def _heading(study: Study, name: str, language: str) -> str:
+    unit = shown_unit(study.dimensions[name])
+    label = criterion(name).label(language)
+    return f"{label} [{unit}]" if unit else label
+
+
+def _best(study: Study, language: str, say: Say) -> list[str]:
+    """The best design in every metric that has a better direction."""
+    lines = []
+    for name, values in study.metrics.items():
+        if study.better[name] is None or not np.isfinite(values).any():
+            continue
+        index = study.best(name)
+        place = ", ".join(
+            f"{each.address} = {each.shown(study.varied[each.address][index])}" for each in study.ranges
+        )
+        value = shown(float(values[index]), study.dimensions[name], 5)
+        lines.append(
+            say("study.best_of", name=criterion(name).label(language), value=value, number=index, place=place)
+        )
+    return lines
+
+
+def _failure(failure: Failure, say: Say) -> str:
+    if failure.group is None:
+        return say("study.failed_otherwise", count=failure.count, example=failure.example)
+    group = failure.group.replace("+", ", ")
+    return say("study.failed_at", count=failure.count, group=group, example=failure.example)

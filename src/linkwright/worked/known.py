@@ -1,0 +1,208 @@
+"""Forces that are known before the joints': weight, inertia, loads, friction."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.engine.trace import Scalar
+from linkwright.kinetostatics.forces import Forces
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.loads.force import Force
+from linkwright.loads.pressure import Pressure
+from linkwright.worked.book import Book, Spot, tex
+from linkwright.worked.load_formulas import LoadFormulas
+from linkwright.worked.page import Step
+from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
+
+
+@dataclass(frozen=True)
+class Known:
+    """A known force on a link, at a place, and a couple; ``velocity`` of the point where it acts."""
+
+    force: Pair
+    place: Pair
+    velocity: Pair
+    couple: Term = ZERO
+
+    def moment(self, about: Pair) -> Term:
+        """Moment about a point."""
+        arm = NOWHERE if self.place == about else self.place - about
+        return arm.cross(self.force) + self.couple
+
+
+class KnownForces:
+    """The known forces of every link at one position."""
+
+    def __init__(self, forces: Forces, book: Book) -> None:
+        self.forces = forces
+        self.book = book
+        self.formulas = LoadFormulas(book)
+        self.on: dict[str, list[Known]] = {name: [] for name in book.mechanism.links}
+
+    def steps(self, number: int) -> list[Step]:
+        """The steps that find them."""
+        say = self.book.say
+        head = Step(str(number), say("worked.forces"))
+        head.say(say("worked.force_names"))
+        inertia = Step(f"{number}.1", say("worked.weights" if self.forces.static else "worked.inertia"))
+        for link in self.book.mechanism.links:
+            self._own(inertia, link)
+        loads = Step(f"{number}.2", say("worked.loads"))
+        self._loads(loads)
+        return [head, inertia, loads]
+
+    def _own(self, step: Step, link: str) -> None:
+        """Weight and inertia force at the mass centre, inertia couple."""
+        book, part = self.book, self.book.mechanism.links[link]
+        n = book.numbers[link]
+        moving = not self.forces.static and bool(book.mechanism.drivers)
+        mass, inertia = symbol(f"m{n}", f"m_{{{n}}}", part.mass), symbol(f"J{n}", f"J_{{{n}}}", part.inertia)
+        alpha = book.alpha(link) if moving else ZERO
+        if part.mass:
+            spot = book.spot(link, "@centre")
+            parts = []
+            for c, pull, rush in zip(
+                "xy", self._gravity(), (spot.acceleration.x, spot.acceleration.y), strict=True
+            ):
+                formula = mass * (pull - rush) if moving else mass * pull
+                parts.append(self._named(step, f"K_{n}{c}", f"K_{{{n}{c}}}", formula, "N"))
+            self.on[link].append(Known(Pair(*parts), spot.place, spot.velocity))
+        if part.inertia and not alpha.is_zero:
+            couple = self._named(step, f"M_J{n}", f"M_{{J{n}}}", -(inertia * alpha), "N·m")
+            self.on[link].append(Known(NOWHERE, NOWHERE, NOWHERE, couple))
+
+    def _named(self, step: Step, plain: str, latex: str, formula: Term, unit: str) -> Term:
+        if formula.is_zero:
+            return ZERO
+        return step.find(symbol(plain, latex, formula.value), formula, unit)
+
+    def _gravity(self) -> list[Term]:
+        named = zip("xy", self.book.mechanism.gravity, strict=True)
+        return [symbol(f"g_{c}", f"g_{c}", value) if value else ZERO for c, value in named]
+
+    def _loads(self, step: Step) -> None:
+        book = self.book
+        for name, link, values in self._wrenches():
+            fx, fy, px, py, torque = values
+            label = self._label(name, link)
+            if not (fx or fy or torque):
+                if link in self.on:
+                    step.say(book.say("worked.load_idle", name=label))
+                continue
+            if link not in self.on:
+                continue
+            step.say(book.say("worked.load_acts", name=label, link=link))
+            known = Known(NOWHERE, NOWHERE, NOWHERE)
+            if fx or fy:
+                known = self._force(step, name, label, link, complex(fx, fy), complex(px, py))
+            if torque:
+                couple = self._couple(step, name, label, link, torque)
+                known = Known(known.force, known.place, known.velocity, couple)
+            self.on[link].append(known)
+
+    def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
+        couple = symbol(f"M_{label}", f"M_{{{tex(label)}}}", torque)
+        formula = self.formulas.couple(step, self.book.mechanism.loads.get(name), link, torque)
+        if formula is None:
+            return step.give(couple, "N·m")
+        if formula.op == "symbol" and formula.plain == couple.plain:
+            return formula
+        return step.find(couple, formula, "N·m")
+
+    def _force(self, step: Step, name: str, label: str, link: str, force: complex, place: complex) -> Known:
+        book = self.book
+        spot = self._spot(link, place)
+        if spot is None:
+            at = [
+                step.give(symbol(f"{c}_{label}", f"{c}_{{{tex(label)}}}", v), "m")
+                for c, v in (("x", place.real), ("y", place.imag))
+            ]
+            where = Pair(*at)
+            base = next(book.spot(link, point) for point in book.mechanism.links[link].points)
+            velocity = base.velocity + (where - base.place).perp.times(book.omega(link))
+        else:
+            where, velocity = spot.place, spot.velocity
+        formula = self._formula(step, name, label, link, force)
+        parts = [
+            ZERO if part.is_zero else step.find(symbol(f"F_{label},{c}", f"F_{{{tex(label)},{c}}}", v), part, "N")
+            for c, v, part in (("x", force.real, formula.x), ("y", force.imag, formula.y))
+        ]
+        return Known(Pair(*parts), where, velocity)
+
+    def _formula(self, step: Step, name: str, label: str, link: str, force: complex) -> Pair:
+        """Components of a load: from the formula of its kind, or from magnitude and direction."""
+        load = self.book.mechanism.loads.get(name)
+        if isinstance(load, Pressure):
+            along = self.book.slide(load.joint).along
+            held = self.book.mechanism.joints[load.joint]
+            assert isinstance(held, PrismaticJoint)
+            push = force.real * along.x.value + force.imag * along.y.value
+            forward = (link == held.block) == (load.pushes == "forward")
+            self.formulas.press(step, load, push if forward else -push)
+        found = self.formulas.force(step, load, link)
+        if found is not None:
+            return found
+        size = step.give(symbol(f"F_{label}", f"F_{{{tex(label)}}}", abs(force)), "N")
+        way = math.degrees(math.atan2(force.imag, force.real))
+        angle = symbol(f"θ_{label}", rf"\theta_{{{tex(label)}}}", way, degrees=True)
+        self._direction(step, name, link, angle)
+        return Pair(size * cosine(angle), size * sine(angle))
+
+    def _direction(self, step: Step, name: str, link: str, angle: Term) -> None:
+        """The angle of a load; for one normal to a line of its link, from the angle of the link."""
+        load = self.book.mechanism.loads.get(name)
+        if isinstance(load, Force) and getattr(load, "normal_to", None) is not None and link == load.on:
+            lean = angle.amount - self.book.turn(link).amount
+            own = self.book.degrees(math.radians((lean + 180.0) % 360.0 - 180.0))
+            formula = self.book.turn(link) + own
+            if abs(formula.value - angle.amount) < 1e-9:
+                step.find(angle, formula, "°")
+                return
+        step.give(angle, "°")
+
+    def _label(self, name: str, link: str) -> str:
+        kind, _, rest = name.partition(":")
+        if kind == "friction" and rest:
+            joint = rest.split("|")[0]
+            return f"f{joint}{self.book.numbers[link]}"
+        several = sum(1 for other, each, _ in self._found if other == name and each in self.on) > 1
+        return f"{name}{self.book.numbers[link]}" if several else name
+
+    def _spot(self, link: str, place: complex) -> Spot | None:
+        """The point of the link at which a force acts, if it has one there."""
+        for point in self.book.mechanism.links[link].points:
+            spot = self.book.spot(link, point)
+            if abs(complex(spot.place.x.value, spot.place.y.value) - place) < 1e-12 * max(1.0, abs(place)):
+                return spot
+        return None
+
+    def _wrenches(self) -> list[tuple[str, str, tuple[float, ...]]]:
+        """Name, link and numbers (force, place, torque) of everything that acts on links."""
+        traced = self.forces.solver.forces.wrenches
+        outputs: dict[str, Scalar] = {}
+        order = [(name, i, w) for name, group in traced.items() for i, w in enumerate(group)]
+        for name, i, w in order:
+            parts = (w.force.x, w.force.y, w.place.x, w.place.y, w.torque)
+            outputs |= {f"{name}#{i}#{j}": part for j, part in enumerate(parts)}
+        self._found: list[tuple[str, str, tuple[float, ...]]] = []
+        if outputs:
+            rows = self._evaluate(outputs)
+            for k, (name, _, w) in enumerate(order):
+                self._found.append((name, w.link, tuple(float(v) for v in rows[5 * k : 5 * k + 5])))
+        return self._found
+
+    def _evaluate(self, outputs: dict[str, Scalar]) -> list[float]:
+        motion = self.forces.motion
+        program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
+        inner = program.program
+        parameters = [motion.design.parameters[name] for name in inner.parameters]
+        given = {name: self.forces.fields[name] for name in inner.fields}
+        positions, states = motion.positions, motion.states
+        arrays = {**positions.arrays, **motion.modes}
+        values = np.asarray(program.run(parameters, arrays, given, states or None, length=positions.count))
+        return [float(row[self.book.index]) for row in values]

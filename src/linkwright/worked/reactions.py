@@ -1,0 +1,305 @@
+"""Joint forces of the groups, in reverse order: moments and slides first, then the balance of every link."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
+from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.worked.book import Book, tex
+from linkwright.worked.chains import attach, closures
+from linkwright.worked.known import Known, KnownForces
+from linkwright.worked.page import Step
+from linkwright.worked.rates import name_matrix, solve
+from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a connection exerts on link ``on``."""
+
+    connection: Connection
+    on: str
+    known: Known
+
+    def acting(self, link: str) -> Known:
+        """The same on one of the two links."""
+        if link == self.on:
+            return self.known
+        return Known(-self.known.force, self.known.place, NOWHERE, -self.known.couple)
+
+
+class Reactions:
+    """Writes the joint forces group after group."""
+
+    def __init__(self, forces: Forces, book: Book, known: KnownForces) -> None:
+        self.forces = forces
+        self.book = book
+        self.known = known
+        self.found: list[Found] = []
+
+    # what acts on a link ------------------------------------------------------------------
+    def acting(self, link: str) -> list[Known]:
+        """All forces on a link that are known by now."""
+        joints = [f.acting(link) for f in self.found if link in (f.connection.a, f.connection.b)]
+        return [*self.known.on[link], *joints]
+
+    def group(self, group: Group, number: int) -> list[Step]:
+        """The steps of one group."""
+        book = self.book
+        links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
+        title = book.say("worked.forces_of", signature=group.signature, links=links)
+        head = Step(f"{number}", title, group.name)
+        if group.cuts:
+            self._cuts(head, group)
+        for joint in reversed(group.tree):
+            self._carry(head, joint)
+        return [head]
+
+    # cuts -----------------------------------------------------------------------------------
+    def _cuts(self, step: Step, group: Group) -> None:
+        """Forces at the cuts, from one equation for every unknown coordinate."""
+        book = self.book
+        cuts = closures(book, group)
+        step.say(book.say("worked.cut_forces", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
+        right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
+        step.say(book.say("worked.same_matrix"))
+        system = name_matrix(step, group, cuts)
+        values = np.linalg.solve(
+            np.array([[e.value for e in row] for row in system.entries], dtype=float).T,
+            np.array([r.value for r in right], dtype=float),
+        )
+        unknowns, columns = self._multipliers(group, values)
+        rows = [
+            total([e * u for e, u in zip(column, unknowns, strict=True)])
+            for column in zip(*system.entries, strict=True)
+        ]
+        for row, goal in zip(rows, right, strict=True):
+            step.relate(row, goal)
+        solve(step, book, system, unknowns, right, ["N"] * len(unknowns), columns, transposed=True)
+        place = 0
+        for closure in cuts:
+            cut = closure.cut
+            if cut.kind == "revolute":
+                force, on = Pair(unknowns[place], unknowns[place + 1]), cut.a
+                place += 2
+                if on not in group.links:
+                    on, force = cut.b, self._reversed(step, cut, force)
+                self._size(step, cut, on, force)
+            else:
+                assert closure.across is not None
+                force, on = self._normal(step, cut, unknowns[place], closure.across.along), cut.b
+                place += 1
+            self.found.append(Found(cut, on, Known(force, closure.tip.place, NOWHERE)))
+
+    def _reversed(self, step: Step, cut: Connection, force: Pair) -> Pair:
+        """The force on the group's own link, where the other one was found."""
+        name, column = self._names(cut, cut.b)
+        return step.find_pair(name, complex(-force.x.amount, -force.y.amount), -force, column)
+
+    def _normal(self, step: Step, cut: Connection, size: Term, along: Pair) -> Pair:
+        """Components of the normal force of a guide, on the block."""
+        formula = along.perp.times(size)
+        name, column = self._names(cut, cut.b)
+        return step.find_pair(name, complex(formula.x.value, formula.y.value), formula, column)
+
+    def _multipliers(self, group: Group, values: Floats) -> tuple[list[Term], list[str]]:
+        """Symbols of the unknown cut forces (on the first link; normal forces on blocks) with their columns."""
+        unknowns: list[Term] = []
+        columns: list[str] = []
+        for cut in group.cuts:
+            place = len(unknowns)
+            if cut.kind == "prismatic":
+                unknowns.append(symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", float(values[place])))
+                columns.append("")
+                continue
+            name, column = self._names(cut, cut.a)
+            parts = self._solver_force(cut, cut.a, complex(values[place], values[place + 1]))
+            for c, value in (("x", parts.real), ("y", parts.imag)):
+                unknowns.append(symbol(f"{name[0]}{c}", f"{name[1]}{c}}}", value))
+                columns.append(f"{column}.{c} [N]" if column else "")
+        return unknowns, columns
+
+    def _demand(self, step: Step, group: Group, joint: TreeJoint, number: int) -> Term:
+        """Right side of one equation: minus what the known forces do on an unknown coordinate."""
+        book = self.book
+        if joint.kind == "prismatic":
+            slide = book.slide(joint.joint)
+            moved = list(subtree(group, joint))
+            step.say(book.say("worked.along", links=self._names_of(moved), joint=joint.joint))
+            force = self._resultant(moved)
+            forward = slide.along.dot(force)
+            formula = -forward if joint.child == joint.connection.b else forward
+            unit = "N"
+        else:
+            pivot = book.spot(joint.parent, joint.joint)
+            own = list(segment(group, joint))
+            step.say(book.say("worked.moments", links=self._names_of(own), point=pivot.label))
+            parts = [each.moment(pivot.place) for link in own for each in self.acting(link)]
+            for hung in group.tree:
+                if hung.free and hung.kind == "revolute" and hung.parent in own and hung is not joint:
+                    at = book.spot(hung.parent, hung.joint)
+                    parts.append((at.place - pivot.place).cross(self._resultant(list(subtree(group, hung)))))
+            formula, unit = -total(parts), "N·m"
+        term = symbol(f"Q{number}", f"Q_{{{number}}}", formula.value)
+        step.find(term, formula, unit)
+        return ZERO if formula.is_zero else term
+
+    def _resultant(self, links: list[str]) -> Pair:
+        found = NOWHERE
+        for link in links:
+            for each in self.acting(link):
+                found = found + each.force
+        return found
+
+    def _names_of(self, links: list[str]) -> str:
+        return ", ".join(f"{self.book.numbers[link]} {link}" for link in links)
+
+    # links --------------------------------------------------------------------------------
+    def _carry(self, step: Step, joint: TreeJoint) -> None:
+        """Balance of a link: the force of the joint that it hangs on, and the couple or the driver's effort."""
+        book, link = self.book, joint.child
+        acting = self.acting(link)
+        step.say(book.say("worked.balance", link=f"{book.numbers[link]} {link}", joint=joint.joint))
+        needed = NOWHERE
+        for each in acting:
+            needed = needed + each.force
+        effort = self._push(step, joint, needed)
+        name, column = self._names(joint.connection, link)
+        formula = -(needed + effort) if effort != NOWHERE else -needed
+        parts = self._solver_force(joint.connection, link, complex(formula.x.value, formula.y.value))
+        force = step.find_pair(name, parts, formula, column)
+        self._size(step, joint.connection, link, force)
+        place, couple = self._turning(step, joint, [*acting, *self._pushed(joint, effort)])
+        self.found.append(Found(joint.connection, link, Known(force + effort, place, NOWHERE, couple)))
+
+    def _pushed(self, joint: TreeJoint, effort: Pair) -> list[Known]:
+        if effort == NOWHERE:
+            return []
+        return [Known(effort, self._block_point(joint), NOWHERE)]
+
+    def _push(self, step: Step, joint: TreeJoint, needed: Pair) -> Pair:
+        """Force of a driver along a guide, on the child."""
+        if joint.driver is None or joint.kind != "prismatic":
+            return NOWHERE
+        slide = self.book.slide(joint.joint)
+        block = joint.child == joint.connection.b
+        forward = slide.along.dot(needed)
+        term = symbol(f"F_{joint.driver}", f"F_{{{tex(joint.driver)}}}", self._effort(joint.driver))
+        step.find(term, -forward if block else forward, "N", f"{joint.driver}.effort [N]")
+        push = slide.along.times(term)
+        return push if block else -push
+
+    def _turning(self, step: Step, joint: TreeJoint, acting: list[Known]) -> tuple[Pair, Term]:
+        """Moments about the joint: the driver's torque, or the couple of a guide or a weld."""
+        book = self.book
+        if joint.kind == "revolute":
+            place = book.spot(joint.parent, joint.joint).place
+            if joint.driver is None:
+                return place, ZERO
+            own = joint.child == book.mechanism.drivers[joint.driver].link
+            found = total([each.moment(place) for each in acting])
+            term = symbol(f"M_{joint.driver}", f"M_{{{tex(joint.driver)}}}", self._effort(joint.driver))
+            step.say(book.say("worked.driver_torque", point=joint.joint))
+            step.find(term, -found if own else found, "N·m", f"{joint.driver}.effort [N·m]")
+            return place, term if own else -term
+        place = self._block_point(joint)
+        formula = -total([each.moment(place) for each in acting])
+        n = book.numbers[joint.child]
+        value = float(self.forces.couple(joint.joint, on=joint.child)[book.index])
+        term = symbol(f"M_{joint.joint},{n}", f"M_{{{tex(joint.joint)},{n}}}", value)
+        step.find(term, formula, "N·m", f"{joint.joint} on {joint.child}.couple [N·m]")
+        return place, ZERO if formula.is_zero else term
+
+    def _block_point(self, joint: TreeJoint) -> Pair:
+        """Point about which a couple is counted: the block's point, or the weld."""
+        held = self.book.mechanism.joints[joint.joint]
+        if isinstance(held, PrismaticJoint):
+            return self.book.spot(held.block, held.at).place
+        return self.book.spot(joint.child, attach(joint, joint.child, self.book)).place
+
+    def _effort(self, driver: str) -> float:
+        return float(self.forces.driver_effort(driver)[self.book.index])
+
+    # names and sizes ----------------------------------------------------------------------
+    def _simple(self, connection: Connection) -> bool:
+        return len(self.book.mechanism.joints[connection.joint].joined) == 2
+
+    def _names(self, connection: Connection, link: str) -> tuple[tuple[str, str], str]:
+        """Symbol (plain, LaTeX without its end) of a joint force on a link, and its column."""
+        joint, n = connection.joint, self.book.numbers[link]
+        if self._simple(connection):
+            column = "" if link == "frame" else f"{joint} on {link}"
+            return (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}"), column
+        other = self.book.numbers[connection.other(link)]
+        return (f"F_{joint},{other}→{n}", rf"F_{{{tex(joint)},{other}\to {n}"), ""
+
+    def _solver_force(self, connection: Connection, link: str, value: complex) -> complex:
+        """The solver's number where the joint has two links."""
+        if not self._simple(connection):
+            return value
+        return complex(*self.forces.reaction(connection.joint, on=link)[self.book.index])
+
+    def _size(self, step: Step, connection: Connection, link: str, force: Pair) -> None:
+        name, column = self._names(connection, link)
+        self._polar(step, force, name, column)
+
+    def _polar(self, step: Step, force: Pair, name: tuple[str, str], column: str) -> None:
+        """Magnitude and direction of a force that is not zero."""
+        size = root(force.x.squared + force.y.squared)
+        if force.x.is_zero or force.y.is_zero or not size.value:
+            return
+        end = name[1] + "}"
+        step.find(symbol(name[0], end, size.value), size, "N", f"{column}.magnitude [N]" if column else "")
+        turn = direction(force.y, force.x)
+        step.find(symbol(f"∠{name[0]}", rf"\angle {end}", turn.value, degrees=True), turn, "°")
+
+    def shares(self, number: int) -> Step | None:
+        """What every link carries on pins of several links."""
+        book = self.book
+        step = Step(str(number), book.say("worked.shares"))
+        for name, joint in book.mechanism.joints.items():
+            if len(joint.joined) < 3:
+                continue
+            for link in joint.joined:
+                here = [f for f in self.found if f.connection.joint == name]
+                mine = [f for f in here if link in (f.connection.a, f.connection.b)]
+                if link == "frame" or not mine:
+                    continue
+                force = NOWHERE
+                for each in mine:
+                    force = force + each.acting(link).force
+                self._share(step, name, link, force)
+        return step if step.items else None
+
+    def _share(self, step: Step, joint: str, link: str, formula: Pair) -> None:
+        n, column = self.book.numbers[link], f"{joint} on {link}"
+        values = self.forces.reaction(joint, on=link)[self.book.index]
+        names = (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}")
+        force = step.find_pair(names, complex(*values), formula, column)
+        self._polar(step, force, names, column)
+
+
+def segment(group: Group, joint: TreeJoint) -> Iterator[str]:
+    """Links that turn with a free pin: its child and what guides, welds and drivers hold to it."""
+    own = {joint.child}
+    yield joint.child
+    for step in group.tree:
+        if step.parent in own and not (step.free and step.kind == "revolute"):
+            own.add(step.child)
+            yield step.child
+
+
+def subtree(group: Group, joint: TreeJoint) -> Iterator[str]:
+    """All links that hang on a joint."""
+    own = {joint.child}
+    yield joint.child
+    for step in group.tree:
+        if step.parent in own and step.child not in own:
+            own.add(step.child)
+            yield step.child

@@ -1,0 +1,151 @@
+"""Instant centres, jerk and ranges against independent constructions; numbers that cannot depend on the axes."""
+
+from math import acos, cos, pi, sin
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.metrics import METRICS, centrode, instant_centre, metrics
+from linkwright.metrics.jerk import TimeDerivative
+from linkwright.model.build import Model
+
+
+def four_bar(turn: float = 0.0, mirror: float = 1.0, scale: float = 1.0) -> lw.Mechanism:
+    """The same four-bar, turned, mirrored about the x axis before that, or scaled."""
+    model = Model("four-bar")
+    model.frame(O1=(0, 0), O2=(4 * scale * cos(turn), 4 * scale * sin(turn)))
+    model.link("crank", ["O1", "A"], length=scale)
+    model.link(
+        "coupler",
+        ["A", "B"],
+        length=3.5 * scale,
+        also={"P": (1.5 * scale, mirror * scale)},
+        mass=3,
+        inertia=0.2,
+    )
+    model.link("rocker", ["O2", "B"], length=2.5 * scale, mass=2, inertia=0.1)
+    model.drive("crank", about="O1", speed=10 * mirror, start=turn)
+    model.assemble(B="left" if mirror > 0 else "right")
+    return model.build()
+
+
+@pytest.mark.parametrize(("turn", "mirror"), [(0.7, 1.0), (-2.0, 1.0), (0.0, -1.0), (1.3, -1.0)])
+def test_turning_and_mirroring_change_nothing(turn: float, mirror: float) -> None:
+    first = metrics(lw.solve_forces(four_bar(), steps=120))
+    other = metrics(lw.solve_forces(four_bar(turn, mirror), steps=120))
+    free = set(METRICS) - {
+        "limit_position",
+        "dead_point",
+        "instant_centre",
+        "swept_area",
+        "peak_shaking_moment",
+    }
+    for name in sorted(free & set(first.names)):
+        a, b = (sorted(abs(row.value) for row in table[name]) for table in (first, other))
+        assert a == pytest.approx(b, rel=1e-7, abs=1e-9), name
+
+
+def test_scaling_lengths() -> None:
+    first, large = (metrics(lw.solve_motion(four_bar(scale=s), steps=120)) for s in (1.0, 3.0))
+    for name, power in [
+        ("transmission_angle", 0),
+        ("quick_return_ratio", 0),
+        ("grashof", 1),
+        ("coupler_curve_area", 2),
+    ]:
+        assert large.value(name) == pytest.approx(3.0**power * first.value(name), rel=1e-9)
+
+
+def test_pole_of_the_coupler_lies_on_crank_and_rocker() -> None:
+    motion = lw.solve_motion(four_bar(), at=np.linspace(0.1, 6.2, 37))
+    pole = instant_centre(motion, "coupler")
+    for pivot, pin in (("O1", "A"), ("O2", "B")):
+        along = motion.point(pin).position - motion.point(pivot).position
+        to_pole = pole - motion.point(pivot).position
+        cross = along[:, 0] * to_pole[:, 1] - along[:, 1] * to_pole[:, 0]
+        np.testing.assert_allclose(cross / (1e-9 + np.hypot(*to_pole.T)), 0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "triad"])
+def test_kennedy(name: str) -> None:
+    """The three relative centres of any three links lie on one line."""
+    motion = lw.solve_motion(lw.load(f"gallery:{name}"), at=[0.4, 2.0])
+    links = ["frame", *motion.mechanism.links]
+    checked = 0
+    for i, a in enumerate(links):
+        for j, b in enumerate(links[i + 1 :], i + 1):
+            for c in links[j + 1 :]:
+                p, q, r = (instant_centre(motion, *pair) for pair in ((a, b), (b, c), (a, c)))
+                u, v = q - p, r - p
+                size = np.hypot(*u.T) * np.hypot(*v.T)
+                good = np.isfinite(size) & (size > 1e-12) & (size < 1e6)
+                cross = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])[good] / size[good]
+                np.testing.assert_allclose(cross, 0, atol=1e-8)
+                checked += int(good.sum())
+    assert checked > 5
+
+
+def test_centrodes_roll_on_each_other() -> None:
+    """The pole runs as far on the moving centrode as on the fixed one."""
+    motion = lw.solve_motion(four_bar(), at=np.linspace(0.2, 0.6, 4001))
+    lengths = [
+        np.hypot(*np.diff(centrode(motion, "coupler", on), axis=0).T).sum() for on in ("frame", "coupler")
+    ]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "shaper_quick_return", "jaw_crusher_sixbar", "triad"])
+def test_jerk_is_the_derivative_of_the_acceleration(name: str) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    link = list(mechanism.links)[-1] if name != "shaper_quick_return" else "lever"
+    time = np.array([0.011, 0.043])
+    motion = lw.solve_motion(mechanism, times=time)
+    jerk = TimeDerivative(motion, (f"g:{link}",)).of(motion)[0]
+    speed = abs(next(iter(motion.positions.coordinates.values()))[1][0])
+    h = 2e-3 / speed
+    a = {
+        k: lw.solve_motion(mechanism, times=time + k * h).link(link).angular_acceleration
+        for k in (-2, -1, 1, 2)
+    }
+    difference = (8 * (a[1] - a[-1]) - (a[2] - a[-2])) / (12 * h)
+    np.testing.assert_allclose(jerk, difference, rtol=1e-6, atol=1e-8 * np.abs(jerk).max())
+
+
+def test_range_of_a_four_bar_whose_crank_cannot_turn() -> None:
+    """The crank of 2 turns up to where coupler and rocker (2 + 1.5) are stretched over O2 at 4."""
+    model = Model("double rocker")
+    model.frame(O1=(0, 0), O2=(4, 0))
+    model.link("crank", ["O1", "A"], length=2)
+    model.link("coupler", ["A", "B"], length=2)
+    model.link("rocker", ["O2", "B"], length=1.5)
+    model.drive("crank", about="O1", speed=1)
+    model.assemble(B="left")
+    motion = lw.solve_motion(model.build(), failures="mark")
+    table = metrics(motion)
+    end = acos((2**2 + 4**2 - 3.5**2) / (2 * 2 * 4))
+    assert table.value("range_of_motion") == pytest.approx(2 * end, rel=1e-9)
+    stops = sorted((row.value + pi) % (2 * pi) - pi for row in table["dead_point"] if row.warnings)
+    assert stops == pytest.approx([-end, end], abs=1e-9)
+
+
+def test_swept_area_of_a_turning_crank() -> None:
+    table = metrics(lw.solve_motion(four_bar(), steps=3600), "swept_area")
+    assert table["swept_area", "crank"].value == pytest.approx(pi, rel=1e-5)
+
+
+def test_bearing_value_of_a_pin() -> None:
+    """The crank pin of a yoke: force m r ω² |cos θ| on the pin turning at ω: F r_pin ω at its peak."""
+    model = Model("yoke")
+    model.frame(O=(0, 0))
+    model.link("crank", ["O", "A"], length=0.05)
+    model.link("die", ["A"])
+    model.link("yoke", ["Y"], mass=4)
+    model.pin("A", radius=0.01)
+    model.prismatic(
+        "slot", guide="yoke", through="Y", direction=pi / 2, block="die", at="A", block_angle=pi / 2
+    )
+    model.prismatic("guide", guide="frame", through="O", direction=0, block="yoke", at="Y")
+    model.drive("crank", about="O", speed=20)
+    table = metrics(lw.solve_forces(model.build(), steps=50), "bearing_pv")
+    assert table.value("bearing_pv") == pytest.approx(4 * 0.05 * 20**2 * 0.01 * 20, rel=1e-9)

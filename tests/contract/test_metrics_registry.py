@@ -1,0 +1,99 @@
+"""Every registered design number keeps the contract, on every gallery machine."""
+
+from math import isnan
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.gallery import names
+from linkwright.metrics import METRICS, Analysis, MetricsTable, metrics
+from linkwright.metrics.quantities import si_unit
+from linkwright.words import catalogue
+
+SKIPPED = {"truss", "two_bars_equilibrium"}
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_metric_says_what_it_is(name: str) -> None:
+    metric = METRICS[name]()
+    assert metric.name == name
+    assert si_unit(metric.dimension) == metric.unit
+    assert len(metric.source) > 10 and METRICS[name].__doc__
+    for language in ("en", "zh"):
+        words = catalogue("metrics", language)
+        assert words[f"{name}.label"] and words[f"{name}.meaning"].endswith((".", "。"))
+    assert metric.better in (None, "higher", "lower")
+
+
+def test_both_languages_have_the_same_keys_and_names() -> None:
+    en, zh = catalogue("metrics", "en"), catalogue("metrics", "zh")
+    assert en.keys() == zh.keys()
+    assert [k for k in en if sorted(_fields(en[k])) != sorted(_fields(zh[k]))] == []
+
+
+def _fields(text: str) -> list[str]:
+    import string
+
+    return [name for _, name, _, _ in string.Formatter().parse(text) if name]
+
+
+@pytest.mark.parametrize("name", sorted(set(names()) - SKIPPED))
+def test_table_of_every_machine(name: str) -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=72, failures="mark"))
+    table = metrics(forces)
+    assert set(table.names) | set(table.skipped) >= set(METRICS) - {"cusp", "dead_point", "limit_position"}
+    for row in table:
+        assert not isnan(row.value), row
+        assert row.unit == si_unit(row.dimension)
+        assert row.at is None or np.isfinite(row.at)
+    for language in ("en", "zh"):
+        assert len(table.text(language).splitlines()) >= len(table) + 3
+    keys = [(row.metric, row.subject, row.at) for row in table]
+    assert len(keys) == len(set(keys))
+
+
+@pytest.mark.parametrize(
+    "name", ["crank_rocker", "shaper_quick_return", "jaw_crusher_sixbar", "stephenson_sixbar_triad"]
+)
+def test_extremes_bound_every_sample_and_do_not_depend_on_the_steps(name: str) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    coarse, fine = (metrics(lw.solve_motion(mechanism, steps=n)) for n in (120, 360))
+    for metric in (
+        "transmission_angle",
+        "peak_acceleration",
+        "peak_jerk",
+        "velocity_ratio",
+        "stroke",
+        "swing_angle",
+    ):
+        if metric in fine:
+            for a, b in zip(coarse[metric], fine[metric], strict=True):
+                assert a.value == pytest.approx(b.value, rel=1e-6), (metric, a.subject)
+
+
+def test_a_single_position_has_numbers_as_well() -> None:
+    motion = lw.solve_motion(lw.load("gallery:crank_rocker"), at=[0.5])
+    table = metrics(motion)
+    assert table.value("transmission_angle") > 0
+    assert "range_of_motion" in table.skipped and "quick_return_ratio" in table.skipped
+
+
+def test_indexing_the_table() -> None:
+    table = metrics(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar")))
+    assert isinstance(table, MetricsTable)
+    rows = table["transmission_angle"]
+    assert table.value("transmission_angle") == min(row.value for row in rows)
+    assert table["transmission_angle", rows[1].subject] is rows[1]
+    assert table[0] in table and "swing_angle" in table and "stroke" not in table
+    frame = table.to_dataframe()
+    assert list(frame["metric"].unique()) == list(table.names)
+    assert "MetricsTable" in repr(table)
+
+
+def test_metric_by_itself() -> None:
+    motion = lw.solve_motion(lw.load("gallery:crank_rocker"))
+    metric = METRICS["swing_angle"]()
+    assert metric.applies(motion) and not METRICS["peak_reaction"]().applies(motion)
+    (found,) = metric.evaluate(Analysis.of(motion))
+    assert found.subject == "rocker"

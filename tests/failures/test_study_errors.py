@@ -1,0 +1,153 @@
+"""What studies, sweeps, sensitivities and comparisons refuse, and with which words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.study import sensitivity, sweep
+from linkwright.study.compare import compare
+from linkwright.study.study import study
+
+SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
+
+
+def machine() -> lw.Mechanism:
+    return lw.load("gallery:crank_rocker")
+
+
+def said(call: Callable[[], Any]) -> str:
+    with pytest.raises(lw.LinkwrightError) as caught:
+        call()
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("vary", "words"),
+    [
+        ({"coupler.lenght": "2..3 m"}, ["'coupler.lenght'", "did you mean 'coupler.length'?"]),
+        ({"coupler.length": "2..3"}, ["no unit", "such as m"]),
+        ({"coupler.length": "2..3 kg"}, ["a length", "kg", "such as m"]),
+        ({"coupler.length": "2..x m"}, ['"x m" is no quantity', "1.2..1.3 m:11"]),
+        ({"coupler.length": "2..3 m:0"}, ["whole number"]),
+        ({"coupler.length": "2..3 m:many"}, ["whole number"]),
+        ({"coupler.length": "2..3 mn"}, ["mn"]),
+        ({"coupler.length": "-2..3 m:3"}, ["coupler.length", "positive"]),
+        ({"coupler.length": [1.0, float("nan")]}, ["coupler.length", "finite"]),
+        ({"driver.start": "0..1 rad:3"}, ["driver.start", "positions of the input"]),
+        ({}, ["nothing varies"]),
+        ({"coupler.length": "2..3 m:2000", "rocker.length": "2..3 m:2000"}, ["4000000 designs", "sobol"]),
+    ],
+)
+def test_what_a_study_cannot_vary(vary: dict[str, Any], words: list[str]) -> None:
+    text = said(lambda: study(machine(), vary, metrics=["travel"]))
+    for word in words:
+        assert word in text
+
+
+def test_bounds_that_make_no_design_movable() -> None:
+    text = said(lambda: study(machine(), {"coupler.length": "20..30 m:5"}, metrics=["travel"]))
+    assert "none of the 5 designs" in text
+    assert "5 fail at the group (coupler, rocker)" in text
+    assert "too close" in text
+    assert "widen or move the ranges" in text
+
+
+@pytest.mark.parametrize(
+    ("metric", "words"),
+    [
+        ("peak_torque", ["peak_torque", "did you mean 'peak_input_torque'?"]),
+        ("B.velocty max", ["B.velocty", "did you mean 'B.velocity'?"]),
+        ("stroke", ["'stroke' does not apply"]),
+        ("crank.angle range", ["turns through", "crank.angular_velocity"]),
+        ("rocker.angle rms", ["rocker.angle rms"]),
+        ("reaction C on coupler max", ["reaction C on coupler"]),
+        ("reaction A max", ["say on which link"]),
+        ("transmission_angle A min", ["inner joint"]),
+    ],
+)
+def test_metrics_that_do_not_exist_or_apply(metric: str, words: list[str]) -> None:
+    text = said(lambda: study(machine(), {"coupler.length": "3..4 m:2"}, metrics=[metric]))
+    for word in words:
+        assert word in text
+
+
+def test_a_subject_that_a_metric_does_not_have() -> None:
+    text = said(lambda: study(lw.load(SIX), {"pitman.length": "1.2..1.3 m:2"}, metrics=["peak_reaction Q"]))
+    assert "'Q'" in text and "O5" in text
+
+
+def test_sweeps_refuse_what_no_design_can_have() -> None:
+    lengths = np.array([3.0, 3.5])
+    assert "different numbers" in said(
+        lambda: sweep(
+            machine(), {"coupler.length": lengths, "rocker.length": np.ones(3)}, outputs=["B.x max"]
+        )
+    )
+    assert "did you mean 'rms'" in said(
+        lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[("driver.effort", "rmss")])
+    )
+    assert "no outputs" in said(lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[]))
+    found = sweep(machine(), {"coupler.length": lengths}, outputs=["B.x max"])
+    assert "was not asked for" in said(lambda: found["B.x min"])
+
+
+def test_sensitivities_refuse_what_has_no_derivative() -> None:
+    assert "did you mean" in said(lambda: sensitivity(machine(), of=["B.velocity"], by=["coupler.lengt"]))
+    assert "at fixed input" in said(lambda: sensitivity(machine(), of=["B.velocity"], by=["driver.start"]))
+    assert "is a place" in said(
+        lambda: sensitivity(machine(), of=["B.velocity argmax"], by=["coupler.length"])
+    )
+    assert "no dimension" in said(lambda: sensitivity(machine(), of=["B.velocity"], by=[]))
+    broken = machine().with_dimensions({"coupler.length": 20.0})
+    assert "cannot be assembled" in said(
+        lambda: sensitivity(broken, of=["B.velocity"], by=["coupler.length"])
+    )
+    found = sensitivity(machine(), of=["B.velocity"], by=["coupler.length"])
+    assert "no curve of 'C.velocity'" in said(lambda: found.curve("C.velocity"))
+    assert "is not among the dimensions" in said(lambda: found.slope("B.velocity", "rocker.length"))
+
+
+def test_alternatives_that_share_no_output() -> None:
+    text = said(lambda: compare([SIX, "gallery:shaper_quick_return"]))
+    assert "share no output" in text
+    for word in ("rocker, jaw", "lever, guide", "output={"):
+        assert word in text
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"metrics": ["flywhel"]}, ["'flywhel'", "did you mean 'flywheel'?"]),
+        ({"metrics": ["flywheel"], "weights": {"flywhee": 1}}, ["'flywhee'", "did you mean 'flywheel'?"]),
+        ({"metrics": ["flywheel"], "weights": {"flywheel": -1}}, ["not negative"]),
+        ({"metrics": ["flywheel"], "weights": {"flywheel": 0}}, ["all weights are zero"]),
+        ({"metrics": ["travel"], "weights": {"travel": 2}}, ["no better direction"]),
+        ({"output": "jwa"}, ["'jwa'", "did you mean 'jaw'?"]),
+        ({"output": {"x": "jaw"}}, ["no output is named for"]),
+        ({"output": ["jaw"]}, ["1 outputs are named for 2"]),
+        ({"metrics": ["stroke"]}, ["'stroke' does not apply"]),
+        ({"metrics": ["flywheel"], "fluctuation": 0.0}, ["above zero"]),
+    ],
+)
+def test_comparisons_that_cannot_be_made(options: dict[str, Any], words: list[str]) -> None:
+    text = said(lambda: compare([SIX, FOUR], **options))
+    for word in words:
+        assert word in text
+
+
+def test_one_machine_is_no_comparison() -> None:
+    assert "two or more" in said(lambda: compare([SIX]))
+    assert "two or more" in said(lambda: compare(SIX))  # type: ignore[arg-type]
+
+
+def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:
+    found = compare(
+        ["gallery:slider_crank_inline", "gallery:slider_crank_offset"], output=["piston", "slider"]
+    )
+    assert all(row.values[0] is None for row in found.rows if row.criterion.name == "flywheel")
+    assert any("mean torque" in note for note in found.notes)

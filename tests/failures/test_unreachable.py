@@ -1,0 +1,155 @@
+"""Positions that cannot be reached: refused with a reason, or marked; never a plausible number."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import degrees, hypot, pi, radians
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinematics.input_range import input_range
+from linkwright.kinematics.limits import limit_positions
+from linkwright.model.mechanism import Cycle, Mechanism
+
+
+def fourbar(a: float, b: float, c: float, d: float, *, start: float = 0.0, cycle: str = "") -> Mechanism:
+    return lw.loads(f"""
+format: 1
+name: four-bar
+frame: {{points: {{O1: [0 m, 0 m], O2: [{d} m, 0 m]}}}}
+links:
+  crank: {{points: [O1, A], length: {a} m}}
+  coupler: {{points: [A, B], length: {b} m}}
+  rocker: {{points: [O2, B], length: {c} m}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O1, speed: 1 rad/s, start: {start} deg}}
+{cycle}
+""")
+
+
+def test_missing_distance_is_said() -> None:
+    """At 120° the pins are hypot(5.5, 2.598) = 6.0828 m apart, the links reach 4.5 m."""
+    missing = hypot(4 + 1.5, 3 * 3**0.5 / 2) - 4.5
+    with pytest.raises(lw.LinkwrightError) as raised:
+        lw.solve_motion(fourbar(3, 2, 2.5, 4), at=radians(120))
+    text = str(raised.value)
+    assert "input driver = 120°" in text and "group RRR (coupler, rocker) cannot be assembled" in text
+    assert f"{missing:.5f}" in text and "missing" in text
+
+
+def test_marked_positions_hold_no_numbers() -> None:
+    motion = lw.solve_motion(fourbar(3, 2, 2.5, 4), at=np.radians([0.0, 120.0]), failures="mark")
+    assert list(motion.ok) == [True, False]
+    for values in (motion.point("B").position, motion.point("A").velocity, motion.link("rocker").angle):
+        assert np.isfinite(values[0]).all() and np.isnan(values[1]).all()
+    assert "missing" in motion.outcomes[1].sentence
+
+
+def test_change_point_itself_is_refused_with_the_reason() -> None:
+    with pytest.raises(lw.LinkwrightError, match="change point"):
+        lw.solve_motion(fourbar(1, 3, 2, 4), steps=360)
+    motion = lw.solve_motion(fourbar(1, 3, 2, 4), steps=360, failures="mark")
+    assert list(np.flatnonzero(~motion.ok)) == [180]
+    assert "singular position" in motion.outcomes[180].sentence
+
+
+@pytest.mark.parametrize("excess", [1e-9, 1e-7, 1e-5])
+def test_gap_between_two_positions_bars_the_way(excess: float) -> None:
+    """The crank is a little too long to pass 180°, where no position lies: nothing beyond counts as reached."""
+    mechanism = fourbar(1 + excess, 3, 2, 4, start=20.5)
+    with pytest.raises(lw.LinkwrightError, match="barred"):
+        lw.solve_motion(mechanism, steps=360)
+    motion = lw.solve_motion(mechanism, steps=360, failures="mark")
+    reached = degrees(motion.input[motion.ok][-1])
+    assert reached == pytest.approx(179.5)
+    assert np.isnan(motion.link("rocker").angle[motion.input > pi]).all()
+    assert any("cannot pass" in note and "driver = 180°" in note for note in motion.notes)
+    start, end = input_range(mechanism).start, input_range(mechanism).end
+    assert start is not None and end is not None
+    assert end < pi < start + 2 * pi
+
+
+def test_a_little_shorter_passes() -> None:
+    motion = lw.solve_motion(fourbar(1 - 1e-5, 3, 2, 4, start=20.5), steps=360)
+    assert motion.ok.all() and motion.notes == ()
+
+
+def test_positions_beyond_a_stretch_out_of_reach_belong_to_another_motion() -> None:
+    """Double rocker: on both sides of the frame line two stretches that the mechanism cannot leave."""
+    motion = lw.solve_motion(fourbar(3, 1, 2.8, 3.2, start=50), steps=360, failures="mark")
+    turned = np.degrees(motion.input) % 360
+    assert turned[motion.ok].min() == pytest.approx(34.0) and turned[motion.ok].max() == pytest.approx(75.0)
+    other = int(np.flatnonzero(np.isclose(turned, 300.0))[0])
+    assert "barred" in motion.outcomes[other].sentence
+    alone = lw.solve_motion(fourbar(3, 1, 2.8, 3.2, start=50), at=radians(300))
+    assert alone.ok.all()
+
+
+def test_limits_stay_within_the_reached_stretch() -> None:
+    motion = lw.solve_motion(fourbar(3, 1, 2.8, 3.2, start=50), steps=360, failures="mark")
+    for each in limit_positions(motion, "coupler"):
+        assert 33.5 < degrees(each.input) % 360 < 75.6
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("crnk", "did you mean 'crank'"),
+        ("B", "POINT.x"),
+        ("B.z", "there is no output 'B.z'"),
+        ("frame", "there is no output 'frame'"),
+    ],
+)
+def test_unknown_output(text: str, words: str) -> None:
+    motion = lw.solve_motion(lw.load("gallery:crank_rocker"))
+    with pytest.raises(lw.LinkwrightError) as raised:
+        limit_positions(motion, text)
+    assert words in str(raised.value)
+
+
+def test_limits_need_a_way_in_time() -> None:
+    mechanism = lw.loads("""
+format: 1
+name: five-bar
+frame: {points: {O1: [0 m, 0 m], O2: [1 m, 0 m]}}
+links:
+  left_crank: {points: [O1, A], length: 0.3 m}
+  left_bar: {points: [A, B], length: 1 m}
+  right_bar: {points: [C, B], length: 1 m}
+  right_crank: {points: [O2, C], length: 0.3 m}
+drivers:
+  left: {turn: left_crank, about: O1, speed: 1 rad/s}
+  right: {turn: right_crank, about: O2, speed: 2 rad/s}
+""")
+    apart = {"left": np.radians([0.0, 10.0, 20.0, 30.0]), "right": np.radians([0.0, 10.0, 20.0, 30.0])}
+    with pytest.raises(lw.LinkwrightError, match="do not follow the law of driver 'right' in time"):
+        limit_positions(lw.solve_motion(mechanism, at=apart), "left_bar")
+    assert limit_positions(lw.solve_motion(mechanism), "B.y")
+
+
+def test_too_few_positions_have_no_limits() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    assert limit_positions(lw.solve_motion(mechanism, at=[0.1, 0.2]), "rocker") == ()
+    assert limit_positions(lw.solve_motion(lw.load("gallery:truss")), "tie") == ()
+
+
+def test_no_range_without_a_driver_or_an_assembly() -> None:
+    with pytest.raises(lw.LinkwrightError, match="has no driver"):
+        input_range(lw.load("gallery:truss"))
+    with pytest.raises(lw.LinkwrightError, match="cannot be assembled at any coordinate"):
+        input_range(fourbar(1, 1, 1, 9))
+
+
+@pytest.mark.parametrize("steps", [359, 360])
+def test_guides_that_become_parallel_bar_the_way(steps: int) -> None:
+    """A turning slot and a fixed guide: at 90° the pin is infinitely far away, y = tan of the angle."""
+    mechanism = replace(lw.load("gallery:tangent_mechanism"), cycle=Cycle(turns=1.0))
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    turned = np.degrees(motion.input)
+    assert turned[motion.ok].max() - turned[motion.ok].min() < 180.0
+    if steps == 359:
+        assert any("become parallel" in note and "cannot pass" in note for note in motion.notes)
+    with pytest.raises(lw.LinkwrightError):
+        lw.solve_motion(mechanism, steps=steps)

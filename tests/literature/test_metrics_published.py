@@ -1,0 +1,159 @@
+"""Design numbers that are printed, or have a closed form."""
+
+from math import acos, asin, degrees, hypot, pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.special import ellipe
+
+import linkwright as lw
+from linkwright.metrics import MetricsTable, coupler_curve, four_bars, metrics
+from linkwright.model.build import Model
+
+
+def of(name: str, steps: int = 360) -> MetricsTable:
+    return metrics(lw.solve_forces(lw.load(f"gallery:{name}"), steps=steps))
+
+
+@pytest.mark.parametrize("steps", [36, 360, 361])
+def test_slider_crank_of_the_printing_press(steps: int) -> None:
+    """平臺印刷機主傳動機構運動簡圖設計: K 1.0343, stroke 397.60610 mm, 78.71266° and 68.40943°.
+
+    K beyond the printed digits from θ = asin(e/(l - r)) - asin(e/(l + r)).
+    """
+    theta = asin(60.5 / (702.5 - 198)) - asin(60.5 / (702.5 + 198))
+    table = of("slider_crank_offset", steps)
+    assert table.value("quick_return_ratio") == pytest.approx(1.0343, abs=5e-5)
+    assert table.value("quick_return_ratio") == pytest.approx((pi + theta) / (pi - theta), rel=1e-12)
+    assert table.value("stroke") == pytest.approx(0.39760610, abs=5e-9)
+    strokes = [degrees(row.value) for row in table["transmission_angle_of_stroke"]]
+    assert strokes == pytest.approx([78.71266, 68.40943], abs=5e-6)
+    smallest = table["transmission_angle", "rod+slider"]
+    assert degrees(smallest.value) == pytest.approx(68.40943, abs=5e-6)
+    assert degrees(smallest.at) % 360 == pytest.approx(270, abs=1e-4)
+    assert table.value("pressure_angle") == pytest.approx(pi / 2 - smallest.value)
+
+
+def test_shaper() -> None:
+    """sin(θ/2) = r/d: K = (π + θ)/(π - θ), swing θ; the slotted lever without offset passes on all of the force."""
+    theta = 2 * asin(110 / 380)
+    table = of("shaper_quick_return", 90)
+    assert table.value("quick_return_ratio", "lever") == pytest.approx((pi + theta) / (pi - theta), rel=1e-9)
+    assert table.value("crank_angle_between_limits", "lever") == pytest.approx(theta, rel=1e-9)
+    assert table.value("swing_angle", "lever") == pytest.approx(theta, rel=1e-9)
+    assert table.value("stroke", "guide") == pytest.approx(2 * 0.540 * 110 / 380, rel=1e-9)
+    lever = next(row for row in table["transmission_angle"] if "lever" in row.subject)
+    assert lever.value == pytest.approx(pi / 2, abs=1e-7)
+
+
+def test_crank_rocker() -> None:
+    """Transmission angle with crank and frame in line, swing with crank and coupler in line, by the cosine rule."""
+    table = of("crank_rocker", 45)
+    frame, crank, coupler, rocker = 4.0, 1.0, 3.5, 2.5
+    angles = [
+        acos((coupler**2 + rocker**2 - d**2) / (2 * coupler * rocker)) for d in (frame - crank, frame + crank)
+    ]
+    assert table.value("transmission_angle") == pytest.approx(min(min(a, pi - a) for a in angles), abs=1e-9)
+    reach = [
+        acos((frame**2 + rocker**2 - r**2) / (2 * frame * rocker)) for r in (coupler + crank, coupler - crank)
+    ]
+    assert table.value("swing_angle") == pytest.approx(reach[0] - reach[1], rel=1e-9)
+    assert table.value("grashof") == pytest.approx(coupler + rocker - frame - crank)
+    assert "crank-rocker" in table["grashof"][0].sentence
+
+
+def test_swing_conveyor_warns_of_the_singular_position() -> None:
+    table = of("swing_conveyor")
+    near = next(row for row in table["singularity"] if row.subject == "coupler+rocker")
+    assert near.warnings and 300 < degrees(near.at) < 350
+    assert not next(row for row in table["singularity"] if "slider" in row.subject).warnings
+
+
+def test_scotch_yoke() -> None:
+    """s = r cos θ: acceleration r ω², jerk r ω³, torque ½ m r² ω² at its peak, no mean power."""
+    table = of("scotch_yoke", 72)
+    r, w, m = 0.05, 20.0, 4.0
+    assert table.value("peak_acceleration", "guide") == pytest.approx(r * w**2, rel=1e-12)
+    assert table.value("peak_jerk", "guide") == pytest.approx(r * w**3, rel=1e-12)
+    assert table.value("velocity_ratio") in (pytest.approx(r, rel=1e-12), pytest.approx(-r, rel=1e-12))
+    assert table.value("mechanical_advantage") == pytest.approx(1 / r, rel=1e-12)
+    assert table.value("peak_input_torque") == pytest.approx(0.5 * m * r**2 * w**2, rel=1e-10)
+    assert table.value("rms_input_torque") == pytest.approx(0.5 * m * r**2 * w**2 / sqrt(2), rel=1e-10)
+    assert table.value("peak_power") == pytest.approx(0.5 * m * r**2 * w**3, rel=1e-10)
+    assert table.value("mean_power") == pytest.approx(0.0, abs=1e-9)
+    assert table.value("peak_shaking_force") == pytest.approx(m * r * w**2, rel=1e-12)
+
+
+def test_ellipse_of_the_trammel() -> None:
+    motion = lw.solve_motion(lw.load("gallery:elliptic_trammel"))
+    a, b = 0.12, 0.08
+    curve = coupler_curve(motion, "bar.P")
+    assert abs(curve.area) == pytest.approx(pi * a * b, rel=1e-12)
+    assert curve.length == pytest.approx(4 * a * ellipe(1 - (b / a) ** 2), rel=1e-12)
+    assert not curve.double_points and not curve.cusps
+
+
+@pytest.mark.parametrize(
+    ("lengths", "kind"),
+    [
+        ((4, 1, 3.5, 2.5), "crank_rocker"),
+        ((1, 3, 3.5, 4), "double_crank"),
+        ((3, 3.5, 1, 4), "double_rocker"),
+        ((3, 4, 3.5, 1.2), "crank_rocker"),
+        ((4, 2.5, 3, 3), "triple_rocker"),
+        ((2, 1, 2, 1), "change_point"),
+    ],
+)
+def test_grashof_types(lengths: tuple[float, float, float, float], kind: str) -> None:
+    """Norton, Design of Machinery, sec. 2.12: which link is shortest decides."""
+    frame, crank, coupler, rocker = lengths
+    model = Model("four-bar")
+    model.frame(O1=(0, 0), O2=(frame, 0))
+    model.link("crank", ["O1", "A"], length=crank)
+    model.link("coupler", ["A", "B"], length=coupler)
+    model.link("rocker", ["O2", "B"], length=rocker)
+    model.drive("crank", about="O1", speed=1)
+    (loop,) = four_bars(model.build())
+    assert loop.type == kind
+
+
+def crunodal(apex: tuple[float, float]) -> lw.Mechanism:
+    model = Model("four-bar")
+    model.frame(O1=(0, 0), O2=(2.0, 0))
+    model.link("crank", ["O1", "A"], length=0.6)
+    model.link("coupler", ["A", "B"], length=1.9, also={"P": apex})
+    model.link("rocker", ["O2", "B"], length=1.3)
+    model.drive("crank", about="O1", speed=3)
+    model.assemble(B="left")
+    return model.build()
+
+
+@pytest.mark.parametrize("apex", [(1.4, -1.5), (2.0, -0.5), (2.0, 0.5), (2.5, 2.0)])
+def test_double_points_lie_on_the_circle_of_singular_foci(apex: tuple[float, float]) -> None:
+    """Roberts: O1, O2 and the third focus form a triangle similar to the coupler's; its circle holds all nodes."""
+    curve = coupler_curve(lw.solve_motion(crunodal(apex), steps=180), "coupler.P")
+    assert curve.double_points
+    third = 2.0 * complex(*apex) / 1.9
+    a, b, c = 0j, 2 + 0j, third
+    w = (c - a) / (b - a)
+    centre = (b - a) * (w - abs(w) ** 2) / (w - w.conjugate()) + a
+    for (x, y), _ in curve.double_points:
+        assert abs(complex(x, y) - centre) == pytest.approx(abs(centre), rel=1e-9)
+
+
+def test_a_point_of_the_moving_centrode_draws_a_cusp() -> None:
+    """P at the pole of the coupler for one crank angle stands still there; the pole by crossing crank and rocker."""
+    angle = 1.1
+    ax, ay = 0.6 * np.cos(angle), 0.6 * np.sin(angle)
+    d = hypot(2.0 - ax, ay)
+    along = (d**2 + 1.9**2 - 1.3**2) / (2 * d)
+    ex, ey = (2.0 - ax) / d, -ay / d
+    across = sqrt(1.9**2 - along**2)
+    bx, by = ax + along * ex - across * ey, ay + along * ey + across * ex
+    s = 2.0 * by / (by * np.cos(angle) - (bx - 2.0) * np.sin(angle))
+    px, py = s * np.cos(angle) - ax, s * np.sin(angle) - ay
+    ux, uy = (bx - ax) / 1.9, (by - ay) / 1.9
+    apex = (float(px * ux + py * uy), float(ux * py - uy * px))
+    curve = coupler_curve(lw.solve_motion(crunodal(apex)), "coupler.P")
+    inputs = [at for _, at in curve.cusps]
+    assert inputs == [pytest.approx(angle, abs=1e-5)]

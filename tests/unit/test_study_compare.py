@@ -1,0 +1,143 @@
+"""Comparison of machines: numbers against independent ones, ranking by its definition, sentences from the numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.study.compare import Comparison, compare
+
+SIX, FOUR = "Hinged jaw crusher, six-bar", "Hinged jaw crusher, four-bar"
+
+
+@pytest.fixture(scope="module")
+def crushers() -> Comparison:
+    return compare(["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"])
+
+
+def test_the_jaws_are_compared_by_their_limit_positions(crushers: Comparison) -> None:
+    """Limits of an independent solution: six-bar -1.6323814, -1.6718867; four-bar -1.6316044, -1.6724547 rad."""
+    assert [str(each.output) for each in crushers.alternatives] == ["jaw", "jaw"]
+    assert [each.pivot for each in crushers.alternatives] == [("O5", "jaw"), ("O3", "jaw")]
+    assert crushers.value("travel", SIX) == pytest.approx(1.6718867 - 1.6323814, abs=1.1e-7)
+    assert crushers.value("travel", FOUR) == pytest.approx(1.6724547 - 1.6316044, abs=1.1e-7)
+
+
+def test_the_quick_return_ratio_follows_from_the_limits(crushers: Comparison) -> None:
+    """Inputs at the limits, of an independent solution: -89.862115° and -272.43420°; -2.3365244° and -182.49784°."""
+    for label, first, last in ((SIX, 89.862115, 272.43420), (FOUR, 2.3365244, 182.49784)):
+        part = last - first
+        assert crushers.value("quick_return_ratio", label) == pytest.approx(
+            max(part, 360 - part) / min(part, 360 - part), rel=1e-6
+        )
+
+
+def test_every_value_is_the_one_of_the_machine_solved_alone(crushers: Comparison) -> None:
+    for label, name, joint in ((SIX, "jaw_crusher_sixbar", "O5"), (FOUR, "jaw_crusher_fourbar", "O3")):
+        forces = lw.solve_forces(lw.load(f"gallery:{name}"))
+        torque = forces.input_torque
+        assert crushers.value("rms_input_torque", label) == pytest.approx(
+            np.sqrt((torque**2).mean()), rel=1e-12
+        )
+        assert crushers.value("peak_input_torque", label) == pytest.approx(np.abs(torque).max(), rel=1e-2)
+        pivot = np.hypot(*forces.reaction(joint, on="jaw").T)
+        assert crushers.value("pivot_reaction", label) == pytest.approx(pivot.max(), rel=1e-12)
+        assert crushers.value("output_acceleration", label) == pytest.approx(
+            np.abs(forces.motion.link("jaw").angular_acceleration).max(), rel=1e-12
+        )
+
+
+def test_the_flywheel_is_that_of_the_energy_of_the_torque(crushers: Comparison) -> None:
+    """J = ΔE/(δ ω²) less what the links bring; ΔE by summing (mean - T) Δφ over fine steps."""
+    omega = 170 * 2 * np.pi / 60
+    for each in crushers.alternatives:
+        forces = lw.solve_forces(lw.solve_motion(each.mechanism, steps=14400))
+        torque, turn = forces.input_torque, 2 * np.pi / 14400
+        energy = np.cumsum((torque - torque.mean()) * turn)
+        without = np.ptp(energy) / (0.02 * omega**2)
+        running = each.running
+        assert running is not None
+        assert running.energy.value == pytest.approx(np.ptp(energy), rel=2e-3)
+        assert 0.0 <= without - crushers.value("flywheel", each.label) < without
+
+
+def test_the_ranking_is_the_mean_of_best_over_value(crushers: Comparison) -> None:
+    values = {
+        row.criterion.name: [abs(v.value) for v in row.values if v is not None]
+        for row in crushers.rows
+        if row.criterion.better
+    }
+    assert "transmission_angle" in values and "travel" not in values
+    scores = []
+    for i in range(2):
+        shares = [
+            v[i] / max(v) if name == "transmission_angle" else min(v) / v[i] for name, v in values.items()
+        ]
+        scores.append(sum(shares) / len(shares))
+    ranked = crushers.ranking
+    assert [rank.score for rank in ranked] == pytest.approx(sorted(scores, reverse=True), rel=1e-12)
+    assert ranked[0].index == int(np.argmax(scores))
+
+
+def test_a_weight_can_turn_the_ranking() -> None:
+    machines = ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"]
+    names = ["mean_power", "peak_input_torque"]
+    torque = compare(machines, metrics=names, weights={"mean_power": 0})
+    power = compare(machines, metrics=names, weights={"peak_input_torque": 0})
+    assert torque.ranking[0].label == FOUR and torque.ranking[0].score == 1.0
+    assert power.ranking[0].label == SIX and power.ranking[0].score == 1.0
+
+
+def test_the_evaluation_says_the_numbers_in_both_languages(crushers: Comparison) -> None:
+    for language in ("en", "zh"):
+        text = crushers.text(language)
+        for part in ("2.2635°", "58927", "1633.7 N·m", "580.71 N·m", "O5", "O3", SIX, FOUR):
+            assert part in text, (language, part)
+        assert crushers.ranking[0].label in crushers.evaluation(language).splitlines()[-2]
+    assert "平衡力矩" in crushers.evaluation("zh")
+    assert "Balancing torque" in crushers.evaluation("en")
+
+
+def test_curves_lie_over_each_other(crushers: Comparison) -> None:
+    curves = {each.name: each for each in crushers.curves}
+    assert set(curves) == {
+        "travel",
+        "velocity",
+        "acceleration",
+        "pivot_reaction",
+        "hodograph",
+        "input_torque",
+    }
+    for curve in curves.values():
+        assert list(curve.lines) == [SIX, FOUR]
+    passed, angle = curves["travel"].lines[SIX]
+    assert passed[0] == 0.0 and np.all(np.diff(passed) > 0)
+    assert angle == pytest.approx(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar")).link("jaw").angle)
+    x, y = curves["hodograph"].lines[SIX]
+    assert np.hypot(x, y) == pytest.approx(curves["pivot_reaction"].lines[SIX][1])
+
+
+def test_equal_machines_are_equal() -> None:
+    machine = lw.load("gallery:jaw_crusher_fourbar")
+    found = compare([machine, machine], metrics=["peak_input_torque", "flywheel"])
+    assert found.labels == (FOUR, f"{FOUR} (2)")
+    assert [rank.score for rank in found.ranking] == [1.0, 1.0]
+    assert all(row.best == () for row in found.rows)
+
+
+def test_outputs_are_named_per_machine() -> None:
+    found = compare(
+        ["gallery:slider_crank_inline", "gallery:slider_crank_offset"],
+        metrics=["travel", "quick_return_ratio"],
+        output={
+            "slider_crank_inline": "piston",
+            "Slider-crank, offset": "slider",
+            "slider_crank_offset": "slider",
+        },
+    )
+    assert found.value("travel", 0) == pytest.approx(0.1, rel=1e-9)
+    assert found.value("travel", 1) == pytest.approx(0.39760610, abs=5e-9)
+    r, rod, e = 0.198, 0.7025, 0.0605
+    theta = np.arcsin(e / (rod - r)) - np.arcsin(e / (rod + r))
+    assert found.value("quick_return_ratio", 1) == pytest.approx((np.pi + theta) / (np.pi - theta), rel=1e-11)

@@ -1,0 +1,124 @@
+"""Parameter studies: what they vary, what they measure, what they leave out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.study.ranges import parse_range
+from linkwright.study.study import study
+
+
+def test_a_range_is_what_it_says() -> None:
+    machine = lw.load("gallery:jaw_crusher_sixbar")
+    found = parse_range(machine, "pitman.length", "1.2..1.3 m:11")
+    assert found.values == pytest.approx(np.linspace(1.2, 1.3, 11), rel=1e-15)
+    assert parse_range(machine, "pitman.length", "1200 mm .. 1.3 m : 3").values == pytest.approx(
+        [1.2, 1.25, 1.3]
+    )
+    assert parse_range(machine, "jaw.mass", "700, 900 kg").values.tolist() == [700.0, 900.0]
+    assert parse_range(machine, "frame.O3.y", "-1.1..-0.9 m:2").values == pytest.approx([-1.1, -0.9])
+    assert parse_range(machine, "driver.speed", "-60..60 rpm:2").values == pytest.approx(
+        [-2 * np.pi, 2 * np.pi]
+    )
+    assert parse_range(machine, "jaw.mass", [1.0, 2.0]).values.tolist() == [1.0, 2.0]
+    assert len(parse_range(machine, "jaw.mass", "700..900 kg").values) == 11
+
+
+def test_a_grid_has_every_combination_and_closed_form_values() -> None:
+    """Transmission angle of a crank-rocker at the frame line; its rocker's swing from the cosine law."""
+    machine = lw.load("gallery:crank_rocker")
+    a, d = machine.dimension("crank.length"), machine.dimension("frame.O2.x")
+    found = study(machine, {"coupler.length": "3.1..3.7 m:4", "rocker.length": "2.4..2.8 m:3"})
+    b, c = found["coupler.length"], found["rocker.length"]
+    assert found.designs == 12 and len({*zip(b.tolist(), c.tolist(), strict=True)}) == 12
+    cosines = [(b**2 + c**2 - (d + s * a) ** 2) / (2 * b * c) for s in (1, -1)]
+    acute = np.min([np.minimum(np.arccos(x), np.pi - np.arccos(x)) for x in cosines], axis=0)
+    assert found["transmission_angle"] == pytest.approx(acute, rel=1e-8)
+    ends = [np.arccos((c**2 + d**2 - (b + s * a) ** 2) / (2 * c * d)) for s in (1, -1)]
+    assert found["travel"] == pytest.approx(ends[0] - ends[1], rel=1e-9)
+    assert found.best("transmission_angle") == int(np.argmax(acute))
+
+
+def test_designs_that_cannot_turn_are_counted_and_the_others_go_on() -> None:
+    machine = lw.load("gallery:crank_rocker")
+    a, c, d = (machine.dimension(name) for name in ("crank.length", "rocker.length", "frame.O2.x"))
+    found = study(machine, {"coupler.length": "1.013..7 m:40"}, metrics=["travel", "B.velocity max"])
+    b = found["coupler.length"]
+    turns = (b + c > d + a) & (np.abs(b - c) < d - a)
+    assert np.array_equal(found.ok, turns)
+    for name in ("travel", "B.velocity max"):
+        assert np.array_equal(np.isfinite(found[name]), turns)
+    assert sum(failure.count for failure in found.failures) == int((~turns).sum())
+    text = found.text()
+    assert f"40 designs, {int(turns.sum())} can move" in text
+    assert "at the group (coupler, rocker)" in text and "reach" in text
+
+
+def test_a_sobol_sequence_fills_the_ranges_evenly_and_again() -> None:
+    machine = lw.load("gallery:crank_rocker")
+    ranges = {"coupler.length": "3..4 m", "rocker.length": "2.4..2.8 m"}
+    metrics = ["closeness min"]
+    found, again = (
+        study(machine, ranges, metrics=metrics, sampling="sobol", samples=64, steps=36) for _ in range(2)
+    )
+    assert found.designs == 64
+    for address, low, high in (("coupler.length", 3.0, 4.0), ("rocker.length", 2.4, 2.8)):
+        share = (found[address] - low) / (high - low)
+        assert np.array_equal(found[address], again[address])
+        # a Sobol net puts exactly 4 of 64 points into every sixteenth
+        assert np.bincount((share * 16).astype(int), minlength=16).tolist() == [4] * 16
+
+
+def test_loads_and_registered_metrics_of_every_design() -> None:
+    machine = lw.load("gallery:jaw_crusher_sixbar")
+    found = study(
+        machine,
+        {"pitman.length": "1.2, 1.3 m", "jaw.mass": "700, 900 kg"},
+        metrics=["rms_input_torque", "driver.effort rms", "peak_reaction O5", "reaction O5 on jaw max"],
+    )
+    assert found["rms_input_torque"] == pytest.approx(found["driver.effort rms"], rel=1e-9)
+    assert np.all(found["peak_reaction O5"] >= found["reaction O5 on jaw max"] * (1 - 1e-12))
+    for index in range(4):
+        forces = lw.solve_forces(found.design(index))
+        assert found["driver.effort rms"][index] == pytest.approx(
+            np.sqrt((forces.input_torque**2).mean()), rel=1e-9
+        )
+
+
+def test_csv_and_data_hold_every_design() -> None:
+    machine = lw.load("gallery:crank_rocker")
+    found = study(machine, {"coupler.length": "1.5..4 m:6"}, metrics=["travel", "B.velocity max"])
+    rows = list(csv.reader(io.StringIO(found.csv())))
+    assert rows[0] == ["coupler.length", "travel [rad]", "B.velocity max [m/s]"]
+    assert len(rows) == 7
+    for row, index in zip(rows[1:], range(6), strict=True):
+        assert float(row[0]) == found["coupler.length"][index]
+        assert (row[1] == "") == (not found.ok[index])
+    data = found.data()
+    assert data["designs"] == 6 and data["movable"] == int(found.ok.sum())
+    assert data["metrics"]["travel"]["unit"] == "rad"
+    json.dumps(data)
+
+
+def test_a_named_parameter_can_be_varied() -> None:
+    text = """
+format: 1
+name: slider-crank
+parameters: {r: 50 mm, ratio: 4}
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: r}
+  rod: {points: [A, B], length: ratio*r}
+  piston: {points: [B]}
+joints:
+  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+"""
+    found = study(lw.loads(text), {"r": "40..60 mm:3", "ratio": "3, 5"}, metrics=["stroke"])
+    assert found["stroke"] == pytest.approx(2 * found["r"], rel=1e-9)

@@ -1,0 +1,112 @@
+"""Worked solutions reckoned again: every line from its printed numbers, every result against the solver."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from tests.reference.random_mechanisms import random_mechanism
+from tests.unit.worked_reading import is_printed_zero, last_digit, reckon
+
+import linkwright as lw
+
+GALLERY = lw.gallery_names()
+#: Columns that a worked solution does not print: times, checks, totals.
+BESIDE = ("time", "residual", "shaking")
+
+
+def forces_of(mechanism: lw.Mechanism, steps: int = 5) -> lw.Forces:
+    return lw.solve_forces(lw.solve_motion(mechanism, steps=steps, failures="mark"))
+
+
+def reckon_lines(page: lw.Worked) -> list[str]:
+    """Lines that do not come out as printed."""
+    wrong = []
+    for line in page.equations:
+        if not line.numbers:
+            continue
+        found, told = reckon(line.numbers), float(line.result)
+        slip = 1e-5 if is_printed_zero(line.result) else 1.001 * last_digit(line.result)
+        if not abs(found - told) <= slip:
+            wrong.append(f"{line.symbol} = {line.numbers} gives {found}, printed {line.result}")
+    return wrong
+
+
+def against_solver(page: lw.Worked, forces: lw.Forces) -> tuple[list[str], set[str]]:
+    """Results that are not the solver's numbers, and the columns that were printed."""
+    columns, wrong, seen = forces.columns(), [], set()
+    for line in page.equations:
+        if not line.column:
+            continue
+        seen.add(line.column)
+        value = float(columns[line.column][page.position])
+        told = float(line.result)
+        if line.unit == "°":
+            value = math.degrees(value)
+            told = value + (told - value + 180.0) % 360.0 - 180.0
+        slip = 1e-6 if is_printed_zero(line.result) else 0.51 * last_digit(line.result)
+        if not abs(told - value) <= slip:
+            wrong.append(f"{line.column}: printed {line.result}, solved {value}")
+    return wrong, seen
+
+
+def reached(forces: lw.Forces) -> int:
+    """A position in the middle that was reached."""
+    good = np.flatnonzero(forces.motion.ok)
+    return int(good[len(good) // 2])
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_gallery_comes_out_with_a_calculator(name: str) -> None:
+    forces = forces_of(lw.load(f"gallery:{name}"))
+    page = lw.worked(forces, reached(forces))
+    assert reckon_lines(page) == []
+    wrong, _ = against_solver(page, forces)
+    assert wrong == []
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_any_mechanism_comes_out_with_a_calculator(seed: int) -> None:
+    forces = forces_of(lw.loads(random_mechanism(seed, with_loads=True)), steps=3)
+    page = lw.worked(forces, 1)
+    assert reckon_lines(page) == []
+    wrong, _ = against_solver(page, forces)
+    assert wrong == []
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_nothing_of_the_motion_is_left_out(name: str) -> None:
+    forces = forces_of(lw.load(f"gallery:{name}"))
+    page = lw.worked(forces, reached(forces))
+    _, seen = against_solver(page, forces)
+    columns = forces.motion.columns()
+    moving = [
+        column
+        for column, values in columns.items()
+        if not any(word in column for word in BESIDE) and abs(values[page.position]) > 1e-9
+    ]
+    assert [column for column in moving if column not in seen] == []
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_every_joint_force_and_effort_is_found(name: str) -> None:
+    forces = forces_of(lw.load(f"gallery:{name}"))
+    page = lw.worked(forces, reached(forces))
+    _, seen = against_solver(page, forces)
+    for joint, held in forces.mechanism.joints.items():
+        links = [link for link in held.joined if link != "frame"]
+        printed = [link for link in links if f"{joint} on {link}.x [N]" in seen]
+        assert len(printed) >= (len(links) if len(held.joined) > 2 else 1), joint
+        if held.kind != "revolute" and "frame" not in held.joined:
+            continue
+    efforts = [column for column in forces.columns() if ".effort" in column]
+    assert set(efforts) <= seen
+
+
+def test_a_wrong_line_would_be_found() -> None:
+    assert reckon("2·(-3)² - √(16)/cos(60°)") == pytest.approx(10.0)
+    assert reckon("-3²") == -9.0
+    assert reckon("atan2(-1, -1) + 10°") == pytest.approx(-125.0)
+    assert last_digit("12.30") == pytest.approx(0.01)
+    assert last_digit("1.25e-7") == pytest.approx(1e-9)

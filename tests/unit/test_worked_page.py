@@ -1,0 +1,104 @@
+"""The page of a worked solution: order, languages, data, refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.words import say
+
+CONVEYOR = "gallery:swing_conveyor"
+
+
+@pytest.fixture(scope="module")
+def conveyor() -> lw.Forces:
+    return lw.solve_forces(lw.solve_motion(lw.load(CONVEYOR), at=[math.radians(40.0), math.radians(300.0)]))
+
+
+def test_groups_come_in_solving_order_and_forces_in_reverse(conveyor: lw.Forces) -> None:
+    groups = [step.group for step in lw.worked(conveyor).steps if "." not in step.number and step.group]
+    solving = [group.name for group in conveyor.motion.structure.groups]
+    assert groups == [*solving, *reversed(solving)]
+
+
+def test_motion_alone_has_no_forces(conveyor: lw.Forces) -> None:
+    symbols = {line.symbol for line in lw.worked(conveyor.motion).equations}
+    assert "a_Fx" in symbols
+    assert not any(name.startswith("F_") for name in symbols)
+
+
+def test_static_forces_have_no_inertia(conveyor: lw.Forces) -> None:
+    still = lw.solve_forces(conveyor.motion, static=True)
+    lines = {line.symbol: line for line in lw.worked(still).equations}
+    assert lines["K_4y"].formula == "m4·g_y"
+    assert "M_J4" not in lines
+
+
+def test_an_input_can_be_named_instead_of_a_position(conveyor: lw.Forces) -> None:
+    named, counted = lw.worked(conveyor, at=math.radians(300.0)), lw.worked(conveyor, 1)
+    assert named.text() == counted.text()
+
+
+def test_both_languages_say_the_same_equations(conveyor: lw.Forces) -> None:
+    english, chinese = (lw.worked(conveyor, 1, language=language) for language in ("en", "zh"))
+    assert [line.result for line in english.equations] == [line.result for line in chinese.equations]
+    assert say("worked.accelerations", "zh") in chinese.text()
+    assert say("worked.accelerations", "en") not in chinese.text()
+
+
+@pytest.mark.parametrize("name", lw.gallery_names())
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_page_keeps_its_width_and_its_braces(name: str, language: str) -> None:
+    motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=4, failures="mark")
+    good = int(motion.ok.argmax())
+    page = lw.worked(lw.solve_forces(motion), good, language=language)
+    assert max(len(line) for line in page.text().splitlines()) <= 104
+    for line in page.equations:
+        for text in (line.latex_symbol, line.latex_formula, line.latex_numbers):
+            assert text.count("{") == text.count("}"), text
+
+
+def test_data_is_plain(conveyor: lw.Forces) -> None:
+    data = lw.worked(conveyor).data()
+    assert json.loads(json.dumps(data)) == data
+
+
+def test_a_position_that_does_not_exist_is_refused(conveyor: lw.Forces) -> None:
+    with pytest.raises(lw.LinkwrightError, match="no position 7; the motion has 2"):
+        lw.worked(conveyor, 7)
+    with pytest.raises(lw.LinkwrightError, match="choose one of en, zh"):
+        lw.worked(conveyor, language="de")
+
+
+def test_a_position_out_of_reach_is_refused() -> None:
+    text = """
+format: 1
+name: short coupler
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 1 m}
+  rocker: {points: [O2, B], length: 3 m}
+driver: {turn: crank, about: O1, speed: 1 rad/s}
+"""
+    motion = lw.solve_motion(lw.loads(text), at=[0.0, math.pi], failures="mark")
+    assert motion.ok.tolist() == [True, False]
+    with pytest.raises(lw.LinkwrightError, match="position 1 was not reached: .*coupler"):
+        lw.worked(motion, 1)
+
+
+def test_the_command_prints_every_named_position(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", CONVEYOR, "--worked", "--at", "0 deg, 120 deg"]) == 0
+    out = capsys.readouterr().out
+    assert out.count(say("worked.power")) == 2
+    assert main(["solve", CONVEYOR, "--worked", "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["worked"]) == 1
+
+
+def test_worked_and_output_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", CONVEYOR, "--worked", "--output", "x.csv"]) == 2
+    assert "--worked" in capsys.readouterr().err

@@ -1,0 +1,54 @@
+"""Reads the printed equations of a worked solution as a reader with a calculator does."""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+import re
+from collections.abc import Callable
+from typing import Any
+
+_BINARY: dict[type, Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
+_FUNCTIONS: dict[str, Callable[..., float]] = {
+    "sqrt": math.sqrt,
+    "cos": lambda x: math.cos(math.radians(x)),
+    "sin": lambda x: math.sin(math.radians(x)),
+    "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
+}
+
+
+def reckon(numbers: str) -> float:
+    """What a line of numbers amounts to; angles in degrees."""
+    plain = numbers.replace("·", "*").replace("²", "**2").replace("√", "sqrt").replace("°", "")
+    return _value(ast.parse(plain, mode="eval").body)
+
+
+def _value(node: Any) -> float:
+    if isinstance(node, ast.Constant):
+        return float(node.value)
+    if isinstance(node, ast.UnaryOp):
+        assert isinstance(node.op, ast.USub)
+        return -_value(node.operand)
+    if isinstance(node, ast.BinOp):
+        return _BINARY[type(node.op)](_value(node.left), _value(node.right))
+    assert isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+    return _FUNCTIONS[node.func.id](*(_value(each) for each in node.args))
+
+
+def last_digit(result: str) -> float:
+    """What one unit of a printed number's last digit is worth."""
+    mantissa, _, exponent = result.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - decimals)
+
+
+def is_printed_zero(result: str) -> bool:
+    """Whether the page says that nothing is left."""
+    return re.fullmatch(r"-?0(\.0*)?", result) is not None
