@@ -135,7 +135,7 @@ def cold_start(size: Size) -> Section:
     whole = 1e3 * rounds.timings[cold.SOLVE].best
     rest = whole - sum(parts.values())
     told = ", ".join(f"{owner} {ms:.0f} ms" for owner, ms in parts.items() if ms >= 0.5)
-    note = f"imports, each without what it imports itself: {told}; the interpreter, solving and printing {rest:.0f} ms"
+    note = f"imports, each without what it imports: {told}; the interpreter, solving, printing {rest:.0f} ms"
     header, rows = timings(rounds, cold.NUMPY, "ms")
     return Section("Cold start", header, rows, [goal], [note])
 

@@ -25,7 +25,7 @@ class Peer:
 
 
 def found(kind: str, *inputs: object) -> tuple[list[Peer], list[str]]:
-    """Peers for ``fourbar(work)``, ``sixbar(work)`` or ``fourbar_sweep(work, designs, count)``; why others are missing."""
+    """Peers for ``fourbar(work)``, ``sixbar(work)``, ``fourbar_sweep(work, designs, count)``; which are missing."""
     peers: list[Peer] = []
     missing: list[str] = []
     for name in MODULES:

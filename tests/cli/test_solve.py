@@ -61,7 +61,10 @@ def test_crusher_prints_the_published_jaw_motion_by_default(
     assert np.abs(rows[:, place : place + 3] - want[:, 1:]).max() <= 0.5001e-3 + 0.5e-4
 
 
-def test_angles_are_in_degrees_unless_si_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+def test_angles_are_in_degrees_unless_si_is_asked_for(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
     assert main(["solve", CRUSHER]) == 0
     shown = capsys.readouterr().out
     rows = np.array(table_rows(shown))

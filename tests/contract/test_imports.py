@@ -26,10 +26,12 @@ STAGES = (
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["report"]
 NOTEBOOK = "linkwright.plot.drawing.notebook"
-LEADS_ON = {  # what methods import when they are called: structure(), and the drawing that notebooks show
+PLOT = "linkwright.plot.plot"
+LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
     "model/mechanism.py": {"linkwright.structure", NOTEBOOK},
-    "kinematics/motion.py": {NOTEBOOK},
-    "kinetostatics/forces.py": {NOTEBOOK},
+    "kinematics/motion.py": {NOTEBOOK, PLOT},
+    "kinetostatics/forces.py": {NOTEBOOK, PLOT},
+    "machine/running.py": {PLOT},
 }
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",

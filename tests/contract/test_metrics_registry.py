@@ -97,3 +97,12 @@ def test_metric_by_itself() -> None:
     assert metric.applies(motion) and not METRICS["peak_reaction"]().applies(motion)
     (found,) = metric.evaluate(Analysis.of(motion))
     assert found.subject == "rocker"
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "jaw_crusher_sixbar"])
+def test_a_repeated_first_position_changes_nothing(name: str) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    tables = [metrics(lw.solve_forces(lw.solve_motion(mechanism, endpoint=end))) for end in (False, True)]
+    assert tables[0].names == tables[1].names
+    for a, b in zip(*tables, strict=True):
+        assert a.subject == b.subject and a.value == pytest.approx(b.value, rel=1e-9, abs=1e-9), a.metric

@@ -140,3 +140,58 @@ def test_compiled_derivatives_agree() -> None:
             assert np.abs(a - b).max() <= 1e-10 * np.abs(a).max()
             pair = [each.gradient("reaction O5 on jaw", "rms")[address] for each in (plain, fast)]
             assert pair[0] == pytest.approx(pair[1], rel=1e-10)
+
+
+def test_derivatives_on_the_way_through_change_points() -> None:
+    """Of a parallelogram's driver torque by the coupler's mass: g r cos φ."""
+    mechanism = lw.loads(
+        """
+format: 1
+name: parallelogram
+frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 0.1 m}
+  coupler: {points: [A, B], length: 0.4 m, mass: 2 kg}
+  follower: {points: [O2, B], length: 0.1 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 10 rad/s, start: 30.5 deg}
+gravity: [0, -9.81 m/s²]
+"""
+    )
+    for way in ("forward", "reverse"):
+        asked = ["driver.effort", "driver.effort mean"]
+        found = sensitivity(mechanism, of=asked, by=["coupler.mass"], way=way)  # type: ignore[arg-type]
+        expected = 9.81 * 0.1 * np.cos(found.input)
+        assert found.slope("driver.effort", "coupler.mass") == pytest.approx(expected, abs=1e-7)
+        assert found.gradient("driver.effort mean")["coupler.mass"] == pytest.approx(0.0, abs=1e-7)
+
+
+LOADS = {
+    "expression": 'magnitude: "100 N*(1 + rocker/(1 rad))^2 + 30 N*sin(input)"',
+    "table over an output": "table: {over: rocker, x: [0 deg, 60 deg, 100 deg, 180 deg], "
+    "y: [0 N, 90 N, 20 N, 300 N]}",
+    "ramp while it moves": "ramp: [10 N, 200 N], phase: {moving: rocker, direction: increasing}",
+    "ramp between limits": "ramp: [10 N, 200 N], phase: {of: rocker, from: max, to: min}",
+    "constant in a phase": "magnitude: 150 N, phase: {of: rocker, from: max, to: min}",
+}
+
+
+@pytest.mark.parametrize("load", LOADS.values(), ids=LOADS)
+def test_loads_that_follow_the_motion_are_differentiated(load: str) -> None:
+    text = lw.dump(lw.load("gallery:crank_rocker"))
+    mechanism = lw.loads(
+        text + f"\nloads: {{push: {{kind: force, on: rocker, at: B, direction: 20 deg, {load}}}}}\n"
+    )
+    for address in ("coupler.length", "crank.length"):
+        value, steps = mechanism.dimension(address), 360
+        step = 2e-6 * value
+        ends = [
+            lw.solve_forces(mechanism.with_dimensions({address: value + k * step}), steps=steps).input_torque
+            for k in (-1, 1)
+        ]
+        expected = (ends[1] - ends[0]) / (2 * step)
+        found = sensitivity(mechanism, of=["input_torque"], by=[address], steps=steps)
+        gap = np.abs(found.slope("input_torque", address) - expected)
+        # positions that enter or leave the phase, or cross a kink of the table, between the differences may differ
+        assert np.sort(gap)[:-4].max() <= 1e-6 * np.abs(expected).max()
+        assert np.abs(expected).max() > 1.0

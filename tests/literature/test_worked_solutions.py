@@ -22,9 +22,7 @@ def printed(name: str, degrees: float, symbols: dict[str, str]) -> dict[str, flo
 
 def test_jaw_crusher_first_row_of_the_published_table() -> None:
     """鉸鏈式顎式破碎機方案分析: FR6 9904.580 N at 77.690° in row 1."""
-    found = printed(
-        "jaw_crusher_sixbar_as_reported", 0.0, {"FR6": "F_O5,5", "BT6": "∠F_O5,5", "angle": "φ5"}
-    )
+    found = printed("jaw_crusher_sixbar_as_reported", 0.0, {"FR6": "F_O5,5", "BT6": "∠F_O5,5", "angle": "φ5"})
     assert found["FR6"] == pytest.approx(9904.580, abs=0.05)
     assert found["BT6"] == pytest.approx(77.690, abs=0.0006)
     assert math.radians(found["angle"]) == pytest.approx(-1.658, abs=0.0006)
@@ -39,7 +37,16 @@ def test_jaw_crusher_fourbar_first_row() -> None:
 
 def test_conveyor_rates_without_the_precedence_error() -> None:
     """Swinging conveyor at 0°, corrected velocities and accelerations; balancing torque 2102.0 N·m."""
-    symbols = {"ω2": "ω2", "ω3": "ω3", "ω4": "ω4", "ε2": "α2", "ε3": "α3", "ε4": "α4", "v": "v_Fx", "a": "a_Fx"}
+    symbols = {
+        "ω2": "ω2",
+        "ω3": "ω3",
+        "ω4": "ω4",
+        "ε2": "α2",
+        "ε3": "α3",
+        "ε4": "α4",
+        "v": "v_Fx",
+        "a": "a_Fx",
+    }
     found = printed("swing_conveyor", 0.0, symbols | {"torque": "M_driver"})
     expected = {
         "ω2": -1.834732, "ω3": 15.837381, "ω4": -11.728288, "v": 0.779319,

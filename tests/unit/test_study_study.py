@@ -82,7 +82,9 @@ def test_loads_and_registered_metrics_of_every_design() -> None:
         {"pitman.length": "1.2, 1.3 m", "jaw.mass": "700, 900 kg"},
         metrics=["rms_input_torque", "driver.effort rms", "peak_reaction O5", "reaction O5 on jaw max"],
     )
-    assert found["rms_input_torque"] == pytest.approx(found["driver.effort rms"], rel=1e-9)
+    assert found["rms_input_torque"] == pytest.approx(
+        found["driver.effort rms"], rel=1e-5
+    )  # refined between positions
     assert np.all(found["peak_reaction O5"] >= found["reaction O5 on jaw max"] * (1 - 1e-12))
     for index in range(4):
         forces = lw.solve_forces(found.design(index))

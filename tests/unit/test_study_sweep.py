@@ -167,3 +167,52 @@ def test_a_group_followed_by_newton_that_cannot_pass_fails_with_a_sentence() -> 
     (failure,) = found.failures()
     assert failure.designs.tolist() == [1]
     assert failure.example
+
+
+PARALLELOGRAM = """
+format: 1
+name: parallelogram with one heavy link
+frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 0.1 m}
+  coupler: {points: [A, B], length: 0.4 m, mass: 2 kg}
+  follower: {points: [O2, B], length: 0.1 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 10 rad/s, start: 30.5 deg}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+def test_designs_that_pass_change_points_go_on_smoothly() -> None:
+    """The coupler of a parallelogram only translates, so it needs the torque -m g r cos φ, negative for a gain."""
+    mechanism = lw.loads(PARALLELOGRAM)
+    masses = np.array([1.0, 2.0, 5.0])
+    outputs = ["follower.angular_velocity min", "coupler.angular_velocity peak", "driver.effort peak"]
+    found = sweep(mechanism, {"coupler.mass": masses}, outputs=outputs)
+    assert found.ok.all()
+    assert found["follower.angular_velocity min"] == pytest.approx(10.0, rel=1e-9)
+    assert found["coupler.angular_velocity peak"] == pytest.approx(0.0, abs=1e-6)
+    lever = np.abs(np.cos(np.radians(30.5 + np.arange(360)))).max()
+    assert found["driver.effort peak"] == pytest.approx(masses * 9.81 * 0.1 * lever, rel=1e-7)
+
+
+def test_one_design_among_others_that_passes_change_points_is_found() -> None:
+    mechanism = lw.loads(PARALLELOGRAM).with_dimensions({"follower.length": 0.15})
+    lengths = np.array([0.12, 0.1, 0.14])
+    found = sweep(mechanism, {"follower.length": lengths}, outputs=["follower.angular_velocity min"])
+    assert found["follower.angular_velocity min"][1] == pytest.approx(10.0, rel=1e-9)
+
+
+def test_loads_on_groups_that_newton_solves() -> None:
+    """A sweep whose program has both loads that follow the motion and chain coordinates."""
+    text = lw.dump(lw.load("gallery:triad"))
+    text += """
+loads:
+  push: {kind: force, on: plate, at: R, direction: 90 deg, magnitude: "20 N*(1 + sin(input))"}
+"""
+    mechanism = lw.loads(text)
+    varied = np.array([0.029, 0.03, 0.031])
+    found = sweep(mechanism, {"crank.A.x": varied}, outputs=["driver.effort rms"])
+    for index, value in enumerate(varied):
+        torque = lw.solve_forces(mechanism.with_dimensions({"crank.A.x": float(value)})).input_torque
+        assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)

@@ -6,6 +6,7 @@ import json
 import math
 
 import pytest
+from tests.unit.test_worked_arithmetic import against_solver, reckon_lines
 
 import linkwright as lw
 from linkwright.cli import main
@@ -87,7 +88,7 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
 """
     motion = lw.solve_motion(lw.loads(text), at=[0.0, math.pi], failures="mark")
     assert motion.ok.tolist() == [True, False]
-    with pytest.raises(lw.LinkwrightError, match="position 1 was not reached: .*coupler"):
+    with pytest.raises(lw.LinkwrightError, match=r"position 1 was not reached: .*coupler"):
         lw.worked(motion, 1)
 
 
@@ -102,3 +103,51 @@ def test_the_command_prints_every_named_position(capsys: pytest.CaptureFixture[s
 def test_worked_and_output_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solve", CONVEYOR, "--worked", "--output", "x.csv"]) == 2
     assert "--worked" in capsys.readouterr().err
+
+
+LOADED = """
+format: 1
+name: loaded slider-crank
+frame: {points: {O: [0 m, 0 m], S: [-0.2 m, 0.3 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m, mass: 2 kg}
+  rod: {points: [A, B], length: 0.4 m, mass: 3 kg, inertia: 0.04 kg·m²}
+  piston: {points: [B], mass: 5 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B, friction: 0.05}
+  A: {kind: revolute, pin_radius: 10 mm, friction: 0.1}
+driver: {turn: crank, about: O, speed: 20 rad/s}
+gravity: [0, -9.81 m/s²]
+loads:
+  coil: {kind: spring, between: [frame.S, crank.A], stiffness: 2 kN/m, free_length: 0.1 m, preload: 30 N}
+  dash: {kind: damper, between: [frame.S, rod.A], damping: 40 N·s/m}
+  twist: {kind: torsion_spring, links: [crank, rod], stiffness: 5 N·m/rad, free_angle: 10 deg, preload: 1 N·m}
+  drag: {kind: torsion_damper, links: [crank, rod], damping: 0.3 N·m·s/rad}
+  gas: {kind: pressure, joint: guide, bore: 80 mm, magnitude: 3 bar, pushes: backward}
+  lift: {kind: torque, on: rod, magnitude: 7 N·m}
+"""
+
+
+def test_every_kind_of_load_is_put_in() -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(LOADED), at=[0.7]))
+    page = lw.worked(forces)
+    assert reckon_lines(page) == []
+    assert against_solver(page, forces)[0] == []
+    lines = {line.symbol: line for line in page.equations}
+    assert float(lines["p_gas"].result) == pytest.approx(3e5)
+    assert float(lines["F_gas"].result) == pytest.approx(3e5 * math.pi * 0.08**2 / 4, rel=1e-5)
+    reach = math.hypot(0.1 * math.cos(0.7) + 0.2, 0.1 * math.sin(0.7) - 0.3)
+    assert float(lines["T_coil"].result) == pytest.approx(30 + 2000 * (reach - 0.1), rel=1e-5)
+    friction = 0.1 * 0.01 * float(lines["F_A,2"].result)
+    assert abs(float(lines["M_fA2"].result)) == pytest.approx(friction, rel=1e-5)
+    assert float(lines["M_lift"].result) == 7.0
+
+
+@pytest.mark.parametrize("name", ["double_slider", "wedge", "stephenson_sixbar_triad"])
+def test_a_driver_at_rest_gives_the_balance_of_powers_instead_of_an_effort(name: str) -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=8))
+    still = min(range(8), key=lambda i: abs(forces.motion.positions.coordinates["driver"][1][i]))
+    page = lw.worked(forces, still)
+    assert reckon_lines(page) == []
+    assert page.equations[-1].symbol == "ΔP"
+    assert page.equations[-1].result == "0"

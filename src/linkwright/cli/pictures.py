@@ -11,6 +11,7 @@ from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
+from linkwright.registry import nearest
 from linkwright.words import Say
 
 
@@ -49,21 +50,27 @@ def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
     return False if words is None else names(words) or True
 
 
-def refuse_unknown_points(motion: Motion, options: Sequence[tuple[str, Sequence[str]]]) -> None:
-    """Raises UsageError for a point that does not exist, before any drawing."""
-    refuse_unknown(motion.point, options)
+def refuse_unknown_vectors(motion: Motion, options: argparse.Namespace) -> None:
+    """Raises UsageError for a point or a joint of an arrow that does not exist, before any drawing."""
+    refuse_unknown(motion.point, "--velocities", names(options.velocities))
+    refuse_unknown(motion.point, "--accelerations", names(options.accelerations))
+    joints = motion.mechanism.joints
+    for name in names(options.forces):
+        if (joint := name.rpartition(".")[2]) not in joints:
+            offer = nearest(joint, list(joints))
+            hint = f"; did you mean {offer!r}?" if offer else ""
+            raise UsageError(f"--forces: there is no joint {joint!r}{hint}")
 
 
-def refuse_unknown(find: Callable[[str], object], options: Sequence[tuple[str, Sequence[str]]]) -> None:
+def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:
     """Raises UsageError where ``find`` does not know a name that follows an option."""
     from linkwright.errors import LinkwrightError
 
-    for option, given in options:
-        for name in given:
-            try:
-                find(name)
-            except LinkwrightError as error:
-                raise UsageError(f"{option}: {error}") from None
+    for name in given:
+        try:
+            find(name)
+        except LinkwrightError as error:
+            raise UsageError(f"{option}: {error}") from None
 
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
 
 Chunk = tuple[int, int]
@@ -28,18 +29,38 @@ def chunks(count: int, size: int) -> Iterator[Chunk]:
     return ((first, min(first + size, count)) for first in range(0, count, size))
 
 
-def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], None]) -> None:
-    """Call ``work(first, after_last)`` for every chunk, on ``threads`` threads."""
-    parts = list(chunks(count, size))
-    if threads <= 1 or len(parts) == 1:
-        for first, after in parts:
-            work(first, after)
-        return
-    pool = _pool(threads, os.getpid())
-    futures = [pool.submit(work, first, after) for first, after in parts]
+def _next(waiting: deque[Chunk]) -> Chunk | None:
+    """The next chunk; None when there is none, or another thread has taken the last one."""
     try:
-        for future in futures:
-            future.result()
+        return waiting.popleft()
+    except IndexError:
+        return None
+
+
+def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], None]) -> None:
+    """Call ``work(first, after_last)`` for every chunk, on ``threads`` threads, this one among them.
+
+    The first exception is raised, once all threads have left off; chunks not begun by then are left out.
+    """
+    waiting = deque(chunks(count, size))
+
+    def drain() -> None:
+        try:
+            while (chunk := _next(waiting)) is not None:
+                work(*chunk)
+        except BaseException:
+            waiting.clear()
+            raise
+
+    helpers = min(threads, len(waiting)) - 1
+    if helpers <= 0:
+        drain()
+        return
+    pool = _pool(threads - 1, os.getpid())
+    futures = [pool.submit(drain) for _ in range(helpers)]
+    try:
+        drain()
     finally:
-        for future in futures:
-            future.cancel()
+        wait(futures)
+    for future in futures:
+        future.result()

@@ -66,7 +66,7 @@ class Follower:
         here = 0
         state = [float(x) for x in found[:, 0]]
         for there in order:
-            moved = self._step(positions, here, there, state)
+            moved = self.step(positions, here, there, state)
             if moved is None:
                 break
             state = moved
@@ -74,7 +74,7 @@ class Follower:
             here = there
         return here
 
-    def _step(self, positions: Positions, a: int, b: int, state: list[float]) -> list[float] | None:
+    def step(self, positions: Positions, a: int, b: int, state: list[float]) -> list[float] | None:
         """From position a to position b, in parts as small as it takes."""
         done, share = 0.0, 1.0
         while done < 1.0:
@@ -135,7 +135,7 @@ class Follower:
             for name, first in start.items()
         }
         way = Positions(np.zeros(2), both, positions.rotary, False, None)
-        return self._step(way, 0, 1, state)
+        return self.step(way, 0, 1, state)
 
 
 def _follow_program(motion: MotionTrace) -> Program:

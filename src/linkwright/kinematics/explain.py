@@ -70,17 +70,21 @@ class _Facts:
 
 def refusal(motion: Motion) -> PositionError:
     """The error for a motion of which some positions cannot be reached."""
+    from linkwright.kinematics.input_range import range_sentence
+
     failed = np.flatnonzero(~motion.ok)
     first = int(failed[0])
     outcome = motion.outcomes[first]
     where = _where(motion, first)
     others = f" ({len(failed)} of {motion.steps} positions fail)" if len(failed) > 1 else ""
+    more = "; ".join(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism)
+    told = f"; {more}" if more else ""
     advice = (
         "change the dimensions, the assembly or the range of the input (cycle: {from: …, to: …}), "
         "or ask for marked outcomes"
     )
     return PositionError(
-        f"{motion.mechanism.name!r} cannot be solved at {where}{others}: {outcome.sentence}; {advice}",
+        f"{motion.mechanism.name!r} cannot be solved at {where}{others}: {outcome.sentence}{told}; {advice}",
         tuple(int(i) for i in failed),
         outcome,
     )

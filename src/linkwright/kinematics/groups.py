@@ -20,7 +20,7 @@ from linkwright.kinematics.pose import UNTURNED, Pose
 from linkwright.structure.group import Group, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
-SINGULAR = 1e-13
+SINGULAR = 1e-10
 
 
 @dataclass
@@ -110,7 +110,7 @@ class GroupTracer:
         self._hang(group, dict(zip(steps, solved.coordinates, strict=True)))
         placed.dyad = dyad
         placed.facts = solved.facts
-        placed.reached = solved.square >= 0.0
+        placed.reached = solved.square >= -SINGULAR * solved.scale
         placed.valid = solved.square > SINGULAR * solved.scale
         placed.quality = solved.square / solved.scale
         sign = 1.0 if steps == list(group.unknowns) else -1.0

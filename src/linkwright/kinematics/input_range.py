@@ -277,7 +277,7 @@ class _Search:
         follower, rows = self._follower, []
         for there in q:
             way = self.positions(np.array([stop.good, there]))
-            reached = follower._step(way, 0, 1, [stop.state[name] for name in follower.names])
+            reached = follower.step(way, 0, 1, [stop.state[name] for name in follower.names])
             rows.append(reached or [np.nan] * len(follower.names))
         return dict(zip(follower.names, np.array(rows).T, strict=True))
 

@@ -163,7 +163,7 @@ class Between:
         follower = self._follower
         state = [float(self.motion.states[name][index]) for name in follower.names]
         way = at_times(self.motion.mechanism, [float(self.motion.time[index]), time])
-        reached = follower._step(way, 0, 1, state)
+        reached = follower.step(way, 0, 1, state)
         return dict(zip(follower.names, reached or [np.nan] * len(state), strict=True))
 
     @cached_property

@@ -237,7 +237,7 @@ class Motion:
         return picture_of(self)
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram of the result, by default displacement, velocity and acceleration of the output; see :func:`linkwright.plot.plot` for kinds and options."""
+        """A diagram, by default the motion of the output; kinds and options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)

@@ -25,6 +25,7 @@ from linkwright.kinematics.drawing import Drawing, guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.model.mechanism import Mechanism
+from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
@@ -111,6 +112,33 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
     return _report(mechanism, system, rank, redundant, links, special, " in the drawing", ())
+
+
+def analysed(mechanism: Mechanism) -> Structure:
+    """The structure analysis; a refusal also tells the rank of the Jacobian in the drawing, where there is one.
+
+    Raises:
+        StructureError: as :func:`linkwright.structure.structure`.
+    """
+    try:
+        return structure(mechanism)
+    except StructureError as error:
+        report = rank_from_drawing(mechanism)
+        if report is None:
+            raise
+        raise StructureError(f"{error}. {report.sentence}") from None
+
+
+def rank_sentence(mechanism: Mechanism) -> str:
+    """What the rank of the Jacobian at the start of the cycle says about the mobility; empty if it cannot be had."""
+    from linkwright.kinematics.solve import solve_motion
+
+    try:
+        motion = solve_motion(mechanism, steps=1, failures="mark")
+    except LinkwrightError:
+        return ""
+    good = np.flatnonzero(motion.ok)
+    return jacobian_rank(motion, int(good[0])).sentence if len(good) else ""
 
 
 # equations ----------------------------------------------------------------------------------------

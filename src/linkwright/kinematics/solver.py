@@ -16,7 +16,7 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.structure import Structure, structure
+from linkwright.structure import Structure
 
 
 class MotionSolver:
@@ -31,7 +31,9 @@ class MotionSolver:
 
     @cached_property
     def structure(self) -> Structure:
-        return structure(self.mechanism)
+        from linkwright.kinematics.rank import analysed
+
+        return analysed(self.mechanism)
 
     @cached_property
     def assembly(self) -> Assembly:

@@ -175,7 +175,7 @@ class Forces:
         return dataframe(self.columns())
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram of the result, by default the driver's torque; see :func:`linkwright.plot.plot` for kinds and options."""
+        """A diagram, by default the driver's torque; kinds and options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)

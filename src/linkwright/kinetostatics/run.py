@@ -26,11 +26,11 @@ def run_forces(motion: Motion, static: bool) -> Forces:
     solver = ForceSolver(motion.solver, inertia=not static)
     fields = _load_fields(motion, solver)
     if solver.friction.terms:
-        fields = _with_friction(motion, solver, fields)
-    return _evaluated(motion, solver, fields, static)
+        fields = with_friction(motion, solver, fields)
+    return evaluated(motion, solver, fields, static)
 
 
-def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
+def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
     names = tuple(solver.outputs.standard())
     values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
@@ -54,14 +54,14 @@ def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
     return fields
 
 
-def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
+def with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
     """Friction that agrees with the reactions it causes, by fixed-point iteration."""
     terms = solver.friction.terms
     rates = {term.field: _rate(motion, term) for term in terms}
     previous = np.inf
     growing = 0
     for _ in range(FRICTION_STEPS):
-        forces = _evaluated(motion, solver, fields, False)
+        forces = evaluated(motion, solver, fields, False)
         sizes = friction_sizes(terms, {t.field: _pressing(forces, t) for t in terms}, rates)
         change, size = _change(fields, sizes, motion)
         fields = {**fields, **sizes}

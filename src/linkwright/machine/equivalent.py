@@ -14,6 +14,9 @@ from linkwright.machine.integral import Function
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.metrics.resolve import Resolver
 
+#: Equal steps over the cycle in the mean of a smooth periodic inertia.
+MEAN_STEPS = 720
+
 
 def equivalent_inertia(motion: Motion) -> Floats:
     """J_e = Σ (m v² + J ω²)/ω₁², (n,) kg·m²: the inertia on the first driver's link of equal kinetic energy.
@@ -79,6 +82,11 @@ class Equivalent:
     direction: float
     inertia_at: Function = field(repr=False)
     load: TorqueCurve = field(repr=False)
+
+    @property
+    def mean_inertia(self) -> float:
+        """Mean of J_e over the angle, kg·m²."""
+        return float(self.inertia_at(np.arange(MEAN_STEPS) * self.period / MEAN_STEPS).mean())
 
     def input_at(self, angle: float) -> float:
         """The input's coordinate, rad, at an angle turned."""

@@ -76,12 +76,10 @@ class SteadyRunning:
     @property
     def own(self) -> float:
         """Speed fluctuation by the formula without any flywheel."""
-        return speed_fluctuation(
-            self.energy.value, self.equivalent.speed, float(self.equivalent.inertia.mean())
-        )
+        return speed_fluctuation(self.energy.value, self.equivalent.speed, self.equivalent.mean_inertia)
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram of the result, by default the speed over the cycle; see :func:`linkwright.plot.plot` for kinds and options."""
+        """A diagram, by default the speed over the cycle; kinds and options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
@@ -140,9 +138,7 @@ def steady_running(
     _require_load(mean, reduced, forces)
     work = TorqueCurve.constant(mean, period=reduced.period).minus(reduced.load).work
     energy = _at_constant_speed(reduced, work)
-    formula = flywheel_inertia(
-        energy.value, reduced.speed, fluctuation, present=float(np.mean(reduced.inertia))
-    )
+    formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
     exact = _exact(reduced, work, fluctuation, formula)
     return SteadyRunning(
         equivalent=reduced,
@@ -200,7 +196,7 @@ def _exact(reduced: Equivalent, work: Antiderivative, required: float, first: fl
     alone = reached(0.0)
     if alone is not None and alone <= required:
         return 0.0
-    present = float(np.mean(reduced.inertia))
+    present = reduced.mean_inertia
     here = max(first, 0.1 * present)
     for _ in range(60):
         found = reached(here)

@@ -79,10 +79,15 @@ class Analysis:
 
     @property
     def closed(self) -> bool:
-        """Whether the positions are one closed cycle, each time in it once."""
-        positions = self.motion.positions
-        span = positions.time[-1] - positions.time[0] if positions.count > 1 else 0.0
-        return positions.closed and positions.period is not None and span < positions.period * (1 - 1e-9)
+        """Whether the positions are one closed cycle."""
+        return self.motion.positions.closed and self.motion.positions.period is not None
+
+    @property
+    def once(self) -> slice:
+        """The positions without the repeated first one at the end of a closed cycle."""
+        time, period = self.motion.time, self.motion.positions.period
+        repeated = self.closed and period is not None and abs(time[-1] - time[0]) > period * (1 - 1e-9)
+        return slice(0, len(time) - 1 if repeated else len(time))
 
     @property
     def loaded(self) -> bool:
@@ -107,7 +112,7 @@ class Analysis:
         """Mean over the time of the cycle, of the positions that are reached."""
         good = np.isfinite(values)
         if self.closed or good.sum() < 2:
-            return float(np.mean(values[good]))
+            return float(np.nanmean(values[self.once]))
         time, kept = np.abs(self.motion.time[good] - self.motion.time[0]), values[good]
         span = time[-1] - time[0]
         return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))

@@ -58,12 +58,13 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
             f"the path of {point} is not closed: solve a whole cycle of {motion.mechanism.name!r}"
         )
     track = motion.point(point)
+    position, velocity = track.position[analysis.once], track.velocity[analysis.once]
     period = motion.positions.period or 0.0
-    speed = np.hypot(*track.velocity.T)
+    speed = np.hypot(*velocity.T)
     sense = np.sign(motion.time[-1] - motion.time[0])
-    area = 0.5 * float(np.mean(cross(track.position, track.velocity))) * period * float(sense)
+    area = 0.5 * float(np.mean(cross(position, velocity))) * period * float(sense)
     length = float(np.mean(speed)) * period
-    doubles = tuple(_doubles(analysis, point, track.position, length)) if length > 0 else ()
+    doubles = tuple(_doubles(analysis, point, position, length)) if length > 0 else ()
     return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)))
 
 

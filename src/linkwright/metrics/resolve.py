@@ -84,8 +84,8 @@ class Resolver:
         solver = self._forces.solver
         fields = self._fields(motion)
         if solver.friction.terms:
-            fields = run._with_friction(motion, solver, fields)
-        return run._evaluated(motion, solver, fields, self._forces.static)
+            fields = run.with_friction(motion, solver, fields)
+        return run.evaluated(motion, solver, fields, self._forces.static)
 
     def _fields(self, motion: Motion) -> dict[str, Floats]:
         """Magnitudes of the loads and relative angles of such a motion; friction starts at zero."""

@@ -136,7 +136,7 @@ class Animation:
         for family, scale in self.families:
             content += moving_vectors(scene, family, scale, run, seconds)
         for label, elements in self._labels:
-            shifts = self._track(label.text) - self._track(label.text)[0]
+            shifts = self._track(label.point) - self._track(label.point)[0]
             content.append(shifted(shifts, seconds, elements))
         content += self._still
         if self._panel is not None:
@@ -156,7 +156,7 @@ class Animation:
         for family, scale in self.families:
             content += family.shape(index, scene.machine.view, scale).elements
         for label, elements in self._labels:
-            shift = self._place(label.text, index) - self._place(label.text, self.run[0])
+            shift = self._place(label.point, index) - self._place(label.point, self.run[0])
             content.append(group(elements, transform=shift_text(shift)))
         content += self._still
         if self._panel is not None:
@@ -238,10 +238,10 @@ class Animation:
         if not self.labelled:
             return []
         machine = self.scene.machine
-        labels = list(point_labels(machine, self.run[0], qualified=True))
+        labels = list(point_labels(machine, self.run[0]))
         ink = [*self.scene.ink(self.run[0]), *load_marks(machine, self.run[0], forces=False).ink]
         places = place(labels, Obstacles.of(ink))
-        return [(label, written(label.shortened(), each)) for label, each in zip(labels, places, strict=True)]
+        return [(label, written(label, each)) for label, each in zip(labels, places, strict=True)]
 
     @cached_property
     def _drawn_box(self) -> Box:

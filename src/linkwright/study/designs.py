@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.engine.program import Program
-from linkwright.engine.sweep import Backend, Progress, Results
-from linkwright.engine.sweep import sweep as engine_sweep
-from linkwright.engine.threads import chunks
+from linkwright.engine.sweep import Backend, Progress
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.failures import Failure, explained
-from linkwright.study.following import Following
-from linkwright.study.loads import fields_of_designs
 from linkwright.study.named import Quantity
-from linkwright.study.summary import Summary, finished, reductions, wanted
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.summary import Summary, wanted
+from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
 
 if TYPE_CHECKING:
@@ -29,9 +24,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
-
-#: Designs of one block, and of one whose loads are found design by design.
-BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
 
 
 @dataclass(eq=False)
@@ -137,101 +129,16 @@ def sweep(
             change the drive's law.
 
     A dimension that changes the positions of the input is refused. Loads that follow the motion (phases, tables,
-    expressions, friction) are found design by design, which takes milliseconds each. Change points are not passed:
-    designs there count as not assembled.
+    expressions, friction), and motion through change points, are found design by design, which takes milliseconds
+    each.
     """
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
-    asked = wanted(outputs)
-    return _Run(mechanism, columns, asked, positions, partial, threads, backend, progress).sweep()
-
-
-@dataclass
-class _Run:
-    """One sweep."""
-
-    mechanism: Mechanism
-    columns: Mapping[str, Floats]
-    asked: tuple[Summary, ...]
-    positions: Positions
-    partial: bool
-    threads: int | None
-    backend: Backend
-    progress: Progress | None
-
-    def __post_init__(self) -> None:
-        self.designs = len(next(iter(self.columns.values())))
-        self.traced = Traced(self.mechanism, self.columns, self.positions)
-        names = [summary.output for summary in self.asked]
-        self.quantities = self.traced.quantities(names)
-        self.reductions = reductions(self.asked, self.quantities)
-        self.program = self.traced.program(self.quantities)
-        self.unloaded: dict[int, str] = {}
-        self.follow: Following | None = None
-        if self.program.states and not self.program.fields:
-            self.follow = Following(self.traced, names)
-
-    def sweep(self) -> Sweep:
-        assembled = np.zeros(self.designs, dtype=np.int64)
-        values = {summary: np.empty(self.designs) for summary in self.asked}
-        count = self.positions.count
-        for first, end in chunks(self.designs, LOADED_BLOCK if self.program.fields else BLOCK):
-            part = {address: column[first:end] for address, column in self.columns.items()}
-            results = self._block(part, first)
-            assembled[first:end] = results["valid.count"]
-            for summary, into in values.items():
-                found = finished(summary, self.quantities[summary.output], results, self._input())
-                if not self.partial:
-                    found[results["valid.count"] != count] = np.nan
-                into[first:end] = found
-            if self.progress is not None:
-                self.progress(end, self.designs)
-        for index in self.unloaded:
-            for into in values.values():
-                into[index] = np.nan
-        notes = self.traced.nominal.notes
-        return Sweep(
-            self.mechanism, self.columns, count, assembled, values, self.quantities, self.unloaded, notes
-        )
-
-    def _input(self) -> Floats:
-        return (
-            next(iter(self.positions.coordinates.values()))[0] if self.positions.coordinates else np.zeros(1)
-        )
-
-    def _block(self, part: Mapping[str, Floats], first: int) -> Results:
-        if self.follow is not None:
-            return self.follow.block(part, self.reductions, self.threads, self.backend)
-        if self.program.fields or self.program.states:
-            return self._loaded(part, first)
-        return self._reduced(self.program, part, {})
-
-    def _loaded(self, part: Mapping[str, Floats], first: int) -> Results:
-        """Two passes: the motion of each design and what its loads are, then the summaries of the block."""
-        from linkwright.engine.states import states_as_fields
-
-        program = states_as_fields(self.program) if self.program.states else self.program
-        rows, failed = fields_of_designs(self.traced, program.fields, part)
-        self.unloaded.update({first + index: sentence for index, sentence in failed.items()})
-        return self._reduced(program, part, rows)
-
-    def _reduced(self, program: Program, part: Mapping[str, Floats], rows: Mapping[str, Floats]) -> Results:
-        return engine_sweep(
-            program,
-            self.traced.table(program, part),
-            self.positions.arrays,
-            self.reductions,
-            fields=rows,
-            valid=VALID,
-            threads=self.threads,
-            backend=self.backend,
-        )
-
-
-def with_values(mechanism: Mechanism, columns: Mapping[str, Floats], index: int) -> Mechanism:
-    """One of the designs."""
-    changed = mechanism.with_dimensions(
-        {address: float(column[index]) for address, column in columns.items()}
+    run = SweepRun(
+        mechanism, columns, wanted(outputs), positions, Manner(partial, threads, backend, progress)
     )
-    return replace(changed, name=mechanism.name)
+    assembled, values = run.swept()
+    return Sweep(
+        mechanism, columns, positions.count, assembled, values, run.quantities, run.unloaded, run.notes()
+    )

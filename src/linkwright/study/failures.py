@@ -13,7 +13,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.loads import sentence_of
+from linkwright.study.loads import changes_of, sentence_of
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -68,7 +68,7 @@ def _by_group(
         groups = [
             g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states
         ]
-        sentence = sentence_of(traced, _changes(columns, 0))
+        sentence = sentence_of(traced, changes_of(columns, 0))
         return [Failure(groups[0], "followed", numbers, sentence)]
     flags = traced.failure_flags()
     program = Program.of(traced.solver.motion.trace, flags)
@@ -81,7 +81,7 @@ def _by_group(
     for place in np.unique(worst):
         mine = np.flatnonzero(worst == place)
         kind, _, group = wanted[place].output.partition(":")
-        sentence = sentence_of(traced, _changes(columns, int(mine[0])))
+        sentence = sentence_of(traced, changes_of(columns, int(mine[0])))
         found.append(Failure(group, "unreachable" if kind == "out" else kind, numbers[mine], sentence))
     return found
 
@@ -91,7 +91,3 @@ def _traced(mechanism: Mechanism, columns: Mapping[str, Floats], count: int) -> 
     if positions.count != count:
         positions = over_cycle(mechanism, count - 1)
     return Traced(mechanism, columns, positions)
-
-
-def _changes(columns: Mapping[str, Floats], index: int) -> dict[str, float]:
-    return {address: float(column[index]) for address, column in columns.items()}

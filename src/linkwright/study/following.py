@@ -15,7 +15,7 @@ from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.groups import mechanism_size
 from linkwright.study.starts import start_states
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
 
 Floats = NDArray[np.float64]
@@ -89,11 +89,10 @@ class _Way:
         trace = motion.trace
         passed = self._passed()
         counts = trace.logic("and", passed, trace.compare("less", 0.5, trace.position("counted")))
-        base = self.traced.program(quantities, counts)
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
         following = {**motion.next_states, "alive": select(passed, 1.0, 0.0)}
-        self.program = Program.of(trace, {**outputs, VALID: counts}, following)
-        assert set(base.output_names) == set(self.program.output_names)
+        outputs |= {NEAREST: self.traced.nearest, VALID: counts}
+        self.program = Program.of(trace, outputs, following)
 
     def _passed(self) -> Mask:
         """Whether this position is found and the way to it was passed."""
@@ -123,12 +122,19 @@ class _Way:
             start=np.stack([start[name] for name in self.program.states], axis=1),
             valid=VALID,
             threads=threads,
-            backend=backend,
+            backend=_quicker(backend),
         )
         for name, column in found.items():
             if name.endswith((".argmin", ".argmax")):
                 found[name] = np.where(column < 0, column, column // self.finer)
         return found
+
+
+def _quicker(backend: Backend) -> Backend:
+    """Compiled code where it is there: position after position NumPy has only a few designs to work on."""
+    from linkwright.engine.machine_code import available
+
+    return "llvm" if backend == "auto" and available() else backend
 
 
 def _counted(count: int, finer: int) -> Floats:

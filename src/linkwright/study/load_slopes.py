@@ -7,7 +7,7 @@ output is zero, so the limit's input φ moves by dφ/dp = -(∂r/∂p)/(∂r/∂
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -175,7 +175,7 @@ class LoadSlopes:
         """How the input of every limit position changes, by the implicit function theorem."""
         positions = at_times(self.mechanism, [limit.time for limit in limits])
         pace = next(iter(positions.coordinates.values()))[1]
-        rate, second = _RATES[output.kind](output.owner)
+        rate, second = RATES[output.kind](output.owner)
         values = self._forward({"rate": rate, "second": second}, positions)
         return {by: -_slope(values, "rate", by, len(limits)) * pace / values["second"] for by in self.by}
 
@@ -213,10 +213,17 @@ class LoadSlopes:
         program = states_as_fields(Program.of(solver.motion.trace, outputs))
         program = forward(program, [by for by in self.by if by in program.parameters])
         states = solver.states(positions) if program.fields else {}
-        rows = NumpyProgram(program).run(
-            self.traced.numbers(program), positions.arrays, states, length=positions.count
-        )
+        arrays = {**positions.arrays, **self._modes(positions)}
+        rows = NumpyProgram(program).run(self.traced.numbers(program), arrays, states, length=positions.count)
         return dict(zip(program.output_names, rows, strict=True))
+
+    def _modes(self, positions: Positions) -> dict[str, Floats]:
+        """Signs of assembly modes at some positions, where they change over the cycle."""
+        known = self.traced.positions
+        order = np.argsort(known.time)
+        before = np.searchsorted(known.time[order], positions.time * (1 + 1e-12), side="right") - 1
+        place = order[np.maximum(before, 0)]
+        return {name: row[place] for name, row in self.traced.arrays.items() if name.startswith("mode:")}
 
     def _own(self, address: str, by: str) -> float:
         """Derivative of a number of the model by another, through expressions of parameters."""
@@ -235,7 +242,8 @@ def _slope(values: Mapping[str, Floats], name: str, by: str, count: int) -> Floa
     return values.get(f"{name}|{by}", np.zeros(count))
 
 
-_RATES = {
+#: Names of an output's rate and second derivative among the motion's outputs.
+RATES: Mapping[str, Callable[[str], tuple[str, str]]] = {
     "angle": lambda owner: (f"w:{owner}", f"g:{owner}"),
     "displacement": lambda owner: (f"sv:{owner}", f"sa:{owner}"),
     "x": lambda owner: (f"v:{owner}.x", f"a:{owner}.x"),

@@ -12,6 +12,7 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rows import Rows
+from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import STEPS
@@ -20,29 +21,60 @@ from linkwright.study.traced import Traced
 Floats = NDArray[np.float64]
 
 
-class DesignFields:
-    """Inputs per position, found design by design from its own motion."""
+class OneByOne:
+    """Finds, from the motion of each design alone, what a program takes as inputs per position.
 
-    def __init__(self, traced: Traced) -> None:
+    These are load magnitudes and friction, the chain coordinates of groups without closed form and, with
+    ``flipping``, the signs of assembly modes on the way through change points.
+    """
+
+    def __init__(self, traced: Traced, *, flipping: bool = False) -> None:
         self.traced = traced
+        self.flipping = flipping
         closed = traced.positions.closed and traced.positions.count >= STEPS
         self.shared = closed and not traced.solver.motion.next_states
-
-    def of(self, names: tuple[str, ...], changes: Mapping[str, float]) -> dict[str, Floats]:
-        """The inputs (n,) by name; raises LinkwrightError where a load or the motion fails for this design."""
-        forces = run_forces(self.motion(changes), False)
-        return {name: forces.fields[name] for name in names}
 
     def motion(self, changes: Mapping[str, float]) -> Motion:
         """The motion of a design; positions that are not reached are marked."""
         traced = self.traced
-        if self.shared:
-            solver = traced.solver
-            design = Design(traced.mechanism, solver.assembly.modes, changes)
-        else:
+        if self.flipping:
             solver = MotionSolver(traced.mechanism.with_dimensions(changes))
-            design = solver.nominal
-        return evaluated(solver, design, traced)
+            return MotionRun(solver, traced.positions).solve("mark")
+        if self.shared:
+            design = Design(traced.mechanism, traced.solver.assembly.modes, changes)
+            return evaluated(traced.solver, design, traced)
+        solver = MotionSolver(traced.mechanism.with_dimensions(changes))
+        return evaluated(solver, solver.nominal, traced)
+
+    def inputs(self, names: tuple[str, ...], motion: Motion) -> dict[str, Floats]:
+        """The inputs (n,) by name; raises LinkwrightError where a load fails for this design."""
+        modes = motion.solver.assembly.modes
+        found = {f"mode:{name}": np.full(motion.steps, sign) for name, sign in modes.items()}
+        found |= {**motion.states, **motion.modes}
+        if any(name not in found for name in names):
+            found |= run_forces(motion, False).fields
+        return {name: found[name] for name in names}
+
+    def rows(
+        self, names: tuple[str, ...], columns: Mapping[str, Floats]
+    ) -> tuple[dict[str, Floats], dict[int, str]]:
+        """Inputs (designs, n) by name, and the sentences of the designs for which they cannot be found."""
+        designs = len(next(iter(columns.values())))
+        rows = {name: np.zeros((designs, self.traced.positions.count)) for name in names}
+        failed: dict[int, str] = {}
+        for index in range(designs):
+            try:
+                motion = self.motion(changes_of(columns, index))
+                for name, row in self.inputs(names, motion).items():
+                    rows[name][index] = row
+            except LinkwrightError as error:
+                failed[index] = str(error)
+        return rows, failed
+
+
+def changes_of(columns: Mapping[str, Floats], index: int) -> dict[str, float]:
+    """The varied dimensions of one design."""
+    return {address: float(column[index]) for address, column in columns.items()}
 
 
 def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
@@ -59,28 +91,10 @@ def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
     return Motion(solver, design, positions, states, {}, Rows(values, index), (), barred)
 
 
-def fields_of_designs(
-    traced: Traced, names: tuple[str, ...], columns: Mapping[str, Floats]
-) -> tuple[dict[str, Floats], dict[int, str]]:
-    """Inputs (designs, n) by name, and the sentences of the designs for which they cannot be found."""
-    designs, n = len(next(iter(columns.values()))), traced.positions.count
-    rows = {name: np.zeros((designs, n)) for name in names}
-    failed: dict[int, str] = {}
-    source = DesignFields(traced)
-    for index in range(designs):
-        changes = {address: float(column[index]) for address, column in columns.items()}
-        try:
-            for name, row in source.of(names, changes).items():
-                rows[name][index] = row
-        except LinkwrightError as error:
-            failed[index] = str(error)
-    return rows, failed
-
-
 def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
     """Why a design cannot pass its cycle."""
     try:
-        motion = DesignFields(traced).motion(changes)
+        motion = OneByOne(traced).motion(changes)
         return "" if motion.ok.all() else str(refusal(motion))
     except LinkwrightError as error:
         return str(error)

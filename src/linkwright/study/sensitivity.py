@@ -145,6 +145,8 @@ def sensitivity(
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.ok.all():
         raise refusal(traced.nominal)
+    if traced.nominal.modes:
+        traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
     return _Derivation(traced, dimensions, asked, way, backend).result()
 
 

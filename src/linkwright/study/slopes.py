@@ -91,9 +91,7 @@ class Slopes:
         table = np.array([[nominal[each] for each in gradient.parameters]])
         known = {each: self.inputs[each] for each in program.fields}
         fields = {each: row[None, :] for each, row in {**known, f"seed:{name}": seeds}.items()}
-        return np.array(
-            gradient.evaluate(table, self.traced.positions.arrays, fields, backend=self.backend)[1][0]
-        )
+        return np.array(gradient.evaluate(table, self.traced.arrays, fields, backend=self.backend)[1][0])
 
     def _forward(self, name: str) -> tuple[Floats, Floats]:
         """Carrier (n,) and its derivatives (dimensions, n)."""
@@ -118,7 +116,7 @@ class Slopes:
         return self._rows[f"{name}|{each}"]
 
     def _run(self, program: Program) -> dict[str, Floats]:
-        numbers, arrays = self.traced.numbers(program), self.traced.positions.arrays
+        numbers, arrays = self.traced.numbers(program), self.traced.arrays
         inputs = {name: self.inputs[name] for name in program.fields}
         return dict(zip(program.output_names, self._evaluated(program, numbers, arrays, inputs), strict=True))
 

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Mask, Scalar, select
+from linkwright.engine.trace import Mask, Scalar, minimum, select
 from linkwright.errors import LinkwrightError
+from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -24,6 +25,8 @@ Floats = NDArray[np.float64]
 
 #: The truth output that says which positions of a design are solved.
 VALID = "valid"
+#: The output that tells how near the dyads are to a change point.
+NEAREST = "nearest change point"
 #: An angle that covers more than this is one of a link that turns.
 TURNING = 1.9 * np.pi
 
@@ -32,7 +35,8 @@ class Traced:
     """Programs of one mechanism for outputs in the user's words.
 
     ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form;
-    ``turning``: angles of links that turn through may be asked.
+    ``turning``: angles of links that turn through may be asked; ``flipping``: the programs take the signs of assembly
+    modes per position.
     """
 
     def __init__(
@@ -43,12 +47,15 @@ class Traced:
         *,
         iterations: int = 1,
         turning: bool = False,
+        flipping: bool = False,
     ) -> None:
         self.mechanism = mechanism
         self.positions = positions
         self.turning = turning
         self.solver = MotionSolver(mechanism, frozenset(free))
         self.solver.iterations = iterations
+        if flipping:
+            self.solver.flipping = frozenset(modal_groups(self.solver.structure))
         self.forces = ForceSolver(self.solver)
         self.named = Named(self.forces, self._middle)
 
@@ -57,16 +64,37 @@ class Traced:
         """The motion of the mechanism as it is."""
         return solve_motion(self.mechanism, steps=positions_steps(self.positions), failures="mark")
 
+    @cached_property
+    def arrays(self) -> dict[str, Floats]:
+        """Inputs per position; with ``flipping`` the signs of the assembly modes of the mechanism as it is."""
+        found = dict(self.positions.arrays)
+        if self.solver.flipping:
+            signs = self.solver.assembly.modes
+            count = self.positions.count
+            found |= {f"mode:{name}": np.full(count, sign) for name, sign in signs.items()}
+            found |= self.nominal.modes
+        return found
+
     def quantities(self, names: Iterable[str]) -> dict[str, Quantity]:
         """The outputs by their names."""
         return {name: self.named.quantity(name) for name in dict.fromkeys(names)}
 
     def program(self, quantities: Mapping[str, Quantity], valid: Mask | None = None) -> Program:
-        """What the quantities need, with the truth output ``valid``."""
+        """What the quantities need, with the truth output ``valid``, and how near change points may be."""
         motion = self.solver.motion
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
+        outputs[NEAREST] = self.nearest
         outputs[VALID] = motion.valid if valid is None else valid
         return Program.of(motion.trace, outputs)
+
+    @cached_property
+    def nearest(self) -> Scalar:
+        """The smallest closeness of all dyads with two assembly modes, as a traced value."""
+        placed = self.solver.motion.placed
+        found: Scalar = 1.0
+        for name in modal_groups(self.solver.structure):
+            found = minimum(found, placed[name].quality)
+        return found
 
     def numbers(self, program: Program) -> Floats:
         """The nominal values of the program's parameters."""

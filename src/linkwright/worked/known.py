@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
-from linkwright.kinetostatics.forces import Forces
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinetostatics.forces import Forces
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
 from linkwright.worked.book import Book, Spot, tex
@@ -86,17 +86,16 @@ class KnownForces:
         return [symbol(f"g_{c}", f"g_{c}", value) if value else ZERO for c, value in named]
 
     def _loads(self, step: Step) -> None:
-        book = self.book
         for name, link, values in self._wrenches():
             fx, fy, px, py, torque = values
             label = self._label(name, link)
             if not (fx or fy or torque):
                 if link in self.on:
-                    step.say(book.say("worked.load_idle", name=label))
+                    self._announce(step, name, link, idle=True)
                 continue
             if link not in self.on:
                 continue
-            step.say(book.say("worked.load_acts", name=label, link=link))
+            self._announce(step, name, link)
             known = Known(NOWHERE, NOWHERE, NOWHERE)
             if fx or fy:
                 known = self._force(step, name, label, link, complex(fx, fy), complex(px, py))
@@ -104,6 +103,15 @@ class KnownForces:
                 couple = self._couple(step, name, label, link, torque)
                 known = Known(known.force, known.place, known.velocity, couple)
             self.on[link].append(known)
+
+    def _announce(self, step: Step, name: str, link: str, *, idle: bool = False) -> None:
+        kind, _, rest = name.partition(":")
+        if kind == "friction" and rest:
+            text = self.book.say("worked.friction_acts", joint=rest.split("|")[0], link=link)
+        else:
+            text = self.book.say("worked.load_idle" if idle else "worked.load_acts", name=name, link=link)
+        if not idle or kind != "friction":
+            step.say(text)
 
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
         couple = symbol(f"M_{label}", f"M_{{{tex(label)}}}", torque)
@@ -129,7 +137,9 @@ class KnownForces:
             where, velocity = spot.place, spot.velocity
         formula = self._formula(step, name, label, link, force)
         parts = [
-            ZERO if part.is_zero else step.find(symbol(f"F_{label},{c}", f"F_{{{tex(label)},{c}}}", v), part, "N")
+            ZERO
+            if part.is_zero
+            else step.find(symbol(f"F_{label},{c}", f"F_{{{tex(label)},{c}}}", v), part, "N")
             for c, v, part in (("x", force.real, formula.x), ("y", force.imag, formula.y))
         ]
         return Known(Pair(*parts), where, velocity)

@@ -13,7 +13,7 @@ from linkwright.loads.torsion_damper import TorsionDamper
 from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.worked.book import Book, tex
 from linkwright.worked.page import Step
-from linkwright.worked.terms import FOUR, NOWHERE, Pair, Term, number, root, symbol
+from linkwright.worked.terms import FOUR, NOWHERE, Pair, Term, root, symbol
 
 #: Shorter than this (m) a spring or damper has no direction.
 SHORTEST = 1e-9
@@ -80,7 +80,9 @@ class LoadFormulas:
         a, b = load.links
         if isinstance(load, TorsionDamper):
             turning = self._named("c", load, load.damping) * (self.book.omega(b) - self.book.omega(a))
-            return None if turning.is_zero else step.find(self._named("M", load, turning.value), turning, "N·m")
+            return (
+                None if turning.is_zero else step.find(self._named("M", load, turning.value), turning, "N·m")
+            )
         if not load.stiffness:
             return None
         angle = load.free_angle + (moment - load.preload) / load.stiffness
@@ -109,7 +111,7 @@ class LoadFormulas:
         else:
             assert load.bore is not None
             bore = self._named("d", load, load.bore)
-            round_area = number(math.pi) * bore.squared / FOUR
+            round_area = symbol("π", r"\pi", math.pi) * bore.squared / FOUR
             area = step.find(self._named("A", load, round_area.value), round_area, "m²")
         pressure = step.give(self._named("p", load, force / area.amount), "Pa")
         push = pressure * area

@@ -9,6 +9,10 @@ from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
 
 
+#: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
+FADED = 1e-9
+
+
 @dataclass(frozen=True)
 class Note:
     """A sentence."""
@@ -129,13 +133,17 @@ class Step:
 def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
     value = result.amount
     place = last_place(value, error_of(formula))
-    text = printed(value, place)
+    text = "0" if formula.value == 0.0 and abs(value) < FADED else printed(value, place)
     digits = digits_needed(formula, text, place if text != "0" else max(place, -6))
     shown = (plain(formula), latex(formula), plain(formula, digits), latex(formula, digits))
     if formula.op == "number":
         shown = ("", "", "", "")
     elif formula.op == "symbol" and put_in(formula, digits).rstrip("°") == text:
         shown = (shown[0], shown[1], "", "")
+    elif shown[0] == shown[2]:
+        shown = ("", "", *shown[2:])
+    if shown[2] == text:
+        shown = (*shown[:2], "", "")
     return Equation(
         plain(result), latex(result), *shown, text,
         "°" if result.degrees else unit, value, column,

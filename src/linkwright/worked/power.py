@@ -7,7 +7,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.worked.book import Book, tex
 from linkwright.worked.known import KnownForces
 from linkwright.worked.page import Step
-from linkwright.worked.terms import ZERO, Term, symbol, total
+from linkwright.worked.terms import NOTHING, ZERO, Term, symbol, total
 
 
 def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> Step:
@@ -35,7 +35,7 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
         letter = "F" if isinstance(book.mechanism.joints[driver.joint], PrismaticJoint) else "M"
         value = float(forces.driver_effort(name)[book.index])
         terms.append((symbol(f"{letter}_{name}", f"{letter}_{{{tex(name)}}}", value), rate))
-    if len(terms) == 1 and terms[0][1].amount and not sum_of.is_zero:
+    if len(terms) == 1 and abs(terms[0][1].amount) > NOTHING and not sum_of.is_zero:
         effort, rate = terms[0]
         step.say(book.say("worked.power_effort"))
         unit = "N" if effort.plain.startswith("F") else "N·m"

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from linkwright.structure.group import Group
 from linkwright.worked.book import Book, tex
-from linkwright.worked.chains import Closure, bends, drift, matrix, unknown_names
+from linkwright.worked.chains import Closure, Drift, bends, drift, matrix, unknown_names
 from linkwright.worked.page import Step
-from linkwright.worked.terms import TWO, ZERO, Pair, Term, symbol, total
+from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, symbol, total
 
 
 @dataclass
@@ -107,11 +107,9 @@ class RateWriter:
         self, step: Step, group: Group, cuts: list[Closure], names: list[Term], *, second: bool
     ) -> None:
         joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts))
-        step.say(
-            self.book.say(
-                "worked.acceleration_closure" if second else "worked.velocity_closure", joints=joints
-            )
-        )
+        key = "worked.acceleration_closure" if second else "worked.velocity_closure"
+        across = any(closure.across is not None for closure in cuts)
+        step.say(self.book.say(f"{key}_guide" if across else key, joints=joints))
         letter = "c" if second else "b"
         for i, row in enumerate(matrix(group, cuts), 1):
             entries = [
@@ -141,33 +139,32 @@ class RateWriter:
     def _bend(self, step: Step, closure: Closure) -> list[Term]:
         """Notes the known parts of the accelerations of both ends; gives the rows of their difference."""
         ends = []
-        for number, chain in enumerate(closure.chains):
-            total_here = Pair(ZERO, ZERO)
+        for chain in closure.chains:
+            whole = NOWHERE
             for part in bends(chain, self.book):
-                if part.kind == "base":
-                    total_here = total_here + part.vector
-                    continue
-                total_here = total_here + self._part(
-                    step, part.kind, part.label, part.vector, closure, number
-                )
-            ends.append(total_here)
+                whole = whole + (part.vector if part.kind == "base" else self._part(step, part))
+            ends.append(whole)
         rows = closure.rows(closure.joined((ends[0], ends[1])))
         if closure.across is None:
             return rows
         omega = self.book.omega(closure.cut.a)
         return [rows[0] - TWO * omega * closure.across.rate]
 
-    def _part(self, step: Step, kind: str, label: str, vector: Pair, closure: Closure, number: int) -> Pair:
-        mark = {"centripetal": "n", "tangential": "t", "coriolis": "k"}.get(kind, "d")
-        step.say(self.book.say(f"worked.part_{kind}", label=label))
+    def _part(self, step: Step, part: Drift) -> Pair:
+        """Notes one known part of an acceleration, unless the other cut has noted it already."""
+        mark = {"centripetal": "n", "tangential": "t", "coriolis": "k"}.get(part.kind, "d")
+        noted = {equation.symbol for equation in step.equations}
+        begun = False
         found = []
-        for c, part in (("x", vector.x), ("y", vector.y)):
-            if part.is_zero:
-                found.append(ZERO)
-                continue
-            plain, latex = f"a{mark}_{label},{c}", f"a^{{{mark}}}_{{{tex(label)},{c}}}"
-            term = symbol(plain, latex, part.value)
-            found.append(step.find(term, part, "m/s²"))
+        for c, formula in (("x", part.vector.x), ("y", part.vector.y)):
+            plain, latex = f"a{mark}_{part.label},{c}", f"a^{{{mark}}}_{{{tex(part.label)},{c}}}"
+            term = ZERO if formula.is_zero else symbol(plain, latex, formula.value)
+            if not term.is_zero and plain not in noted:
+                if not begun:
+                    step.say(self.book.say(f"worked.part_{part.kind}", label=part.label))
+                begun = True
+                step.find(term, formula, "m/s²")
+            found.append(term)
         return Pair(found[0], found[1])
 
     def _labels(self, group: Group, *, second: bool) -> tuple[list[str], list[str]]:

@@ -53,7 +53,8 @@ class Reactions:
         """The steps of one group."""
         book = self.book
         links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
-        title = book.say("worked.forces_of", signature=group.signature, links=links)
+        key = "worked.forces_of_driven" if group.assur_class == 1 and group.drivers else "worked.forces_of"
+        title = book.say(key, signature=group.signature, links=links)
         head = Step(f"{number}", title, group.name)
         if group.cuts:
             self._cuts(head, group)

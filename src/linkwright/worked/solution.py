@@ -141,7 +141,8 @@ class _Kinematics:
         for name, driver in book.mechanism.drivers.items():
             turning = isinstance(book.mechanism.joints[driver.joint], RevoluteJoint)
             key = "worked.input_turn" if turning else "worked.input_slide"
-            step.say(say(key, name=name, link=driver.link, relative=driver.relative_to, joint=driver.joint))
+            head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
+            step.say(say(key, head=head, link=driver.link, relative=driver.relative_to, joint=driver.joint))
             unit = "rad" if turning else "m"
             for order, term in enumerate(book.drive(name)):
                 if term.is_zero:

@@ -12,7 +12,8 @@ from linkwright.cli.pictures import (
     file_arguments,
     names,
     names_or_all,
-    refuse_unknown_points,
+    refuse_unknown,
+    refuse_unknown_vectors,
     source_arguments,
     told,
     vector_arguments,
@@ -63,8 +64,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     seconds = _seconds(options.seconds, session.say)
     mechanism, _ = read_model(options.file)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
-    lists = ("traces", "velocities", "accelerations")
-    refuse_unknown_points(motion, [(f"--{name}", names(getattr(options, name))) for name in lists])
+    refuse_unknown_vectors(motion, options)
+    refuse_unknown(motion.point, "--traces", names(options.traces))
     animation = animate(
         motion,
         traces=names(options.traces),

@@ -37,14 +37,14 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
     from linkwright.kinematics import solve_motion
     from linkwright.model.file import check, load
-    from linkwright.structure import structure
+    from linkwright.kinematics.rank import analysed
 
     found = check(name)
     if any(finding.severity == "error" for finding in found):
         return found, {}
     try:
         mechanism = load(name)
-        built = structure(mechanism)
+        built = analysed(mechanism)
         fact: dict[str, object] = {
             "links": len(mechanism.links),
             "mobility": built.mobility,

@@ -12,7 +12,8 @@ from linkwright.cli.pictures import (
     file_arguments,
     names,
     names_or_all,
-    refuse_unknown_points,
+    refuse_unknown,
+    refuse_unknown_vectors,
     source_arguments,
     told,
     vector_arguments,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
 ENDINGS = (".svg", ".png", ".pdf")
 STEPS = 120
-LABELS = ("all", "points", "none")
+LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
 
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
@@ -43,7 +44,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     what.add_argument("--paths", nargs="+", metavar="POINT", help=say("draw.paths_help"))
     vector_arguments(what, say)
     what.add_argument("--dimensions", nargs="*", metavar="LENGTH", help=say("draw.dimensions_help"))
-    what.add_argument("--labels", choices=LABELS, default="all", help=say("draw.labels_help"))
+    what.add_argument("--labels", choices=tuple(LABELS), default="all", help=say("draw.labels_help"))
     what.add_argument(
         "--inputs", action=argparse.BooleanOptionalAction, default=True, help=say("draw.inputs_help")
     )
@@ -59,7 +60,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     mechanism, _ = read_model(options.file)
     motion = cycle(mechanism, options.steps, session)
-    _refuse_unknown_names(motion, options)
+    dimensions = _dimensions(mechanism, options.dimensions)
+    _refuse_unknown_names(motion, options, dimensions)
     drawing = draw(
         motion,
         at=_inputs(mechanism, options.at, session.say),
@@ -70,10 +72,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
         accelerations=names_or_all(options.accelerations),
         forces=_forces(motion, options),
         reactions_of=names(options.forces) or None,
-        dimensions=_dimensions(mechanism, options.dimensions),
+        dimensions=dimensions,
         centres=options.centres,
         inputs=options.inputs,
-        labels={"all": True, "points": "points", "none": False}[options.labels],
+        labels=LABELS[options.labels],
         size=options.width if Path(options.output).suffix.lower() != ".png" else None,
         language=session.language,
     )
@@ -130,6 +132,17 @@ def _dimensions(mechanism: Mechanism, words: list[str] | None) -> list[Dimension
     return [(first, last) if sign else name for name in given for first, sign, last in [name.partition(":")]]
 
 
-def _refuse_unknown_names(motion: Motion, options: argparse.Namespace) -> None:
-    lists = ("paths", "velocities", "accelerations")
-    refuse_unknown_points(motion, [(f"--{name}", names(getattr(options, name))) for name in lists])
+def _refuse_unknown_names(motion: Motion, options: argparse.Namespace, dimensions: list[Dimension]) -> None:
+    from linkwright.kinematics.limits import output_of
+    from linkwright.kinematics.names import find_point
+
+    mechanism = motion.mechanism
+    refuse_unknown_vectors(motion, options)
+    refuse_unknown(motion.point, "--paths", names(options.paths))
+    links = [each for each in dimensions if isinstance(each, str)]
+    refuse_unknown(mechanism.link, "--dimensions", links)
+    ends = [point for each in dimensions if not isinstance(each, str) for point in each]
+    refuse_unknown(lambda name: find_point(mechanism, name), "--dimensions", ends)
+    word, _, output = options.overlay.partition(":")
+    if word == "limits" and output:
+        refuse_unknown(lambda name: output_of(mechanism, name), "--overlay", [output])

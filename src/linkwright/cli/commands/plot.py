@@ -27,7 +27,9 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
     parser.add_argument("files", metavar="FILE", nargs="+", help=say("plot.files_help"))
     what = parser.add_argument_group(say("plot.what_title"))
-    what.add_argument("--kind", default="sva", metavar="KIND", help=say("plot.kind_help", kinds=", ".join(kinds())))
+    what.add_argument(
+        "--kind", default="sva", metavar="KIND", help=say("plot.kind_help", kinds=", ".join(kinds()))
+    )
     what.add_argument("--of", nargs="+", default=[], metavar="NAME", help=say("plot.of_help"))
     what.add_argument("--joint", metavar="JOINT", help=say("plot.joint_help"))
     what.add_argument("--on", metavar="LINK", help=say("plot.on_help"))

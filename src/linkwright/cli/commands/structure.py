@@ -22,16 +22,17 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
+    from linkwright.kinematics.rank import analysed, rank_sentence
     from linkwright.model.file import load
-    from linkwright.structure import structure
 
     mechanism = load(options.file)
-    built = structure(mechanism)
+    built = analysed(mechanism)
+    rank = rank_sentence(mechanism)
     program = _program(mechanism, options.forces) if options.program or options.forces else None
     if session.json:
         from linkwright.cli.data import json_text
 
-        data: dict[str, object] = {"name": mechanism.name, **built.data()}
+        data: dict[str, object] = {"name": mechanism.name, **built.data(), "rank": rank}
         if program is not None:
             data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
         session.show(json_text(data))
@@ -39,6 +40,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     session.show(session.strong(mechanism.name))
     session.show()
     session.show(built.text())
+    if rank:
+        session.show(f"{rank}.")
     if program is not None:
         session.show()
         session.show(_counts(program, session.say))

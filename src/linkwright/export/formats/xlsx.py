@@ -14,7 +14,7 @@ from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
-from linkwright.units import Dimension
+from linkwright.units import si_symbol
 from linkwright.words import say
 
 Cell = str | float | int | bool | None
@@ -147,12 +147,9 @@ def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
 
 def _unit(results: Results, address: str) -> str:
     """SI unit of a dimension, where its address says it."""
-    from linkwright.units import SI_UNITS
-
     mechanism = results.mechanism
     if address in mechanism.kinds:
-        dimension: Dimension = mechanism.kinds[address]
-        return SI_UNITS[dimension]
+        return si_symbol(mechanism.kinds[address])
     owner, *middle, last = address.split(".")
     if owner == "gravity":
         return "m/s²"

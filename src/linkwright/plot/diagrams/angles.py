@@ -29,12 +29,16 @@ class Angles(OverInput):
         motion, say = source.motion, request.say
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
-            raise LinkwrightError(f"no link of {motion.mechanism.name!r} turns, so there are no angle curves; draw its sva")
+            raise LinkwrightError(
+                f"no link of {motion.mechanism.name!r} turns, so there are no angle curves; draw its sva"
+            )
         shown = [source.closed(motion.link(name).angle, turns=True) for name in links]
         change = _flat(shown)
         omega = [source.closed(motion.link(name).angular_velocity) for name in links]
         alpha = [source.closed(motion.link(name).angular_acceleration) for name in links]
-        angle = [values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown]
+        angle = [
+            values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown
+        ]
         return [
             Panel(say("angle_change") if change else f"{say('angle')} θ", "angle", _curves(links, angle)),
             Panel(f"{say('angular_velocity')} ω", "angular_velocity", _curves(links, omega)),

@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 Mask = NDArray[np.bool_]
 #: Two labels nearer than this share of the picture's size are not both written.
 NEAR = 0.055
-_HALO: dict[str, Any] = {"boxstyle": "round,pad=0.08", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+_HALO: dict[str, Any] = {
+    "boxstyle": "round,pad=0.08",
+    "facecolor": "white",
+    "edgecolor": "none",
+    "alpha": 0.75,
+}
 
 
 def jumps(source: Source) -> Floats:
@@ -44,7 +49,7 @@ def draw_curve(axes: Axes, curve: Floats, breaks: Floats, colour: str, dash: str
 
 def mark_inputs(axes: Axes, curve: Floats, axis: InputAxis, colour: str) -> None:
     """Dots at round values of the input, with the values beside them where there is room, and an arrow."""
-    good: Mask = np.isfinite(curve).all(axis=1)
+    good = np.asarray(np.isfinite(curve).all(axis=1))
     if good.sum() < 3:
         return
     middle = 0.5 * (curve[good].min(axis=0) + curve[good].max(axis=0))
@@ -108,4 +113,5 @@ def _arrow(axes: Axes, curve: Floats, good: Mask, colour: str) -> None:
     if not good[index - 1 : index + 2].all() or (curve[index - 1] == curve[index + 1]).all():
         return
     axes.annotate("", tuple(curve[index + 1]), tuple(curve[index - 1]),
-                  arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0})  # fmt: skip
+                  arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 11,
+                              "shrinkA": 0, "shrinkB": 0})  # fmt: skip

@@ -16,7 +16,15 @@ from linkwright.plot.diagrams.labels import Labels
 from linkwright.plot.diagrams.link_forces import LinkForce, link_forces
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.paper import (
-    INCH, LEAST, Cell, arrow, colour_key, headed, page, scale_for, symbol,
+    INCH,
+    LEAST,
+    Cell,
+    arrow,
+    colour_key,
+    headed,
+    page,
+    scale_for,
+    symbol,
 )  # fmt: skip
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.reactions import require_forces
@@ -29,7 +37,13 @@ if TYPE_CHECKING:
 
 #: Longest extent of a polygon on the paper, mm, and how many stand in a row.
 EXTENT, IN_ROW = 58.0, 3
-LOOKS = {"load": COLOURS[1], "weight": COLOURS[2], "inertia": COLOURS[3], "driver": COLOURS[4], "reaction": COLOURS[0]}
+LOOKS = {
+    "load": COLOURS[1],
+    "weight": COLOURS[2],
+    "inertia": COLOURS[3],
+    "driver": COLOURS[4],
+    "reaction": COLOURS[0],
+}
 
 
 @DIAGRAMS.register("force_polygon")
@@ -61,7 +75,9 @@ class ForcePolygon(Kind):
         for one, each, scale in zip(axes, parts.values(), scales, strict=True):
             _draw(one, each, scale)
         roles = {force.role for each in parts.values() for force in each}
-        colour_key(figure, [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles], 2.5)
+        colour_key(
+            figure, [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles], 2.5
+        )
         headed(figure, heading)
         return figure
 
@@ -69,7 +85,9 @@ class ForcePolygon(Kind):
 def _links(forces: Forces, request: Request) -> dict[str, list[LinkForce]]:
     """Forces by link: of the links that are named, else of those with three forces or more."""
     if request.of:
-        return {known_link(forces.mechanism, name): _ordered(link_forces(forces, name, 0)) for name in request.of}
+        return {
+            known_link(forces.mechanism, name): _ordered(link_forces(forces, name, 0)) for name in request.of
+        }
     every = {link: _ordered(link_forces(forces, link, 0)) for link in forces.mechanism.links}
     return {link: found for link, found in every.items() if len(found) > 2} or {
         link: found for link, found in every.items() if found
@@ -104,7 +122,10 @@ def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:
 def _notes(found: list[LinkForce]) -> tuple[tuple[str, str], ...]:
     """Sizes of the forces in the colours of their roles."""
     unit = unit_of("force", [each.force for each in found])
-    return tuple((f"{each.name.replace('$', chr(92) + '$')} = {unit.text(each.size)}", LOOKS[each.role]) for each in found)
+    return tuple(
+        (f"{each.name.replace('$', chr(92) + '$')} = {unit.text(each.size)}", LOOKS[each.role])
+        for each in found
+    )
 
 
 def _per_mm(scale: float) -> str:

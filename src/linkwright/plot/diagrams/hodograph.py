@@ -49,7 +49,9 @@ class Hodograph(Kind):
         return figure
 
 
-def _draw(axes: Axes, sources: Sequence[Source], what: tuple[str, str, str], request: Request, legend: Legend) -> None:
+def _draw(
+    axes: Axes, sources: Sequence[Source], what: tuple[str, str, str], request: Request, legend: Legend
+) -> None:
     joint, link, view = what
     say = request.say
     curves = [source.closed(source.forces.reaction(joint, on=link, axes=view)) for source in sources]

@@ -32,7 +32,15 @@ class Labels:
         count = 2 + int(np.hypot(*(end - start)) / STEP)
         self._ink.append(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
 
-    def put(self, text: str, places: Iterable[Floats], *, away: Floats | None = None, colour: str = INK, size: float = 8.0) -> None:
+    def put(
+        self,
+        text: str,
+        places: Iterable[Floats],
+        *,
+        away: Floats | None = None,
+        colour: str = INK,
+        size: float = 8.0,
+    ) -> None:
         """Writes a name beside the best of some places; ``away``: a direction that is liked."""
         ink = np.concatenate([*self._ink, np.zeros((0, 2))])
         best: tuple[float, Box, Floats] | None = None
@@ -40,7 +48,9 @@ class Labels:
             for number, side in enumerate(_SIDES):
                 box = _box(text, place, side, size)
                 liked = 0.0 if away is None else -float(side @ away) / (float(np.hypot(*away)) or 1.0)
-                cost = 20.0 * self._covered(box) + _inside(box, ink) + 0.6 * rank + 0.05 * number + 0.8 * liked
+                cost = (
+                    20.0 * self._covered(box) + _inside(box, ink) + 0.6 * rank + 0.05 * number + 0.8 * liked
+                )
                 if best is None or cost < best[0]:
                     best = (cost, box, side)
         if best is None:

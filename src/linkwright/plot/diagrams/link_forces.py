@@ -36,7 +36,9 @@ def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
     found = [LinkForce(_load_name(forces, link), "load", applied)]
     found.append(LinkForce("G", "weight", part.mass * np.asarray(mechanism.gravity)))
     if not forces.static:
-        found.append(LinkForce("−m·a", "inertia", -part.mass * forces.motion.link(link).centre.acceleration[index]))
+        found.append(
+            LinkForce("−m·a", "inertia", -part.mass * forces.motion.link(link).centre.acceleration[index])
+        )
     found += _drivers(forces, link, index)
     for name, joint in mechanism.joints.items():
         if link in joint.joined:

@@ -54,11 +54,13 @@ def plot(
         The diagram; ``save("x.svg")``, ``.pdf``, ``.png``.
 
     Raises:
-        LinkwrightError: an unknown kind or name, a diagram that makes no sense for the mechanism, no matplotlib, or no
-            font for Chinese.
+        LinkwrightError: an unknown kind or name, a diagram that makes no sense for the mechanism, no matplotlib,
+            or no font for Chinese.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+        raise LinkwrightError(
+            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
+        )
     sources = _sources(result, static=static)
     name = kind or _usual(result)
     require_kind(name)
@@ -103,7 +105,9 @@ def _sources(result: Result | Sequence[Result] | Mapping[str, Result], *, static
     if not found:
         raise LinkwrightError("there is nothing to draw; give at least one result")
     if len(found) > 1 and len({source.label for source in found}) < len(found):
-        raise LinkwrightError("results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})")
+        raise LinkwrightError(
+            "results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})"
+        )
     return found
 
 
@@ -118,5 +122,7 @@ def _place(at: float | str | None, source: Source) -> float | None:
     if not isinstance(at, str):
         return at
     if not source.mechanism.drivers:
-        raise LinkwrightError(f"{source.mechanism.name!r} has no driver, so there is no input to set; leave at out")
+        raise LinkwrightError(
+            f"{source.mechanism.name!r} has no driver, so there is no input to set; leave at out"
+        )
     return parse(at, source.input_dimension)

@@ -74,4 +74,8 @@ def acting(source: Source) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_
 def _snapped(x: np.ndarray[tuple[int], np.dtype[np.float64]], index: int, limits: list[LimitMark]) -> float:
     step = abs(float(x[1] - x[0])) * 1.01
     here = float(x[index])
-    return min((each.place for each in limits if abs(each.place - here) <= step), key=lambda p: abs(p - here), default=here)
+    return min(
+        (each.place for each in limits if abs(each.place - here) <= step),
+        key=lambda p: abs(p - here),
+        default=here,
+    )

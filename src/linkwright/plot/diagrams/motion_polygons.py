@@ -13,10 +13,19 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
-from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plot.diagrams.labels import Labels
+from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plot.diagrams.paper import (
-    INCH, LEAST, LINE, Cell, arrow, colour_key, headed, page, scale_for, symbol,
+    INCH,
+    LEAST,
+    LINE,
+    Cell,
+    arrow,
+    colour_key,
+    headed,
+    page,
+    scale_for,
+    symbol,
 )  # fmt: skip
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.position import Ink, draw_position
@@ -30,6 +39,7 @@ if TYPE_CHECKING:
 
 #: Longest extent of the position and of the polygon on the paper, mm.
 POSITION, POLYGON = 75.0, 110.0
+RIGHT = np.array([1.0, 0.0])
 #: Letters above the symbols of parts of an acceleration.
 ABOVE = {"normal": "n", "tangential": "t", "coriolis": "k", "sliding": "r"}
 LOOKS = {
@@ -61,20 +71,30 @@ class MotionPolygons(Kind):
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
         largest = float(np.ptp(images, axis=0).max())
         if largest <= 0:
-            raise LinkwrightError("nothing moves at this position, so there is no polygon; choose another input: at=…")
+            raise LinkwrightError(
+                "nothing moves at this position, so there is no polygon; choose another input: at=…"
+            )
         scale = scale_for(largest, POLYGON)
         return self._sheet(sources[0], motion, polygon, scale, request)
 
-    def _sheet(self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request) -> Figure:
+    def _sheet(
+        self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
+    ) -> Figure:
         say = request.say
         places = _places(motion)
         length = scale_for(float(np.ptp(places, axis=0).max()), POSITION)
-        images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)]) / scale
+        images = (
+            np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)]) / scale
+        )
         texts = _table(polygon, self.unit)
         title = f"{source.label}: {say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
         cells = [
-            Cell(places / length, f"{say('position')}: {symbol('μ', 'l')} = {significant(length * 1e3)} mm/mm"),
-            Cell(images, f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"),
+            Cell(
+                places / length, f"{say('position')}: {symbol('μ', 'l')} = {significant(length * 1e3)} mm/mm"
+            ),
+            Cell(
+                images, f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"
+            ),
         ]
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells))
         columns = int(wide // 42)
@@ -130,7 +150,7 @@ def _name_position(axes: Axes, ink: Ink) -> None:
     for line in ink.lines:
         labels.line(line[0], line[1])
     for _, place in ink.names:
-        labels.line(place - (1.0, 0.0), place + (1.0, 0.0))
+        labels.line(place - RIGHT, place + RIGHT)
     for text, place in ink.names:
         labels.put(text, [place])
 
@@ -157,7 +177,10 @@ def _table(polygon: MotionPolygon, unit: str) -> list[tuple[str, str]]:
     """Sizes of the vectors with the colour of their role, those of zero size left out."""
     largest = max(step.size for step in polygon.steps)
     return [
-        (f"{symbol(step.letter, step.name, ABOVE.get(step.role, ''))} = {significant(step.size)} {unit}", LOOKS[step.role][0])
+        (
+            f"{symbol(step.letter, step.name, ABOVE.get(step.role, ''))} = {significant(step.size)} {unit}",
+            LOOKS[step.role][0],
+        )
         for step in sorted(polygon.steps, key=lambda each: list(LOOKS).index(each.role))
         if step.size > 1e-9 * largest
     ]

@@ -96,11 +96,14 @@ class _Polygon:
         start, end = self._value(link, base), self._value(link, point)
         pair = point if self._fixed(link, base) else f"{point}{base}"
         if self.letter == "v":
-            self.found.put("v", pair, "relative", start, end)
+            if not self._fixed(link, base):
+                self.found.put("v", pair, "relative", start, end)
             return
         corner = start - float(state.angular_velocity[i]) ** 2 * arm
         self.found.put("a", pair, "normal", start, corner)
-        self.found.put("a", pair, "tangential", corner, corner + float(state.angular_acceleration[i]) * across)
+        self.found.put(
+            "a", pair, "tangential", corner, corner + float(state.angular_acceleration[i]) * across
+        )
 
     def _guide(self, joint: PrismaticJoint) -> None:
         """From the guide's point under the block to the block's own point."""
@@ -140,7 +143,12 @@ class _Polygon:
 
     def _fixed(self, link: str, point: str) -> bool:
         joint = self.motion.mechanism.joints.get(point)
-        return joint is not None and "frame" in joint.joined and link in joint.joined and joint.kind == "revolute"
+        return (
+            joint is not None
+            and "frame" in joint.joined
+            and link in joint.joined
+            and joint.kind == "revolute"
+        )
 
     def _value(self, link: str, point: str) -> Floats:
         found = self.motion.point(f"{link}.{point}")

@@ -72,8 +72,15 @@ def traced_points(mechanism: Mechanism) -> list[str]:
     free = list(free_points(mechanism))
     if free:
         return free
-    pins = [name for name, joint in mechanism.joints.items() if isinstance(joint, RevoluteJoint) and "frame" not in joint.joined]
-    return pins or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
+    pins = [
+        name
+        for name, joint in mechanism.joints.items()
+        if isinstance(joint, RevoluteJoint) and "frame" not in joint.joined
+    ]
+    return (
+        pins
+        or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
+    )
 
 
 def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
@@ -98,7 +105,9 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
-            raise LinkwrightError(f"{mechanism.name!r} has no joint that carries a force there; name another joint")
+            raise LinkwrightError(
+                f"{mechanism.name!r} has no joint that carries a force there; name another joint"
+            )
         return max(on_frame or pairs, key=lambda pair: size(forces.reaction(pair[0], on=pair[1])))
     if on is None and joint in mechanism.joints:
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]

@@ -98,7 +98,11 @@ class OverInput(Kind):
         if request.marks and len(sources) == 1:
             _draw_marks(list(axes), sources[0], self.output(sources[0], request), legend, request.say)
         label_input(axes[-1], axis, request.say)
-        title = f"{sources[0].label}: {self.subject(sources, request)}" if len(sources) == 1 and sources[0].label else self.subject(sources, request)
+        title = (
+            f"{sources[0].label}: {self.subject(sources, request)}"
+            if len(sources) == 1 and sources[0].label
+            else self.subject(sources, request)
+        )
         framed(figure, title, request)
         figure.align_ylabels(list(axes))
         legend.put(figure)
@@ -130,7 +134,9 @@ def _draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, leg
     axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
     for curve in panel.curves:
         x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
-        (line,) = axes.plot(x, curve.values * unit.factor, color=curve.colour, linestyle=curve.dash, linewidth=curve.width)
+        (line,) = axes.plot(
+            x, curve.values * unit.factor, color=curve.colour, linestyle=curve.dash, linewidth=curve.width
+        )
         if many or curve.label:
             legend.add(curve.label, line)
     for level in panel.levels:
@@ -151,7 +157,9 @@ def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     y = curve.values * unit.factor
     for above, colour in ((True, COLOURS[1]), (False, COLOURS[2])):
         where = y > level if above else y < level
-        axes.fill_between(x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0)
+        axes.fill_between(
+            x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0
+        )
 
 
 def _set_range(axes: Axes, panel: Panel, unit: Unit) -> None:
@@ -190,7 +198,9 @@ def _draw_marks(
 
 def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
     for one in axes:
-        one.axvspan(phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5)
+        one.axvspan(
+            phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5
+        )
 
 
 def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Say) -> None:
@@ -202,5 +212,6 @@ def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Say)
         row = 1 - row if limit.place - before < 0.14 * span else 0
         before = limit.place
         text = f"{say(limit.kind)} {axis.unit.text(limit.place)}"
-        axes.annotate(text, (limit.place * axis.unit.factor, 1.0), (0, 2 + 9 * row), xycoords=("data", "axes fraction"),
-                      textcoords="offset points", ha="center", va="bottom", fontsize=7.5, color=INK)  # fmt: skip
+        axes.annotate(text, (limit.place * axis.unit.factor, 1.0), (0, 2 + 9 * row), ha="center", va="bottom",
+                      xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7.5,
+                      color=INK)  # fmt: skip

@@ -47,7 +47,9 @@ def scale_for(largest: float, millimetres: float) -> float:
     return round_up(largest / millimetres) if largest > 0 else 1.0
 
 
-def page(cells: list[Cell], columns: int, *, foot: float = 0.0, head: float = 10.0) -> tuple[Figure, list[Axes]]:
+def page(
+    cells: list[Cell], columns: int, *, foot: float = 0.0, head: float = 10.0
+) -> tuple[Figure, list[Axes]]:
     """A figure with its pictures in rows; ``head`` and ``foot``: space for the title and for text below, mm."""
     from matplotlib.figure import Figure as New
 
@@ -80,12 +82,14 @@ def _picture(figure: Figure, cell: Cell, corner: tuple[float, float], paper: tup
                 va="bottom", parse_math=True)  # fmt: skip
     for number, (text, colour) in enumerate(cell.notes):
         y = (corner[1] - tall - LINE * (number + 1)) / paper[1]
-        figure.text((corner[0] + 4) / paper[0], y, text, fontsize=7.8, color=colour, va="bottom", parse_math=True)
+        figure.text(
+            (corner[0] + 4) / paper[0], y, text, fontsize=7.8, color=colour, va="bottom", parse_math=True
+        )
     return axes
 
 
 def symbol(letter: str, name: str = "", above: str = "") -> str:
-    """A letter with its indices, set as mathematics where the name's characters allow: a with n above and BA below."""
+    """A letter with its indices, set as mathematics where the name's characters allow it."""
     if not name:
         return f"${letter}$"
     if not name.isascii() or not all(c.isalnum() or c in "()" for c in name):
@@ -110,7 +114,9 @@ def colour_key(figure: Figure, entries: list[tuple[str, str]], height: float) ->
         place += 8.0 + text_width(text, 8.0)
 
 
-def arrow(axes: Axes, start: Floats, end: Floats, colour: str, *, dash: Any = "-", width: float = 1.3) -> None:
+def arrow(
+    axes: Axes, start: Floats, end: Floats, colour: str, *, dash: Any = "-", width: float = 1.3
+) -> None:
     """An arrow between two places of a picture; nothing where it would be shorter than a tenth of a millimetre."""
     if float(np.hypot(*(end - start))) < 0.1:
         return

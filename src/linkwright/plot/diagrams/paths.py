@@ -15,8 +15,8 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
 from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.outputs import output_named, traced_points
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.panels import DASHES
+from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.position import LINK, draw_position, reach
 from linkwright.plot.diagrams.source import Source
 
@@ -67,7 +67,12 @@ def _draw_machine(axes: Axes, source: Source) -> None:
 
 
 def _draw(
-    axes: Axes, source: Source, curves: dict[str, Floats], request: Request, legend: Legend, number: int | None
+    axes: Axes,
+    source: Source,
+    curves: dict[str, Floats],
+    request: Request,
+    legend: Legend,
+    number: int | None,
 ) -> None:
     for which, (key, curve) in enumerate(curves.items()):
         colour = COLOURS[(which if number is None else number) % len(COLOURS)]
@@ -75,7 +80,12 @@ def _draw(
         line = draw_curve(axes, curve, np.zeros(0), colour, dash)
         legend.add(key if number is None else f"{source.label}: {key}", line)
         alone = not any(artist.get_color() == LINK for artist in axes.lines)
-        if request.marks and number is None and source.mechanism.drivers and (alone or _worth_marks(source, curve)):
+        if (
+            request.marks
+            and number is None
+            and source.mechanism.drivers
+            and (alone or _worth_marks(source, curve))
+        ):
             mark_inputs(axes, curve, source.axis, colour)
 
 
@@ -88,5 +98,7 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 def _point(source: Source, name: str) -> str:
     found = output_named(source.mechanism, name)
     if isinstance(found, Output):
-        raise LinkwrightError(f'"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D')
+        raise LinkwrightError(
+            f'"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D'
+        )
     return found

@@ -57,18 +57,16 @@ def style(language: str) -> Iterator[None]:
         import matplotlib
     except ImportError:
         raise LinkwrightError("diagrams need matplotlib; install it: pip install linkwright[plot]") from None
-    settings = {**matplotlib.rcParamsDefault, **_STYLE, "font.family": families(language)}
-    kept = {
-        key: value for key, value in settings.items() if key not in ("backend", "backend_fallback", "toolbar")
-    }
+    settings: Any = {**_STYLE, "font.family": families(language)}
     with matplotlib.rc_context():
-        matplotlib.RcParams.update(matplotlib.rcParams, kept)
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(settings)
         yield
 
 
 @dataclass(frozen=True)
 class Diagram:
-    """A diagram: ``kind`` and ``figure`` (of matplotlib, to be changed at will); ``save`` writes it, notebooks show it."""
+    """A diagram: its ``kind`` and ``figure`` (of matplotlib); ``save`` writes it, notebooks show it."""
 
     kind: str
     figure: Figure
@@ -82,7 +80,7 @@ class Diagram:
         return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi))
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
-        """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds. Raises LinkwrightError for another one."""
+        """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""
         if ending not in ENDINGS:
             raise LinkwrightError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
         return self._bytes(ending[1:], dpi)

@@ -75,13 +75,19 @@ class Source:
         """The motion."""
         if isinstance(self._result, SteadyRunning):
             raise LinkwrightError(
-                "the result of steady running holds no motion; it has the diagrams speed and energy, or give the forces"
+                "the result of steady running holds no motion; it has the diagrams speed and energy; else give forces"
             )
         if isinstance(self._result, Forces):
             return self._result.motion
-        found = self._result if isinstance(self._result, Motion) else solve_motion(self._result, steps=STEPS, failures="mark")
+        found = (
+            self._result
+            if isinstance(self._result, Motion)
+            else solve_motion(self._result, steps=STEPS, failures="mark")
+        )
         if not found.ok.any():
-            raise LinkwrightError(f"{found.mechanism.name!r} reaches no position: {found.outcomes[0].sentence}")
+            raise LinkwrightError(
+                f"{found.mechanism.name!r} reaches no position: {found.outcomes[0].sentence}"
+            )
         return found
 
     @cached_property
@@ -91,7 +97,7 @@ class Source:
 
     @property
     def input_dimension(self) -> Literal["angle", "length", "time"]:
-        """What says where a position is: the first driver's angle or length; the time where a driver follows a law."""
+        """What says where a position is: the first driver's angle or length, or the time."""
         drivers = self.mechanism.drivers
         if not drivers or not all(isinstance(each.law, ConstantSpeed) for each in drivers.values()):
             return "time"
@@ -119,7 +125,7 @@ class Source:
             return say("at_rest")
         value = float(motion.time[0] if dimension == "time" else motion.input[0])
         symbol = {"angle": "φ", "length": "s", "time": "t"}[dimension]
-        return f"{symbol} = {unit_of(dimension).text(value, 6)}"
+        return f"{symbol}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
 
     @property
     def has_motion(self) -> bool:
@@ -134,7 +140,11 @@ class Source:
 
     def running(self, fluctuation: float) -> SteadyRunning:
         """Steady running with a flywheel for a required fluctuation."""
-        return steady_running(self.forces, fluctuation=fluctuation) if self.result_running is None else self.result_running
+        return (
+            steady_running(self.forces, fluctuation=fluctuation)
+            if self.result_running is None
+            else self.result_running
+        )
 
     @cached_property
     def axis(self) -> InputAxis:
@@ -146,7 +156,9 @@ class Source:
                 "force_polygon, or add a driver"
             )
         if motion.steps < 2:
-            raise LinkwrightError(f"{motion.mechanism.name!r} is solved at one position only; solve a cycle to draw curves")
+            raise LinkwrightError(
+                f"{motion.mechanism.name!r} is solved at one position only; solve a cycle to draw curves"
+            )
         name, driver = next(iter(motion.mechanism.drivers.items()))
         if not all(isinstance(each.law, ConstantSpeed) for each in motion.mechanism.drivers.values()):
             end = [] if self._end is None else [self._end]

@@ -19,7 +19,11 @@ from linkwright.words import Say
 
 ANGULAR = (("angle", "θ", "angle"), ("angular_velocity", "ω", "angular_velocity"),
            ("angular_acceleration", "α", "angular_acceleration"))  # fmt: skip
-STRAIGHT = (("displacement", "s", "length"), ("velocity", "v", "velocity"), ("acceleration", "a", "acceleration"))
+STRAIGHT = (
+    ("displacement", "s", "length"),
+    ("velocity", "v", "velocity"),
+    ("acceleration", "a", "acceleration"),
+)
 
 
 @DIAGRAMS.register("sva")

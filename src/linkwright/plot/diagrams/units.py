@@ -42,7 +42,7 @@ def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
         return Unit(*_FIXED[dimension])
     largest = max((size(values) for values in arrays), default=0.0)
     prefix, factor = next(
-        (p, f) for least, p, f in _PREFIXES if largest >= least or largest == 0.0 and f == 1.0
+        (p, f) for least, p, f in _PREFIXES if largest >= least or (largest == 0.0 and f == 1.0)
     )
     return Unit(prefix + _PREFIXED[dimension], factor)
 

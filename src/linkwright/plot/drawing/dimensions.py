@@ -47,7 +47,7 @@ def dimension_lines(
 
 def length_text(metres: float) -> str:
     """``1.25 m`` from one metre upwards, ``60.5 mm`` below."""
-    return f"{metres:.6g} m" if metres >= 1.0 else f"{1000 * metres:.6g} mm"
+    return f"{metres:.6g} m" if float(f"{metres:.6g}") >= 1.0 else f"{1000 * metres:.6g} mm"
 
 
 def _ends(machine: Machine, wanted: Dimension, index: int) -> tuple[tuple[Vec, Vec], float]:
@@ -67,9 +67,9 @@ def _ends(machine: Machine, wanted: Dimension, index: int) -> tuple[tuple[Vec, V
 
 def _crossing(shape: Shape, taken: Obstacles) -> float:
     """Ink near points along a dimension line."""
-    line = np.concatenate([*shape.ink, np.zeros((0, 2))])
-    if not len(line):
+    if not shape.ink:
         return 0.0
+    line = shape.ink[0]
     share = np.linspace(0.0, 1.0, 15)[:, None]
     dots = line[0] + share * (line[-1] - line[0])
     return float(taken.under(np.hstack([dots - 4.0, dots + 4.0])).sum())

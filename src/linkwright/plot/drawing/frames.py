@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import LinkwrightError
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.svg.element import Floats
@@ -44,11 +46,11 @@ def key_indices(machine: Machine, frames: int) -> list[int]:
 
 
 def parting(machine: Machine, run: list[int]) -> float:
-    """How far links part at their common pins half-way between two keyframes, in units of the paper.
+    """How far links part at pins, and blocks leave their guides, half-way between keyframes; units of the paper.
 
     Shift and turn of each link change evenly from one keyframe to the next, so its pins run along flat arcs.
     """
-    largest = 0.0
+    largest = max((_beside_guide(machine, joint, run) for joint in machine.guides.values()), default=0.0)
     for name, joint in machine.pins.items():
         places = [
             _half_way(machine, link, machine.motion.mechanism.link(link).points[name], run)
@@ -59,15 +61,31 @@ def parting(machine: Machine, run: list[int]) -> float:
     return largest
 
 
+def _beside_guide(machine: Machine, joint: PrismaticJoint, run: list[int]) -> float:
+    """How far a block's point is from the line of its guide half-way between keyframes."""
+    link = machine.motion.mechanism.link
+    block = _half_way(machine, joint.block, link(joint.block).points[joint.at], run)
+    base = _half_way(machine, joint.guide, link(joint.guide).points[joint.through], run)
+    angle = guide_angle(machine.motion.mechanism, joint) - _half_turn(machine, joint.guide, run)
+    across = np.stack([-np.sin(angle), -np.cos(angle)], axis=1)
+    aside = ((block - base) * across).sum(axis=1) - joint.offset * machine.view.scale
+    return float(np.abs(aside).max(initial=0.0))
+
+
 def _half_way(machine: Machine, link: str, point: Vec, run: list[int]) -> Floats:
     """Where a point of a link is half-way between keyframes, on the paper, (k - 1, 2)."""
-    placed = machine.placed[link]
-    origin = machine.view.paper(placed.origin[run])
-    turn = np.unwrap(np.arctan2(placed.direction[run, 1], placed.direction[run, 0]))
-    (x, y), middle = machine.view.local(point), -(turn[1:] + turn[:-1]) / 2
+    origin = machine.view.paper(machine.placed[link].origin[run])
+    (x, y), middle = machine.view.local(point), _half_turn(machine, link, run)
     c, s = np.cos(middle), np.sin(middle)
     local = np.stack([c * x - s * y, s * x + c * y], axis=1)
     return np.asarray((origin[1:] + origin[:-1]) / 2 + local)
+
+
+def _half_turn(machine: Machine, link: str, run: list[int]) -> Floats:
+    """Turn of a link on the paper half-way between keyframes, rad, clockwise."""
+    way = machine.placed[link].direction[run]
+    turn = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+    return np.asarray(-(turn[1:] + turn[:-1]) / 2)
 
 
 def usual_seconds(motion: Motion) -> float:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,7 +23,10 @@ LEADER = 16.0
 
 @dataclass(frozen=True)
 class Label:
-    """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there."""
+    """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there.
+
+    ``point``: the point that is named, as ``link.point``.
+    """
 
     text: str
     anchors: tuple[Vec, ...]
@@ -31,25 +34,17 @@ class Label:
     size: float = 14.0
     clearance: float = 7.0
     leader: bool = True
+    point: str = ""
 
     @property
     def extent(self) -> Vec:
         """Width and height of the text."""
-        return name_width(self.short, self.size), (0.95 + self.drop) * self.size
-
-    @property
-    def short(self) -> str:
-        """``B`` of ``rocker.B``."""
-        return self.text.rsplit(".", 1)[-1]
+        return name_width(self.text, self.size), (0.95 + self.drop) * self.size
 
     @property
     def drop(self) -> float:
         """How far an index hangs below the line, in sizes."""
-        return 0.18 if split_index(self.short)[1] else 0.0
-
-    def shortened(self) -> Label:
-        """The label with ``B`` instead of ``rocker.B``."""
-        return replace(self, text=self.short)
+        return 0.18 if split_index(self.text)[1] else 0.0
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from linkwright.plot.symbols.base import Vec, points
 LINK_SIZE = 12.0
 
 
-def point_labels(machine: Machine, index: int, *, qualified: bool = False) -> Iterator[Label]:
-    """Names of all pins and points at one position; ``qualified``: as ``link.point``."""
+def point_labels(machine: Machine, index: int) -> Iterator[Label]:
+    """Names of all pins and points at one position."""
     seen: set[tuple[str, float, float]] = set()
     for link in machine.motion.mechanism.links.values():
         for point in link.points:
@@ -25,7 +25,7 @@ def point_labels(machine: Machine, index: int, *, qualified: bool = False) -> It
             key = (point, round(x), round(y))
             if key not in seen:
                 seen.add(key)
-                yield Label(f"{link.name}.{point}" if qualified else point, ((x, y),), clearance=8.0)
+                yield Label(point, ((x, y),), clearance=8.0, point=f"{link.name}.{point}")
 
 
 def link_labels(scene: Scene, index: int) -> Iterator[Label]:

@@ -7,7 +7,7 @@ import unicodedata
 
 from linkwright.plot.svg.element import Attribute, Element, element
 
-NARROW = frozenset("iljtfrI.,:;'|![]() ")
+NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
 _INDEX = re.compile(r"^(?P<stem>[^\W\d_]{1,2}'*)_?(?P<index>\d+'*)$")
 
@@ -23,8 +23,10 @@ def _share(character: str) -> float:
     if character in NARROW:
         return 0.36
     if character in WIDE:
-        return 0.95
-    return 0.7 if character.isupper() else 0.6
+        return 0.98
+    if character in "rt":
+        return 0.42
+    return 0.7 if character.isupper() else 0.64
 
 
 def split_index(name: str) -> tuple[str, str]:

@@ -27,11 +27,11 @@ def dimension_line(*, start: Vec = (0.0, 0.0), end: Vec = (80.0, 0.0), offset: f
     inside = length > 24.0
     back = (-along[0], -along[1])
     stroke = line if inside else placed([(-16, offset), (length + 16, offset)], start, along)
+    extensions = tuple(placed([(x, gap), (x, over)], start, along) for x in (0.0, length))
     elements = (
         path(stroke, "lw-dimension"),
-        path(placed([(0, gap), (0, over)], start, along), "lw-dimension"),
-        path(placed([(length, gap), (length, over)], start, along), "lw-dimension"),
+        *(path(line, "lw-dimension") for line in extensions),
         head(first, back if inside else along, 8.0, "lw-dimension-head"),
         head(last, along if inside else back, 8.0, "lw-dimension-head"),
     )
-    return Shape(elements, (points(stroke),))
+    return Shape(elements, (points(stroke), *extensions))

@@ -1,0 +1,26 @@
+"""Closed loops of a MuJoCo model: constraints at the joints where the Assur groups are cut."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+
+from linkwright.export.mjcf.bodies import Bodies
+from linkwright.export.results import Results
+
+
+def loops(results: Results, bodies: Bodies) -> ET.Element:
+    """A ``connect`` for each cut pin, a ``weld`` to the rider of each cut guide and for each cut weld."""
+    equality = ET.Element("equality")
+    for group in results.structure.groups:
+        for cut in group.cuts:
+            name = f"{cut.joint}.{cut.b}"
+            if cut.kind == "revolute":
+                ET.SubElement(
+                    equality, "connect", name=name, site1=f"{cut.a}.{cut.joint}", site2=f"{cut.b}.{cut.joint}"
+                )
+            elif cut.kind == "prismatic":
+                ET.SubElement(equality, "weld", name=name, body1=f"{cut.joint}.rider", body2=cut.b)
+            else:
+                a, b = (link if link != "frame" else "world" for link in (cut.a, cut.b))
+                ET.SubElement(equality, "weld", name=name, body1=a, body2=b)
+    return equality

@@ -1,0 +1,34 @@
+"""Numbers and text of a MuJoCo model."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable
+
+import numpy as np
+
+from linkwright.kinematics.motion import Motion
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Numbers with all their digits, apart by spaces."""
+    return " ".join(f"{float(value) + 0.0:.17g}" for value in values)
+
+
+def seconds(motion: Motion) -> float:
+    """Duration of the motion, s; 1 s where there is none."""
+    if motion.positions.period:
+        return float(motion.positions.period)
+    return float(np.ptp(motion.time)) or 1.0
+
+
+def written(root: ET.Element) -> bytes:
+    """The indented XML document."""
+    ET.indent(root)
+    for element in root.iter():
+        for name, value in element.attrib.items():
+            element.attrib[name] = _CONTROL.sub("", value)
+    return ET.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"

@@ -1,0 +1,199 @@
+"""The work of one sweep: block by block, plain designs together, others one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.states import states_as_fields
+from linkwright.engine.sweep import Backend, Progress, Results
+from linkwright.engine.sweep import sweep as engine_sweep
+from linkwright.engine.threads import chunks
+from linkwright.kinematics.cycle import Positions
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.following import Following
+from linkwright.study.loads import OneByOne, changes_of
+from linkwright.study.summary import Summary, finished, reductions
+from linkwright.study.swing_loads import SwingLoads, swings
+from linkwright.study.traced import NEAREST, VALID, Traced
+
+Floats = NDArray[np.float64]
+Counts = NDArray[np.int64]
+
+#: Designs of one block, and of one whose inputs are found design by design.
+BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
+#: Designs that come nearer to a change point than this are looked at one by one, as many as this.
+NEAR, LOOKED_AT = 1e-3, 2000
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a sweep is done; see :func:`linkwright.study.designs.sweep`."""
+
+    partial: bool = False
+    threads: int | None = None
+    backend: Backend = "auto"
+    progress: Progress | None = None
+
+
+class SweepRun:
+    """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        columns: Mapping[str, Floats],
+        asked: tuple[Summary, ...],
+        positions: Positions,
+        manner: Manner,
+    ) -> None:
+        self.mechanism, self.columns, self.asked = mechanism, columns, asked
+        self.positions, self.manner = positions, manner
+        self.designs = len(next(iter(columns.values())))
+        self.traced = Traced(mechanism, columns, positions)
+        names = [summary.output for summary in asked]
+        self.quantities = self.traced.quantities(names)
+        self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
+        self.program = self.traced.program(self.quantities)
+        self.unloaded: dict[int, str] = {}
+        self.looked_at = self.left_out = 0
+        alone = self.program.fields or self.traced.nominal.modes
+        self.follow = Following(self.traced, names) if self.program.states and not alone else None
+        self.alone = bool(alone)
+
+    def swept(self) -> tuple[Counts, dict[Summary, Floats]]:
+        """Assembled positions (designs,), and every summary (designs,)."""
+        assembled = np.zeros(self.designs, dtype=np.int64)
+        values = {summary: np.empty(self.designs) for summary in self.asked}
+        for first, end in chunks(self.designs, LOADED_BLOCK if self.alone else BLOCK):
+            results = self._block(
+                {address: column[first:end] for address, column in self.columns.items()}, first
+            )
+            assembled[first:end] = results["valid.count"]
+            for summary, into in values.items():
+                found = finished(summary, self.quantities[summary.output], results, self._input())
+                if not self.manner.partial:
+                    found[results["valid.count"] != self.positions.count] = np.nan
+                into[first:end] = found
+            if self.manner.progress is not None:
+                self.manner.progress(end, self.designs)
+        for into in values.values():
+            into[list(self.unloaded)] = np.nan
+        return assembled, values
+
+    def notes(self) -> tuple[str, ...]:
+        """What the user should know about change points."""
+        notes = self.traced.nominal.notes
+        if self.left_out:
+            notes += (
+                f"{self.left_out} designs pass so close to a singular position that they may pass a change point "
+                "between two positions; they were taken to keep their assembly mode",
+            )
+        return notes
+
+    def _input(self) -> Floats:
+        rows = [rows[0] for rows in self.positions.coordinates.values()]
+        return rows[0] if rows else np.zeros(1)
+
+    def _block(self, part: Mapping[str, Floats], first: int) -> Results:
+        if self.follow is not None:
+            return self.follow.block(part, self.reductions, self.manner.threads, self.manner.backend)
+        numbers = np.arange(first, first + len(next(iter(part.values()))))
+        if self.traced.nominal.modes:
+            return self._noted(self._one_by_one(self._flipping, part), numbers)
+        if self.alone:
+            results = self._noted(self._one_by_one(self._single, part), numbers)
+        else:
+            results = self._reduced(self.traced, self.program, part, {})
+        return self._through_change_points(results, part, first)
+
+    def _one_by_one(self, source: OneByOne, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
+        """Two passes: the motion of each design with its loads, then the summaries of the block."""
+        program = _fed(source.traced.program(source.traced.quantities(self.quantities)))
+        if not source.flipping and not self.manner.partial and swings(source.traced, program.fields, part):
+            rows, failed = self._swinging(source, program.fields, part)
+        else:
+            rows, failed = source.rows(program.fields, part)
+        return self._reduced(source.traced, program, part, rows), failed
+
+    def _swinging(
+        self, source: OneByOne, names: tuple[str, ...], part: Mapping[str, Floats]
+    ) -> tuple[dict[str, Floats], dict[int, str]]:
+        """Loads between limit positions, all designs together; those that are not certain one by one."""
+        rows, unsure = self._swing_loads.rows(names, part)
+        if not len(unsure):
+            return rows, {}
+        own, failed = source.rows(names, {address: column[unsure] for address, column in part.items()})
+        for name, found in own.items():
+            rows[name][unsure] = found
+        return rows, {int(unsure[index]): sentence for index, sentence in failed.items()}
+
+    @cached_property
+    def _swing_loads(self) -> SwingLoads:
+        return SwingLoads(self.traced)
+
+    def _noted(self, found: tuple[Results, dict[int, str]], numbers: NDArray[np.intp]) -> Results:
+        """The results; sentences of designs that failed are kept under their numbers in the whole sweep."""
+        results, failed = found
+        self.unloaded.update({int(numbers[index]): sentence for index, sentence in failed.items()})
+        return results
+
+    @cached_property
+    def _single(self) -> OneByOne:
+        """For designs whose loads follow their own motion."""
+        return OneByOne(self.traced)
+
+    @cached_property
+    def _flipping(self) -> OneByOne:
+        """For designs that pass change points."""
+        return OneByOne(Traced(self.mechanism, self.columns, self.positions, flipping=True), flipping=True)
+
+    def _through_change_points(self, results: Results, part: Mapping[str, Floats], first: int) -> Results:
+        """The same results, those of designs that touch a change point between two positions done again."""
+        with np.errstate(invalid="ignore"):
+            near = np.flatnonzero(
+                (np.asarray(results[f"{NEAREST}.min"]) < NEAR)
+                & (results["valid.count"] == self.positions.count)
+            )
+        room = max(0, LOOKED_AT - self.looked_at)
+        self.left_out += max(0, len(near) - room)
+        near = near[:room]
+        self.looked_at += len(near)
+        touching = [i for i in near.tolist() if self._flipping.motion(changes_of(part, i)).modes]
+        if touching:
+            numbers = np.array(touching)
+            found = self._one_by_one(self._flipping, {a: c[numbers] for a, c in part.items()})
+            again = self._noted(found, first + numbers)
+            for name, column in again.items():
+                results[name][numbers] = column
+        return results
+
+    def _reduced(
+        self, traced: Traced, program: Program, part: Mapping[str, Floats], rows: Mapping[str, Floats]
+    ) -> Results:
+        return engine_sweep(
+            program,
+            traced.table(program, part),
+            self.positions.arrays,
+            self.reductions,
+            fields=rows,
+            valid=VALID,
+            threads=self.manner.threads,
+            backend=self.manner.backend,
+        )
+
+
+def _fed(program: Program) -> Program:
+    """The same program with states and signs of assembly modes as inputs per design and position."""
+    program = states_as_fields(program) if program.states else program
+    nodes = tuple(
+        replace(node, op="field") if node.op == "position" and node.name.startswith("mode:") else node
+        for node in program.nodes
+    )
+    return Program(nodes, program.outputs, program.next_states)

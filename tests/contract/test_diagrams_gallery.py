@@ -1,0 +1,65 @@
+"""Every gallery file: all its standard diagrams are drawn without a warning, or refused with a sentence."""
+
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.errors import LinkwrightError
+from linkwright.plot import plot
+
+NAMES = sorted(
+    each.name.removesuffix(".yaml")
+    for each in files("linkwright.gallery").iterdir()
+    if each.name.endswith(".yaml")
+)
+#: Kinds that are written as pictures for every file; the others, of the same make, are laid out only.
+WRITTEN = ("sva", "torque", "reactions", "hodograph", "paths", "acceleration_polygon")
+OF_MOTION = ("sva", "angles", "paths")
+OF_FORCES = ("torque", "power", "energy", "speed", "reactions", "hodograph", "shaking", "force_polygon")
+#: What a refusal may say: the diagram makes no sense for the machine.
+REASONS = (
+    "has no driver", "carries a force", "mean torque", "no link of", "one turning driver", "does not turn at constant",
+    "is not whole turns", "does not reach all", "pass a change point", "change point", "nothing moves", "no load",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def motion(request: pytest.FixtureRequest) -> lw.Motion:
+    return lw.solve_motion(lw.load(f"gallery:{request.param}"), steps=120, failures="mark")
+
+
+def drawn(result: object, kind: str, **options: object) -> bool:
+    """Whether a diagram is drawn; a refusal must be one of those that are meant."""
+    try:
+        diagram = plot(result, kind, **options)  # type: ignore[arg-type]
+    except LinkwrightError as problem:
+        assert any(reason in str(problem) for reason in REASONS), problem
+        return False
+    if kind in WRITTEN:
+        assert diagram.svg().rstrip().endswith("</svg>")
+    return True
+
+
+def test_motion_is_drawn(motion: lw.Motion) -> None:
+    made = [drawn(motion, kind) for kind in OF_MOTION]
+    assert made[0] == bool(motion.mechanism.drivers)
+
+
+def test_polygons_are_drawn(motion: lw.Motion) -> None:
+    if not motion.mechanism.drivers:
+        return
+    good = int(np.flatnonzero(motion.ok)[len(np.flatnonzero(motion.ok)) // 3])
+    steady = all(type(driver.law).__name__ == "ConstantSpeed" for driver in motion.mechanism.drivers.values())
+    place = float((motion.input if steady else motion.time)[good])
+    for kind in ("velocity_polygon", "acceleration_polygon"):
+        assert drawn(motion, kind, at=place)
+
+
+def test_forces_are_drawn(motion: lw.Motion) -> None:
+    forces = lw.solve_forces(motion)
+    made = {kind: drawn(forces, kind) for kind in OF_FORCES}
+    masses = any(link.mass for link in motion.mechanism.links.values())
+    if (masses or motion.mechanism.loads) and motion.mechanism.drivers:
+        assert made["torque"] and made["power"] and made["reactions"] and made["hodograph"]
