@@ -64,7 +64,7 @@ def test_crusher_prints_the_published_jaw_motion_by_default(
 def test_angles_are_in_degrees_unless_si_is_asked_for(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("COLUMNS", "100")
     assert main(["solve", CRUSHER]) == 0
     shown = capsys.readouterr().out
     rows = np.array(table_rows(shown))

@@ -216,3 +216,34 @@ loads:
     for index, value in enumerate(varied):
         torque = lw.solve_forces(mechanism.with_dimensions({"crank.A.x": float(value)})).input_torque
         assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("model", "load", "varied"),
+    [
+        (
+            "crank_rocker",
+            "{kind: force, on: rocker, at: B, direction: 20 deg, ramp: [10 N, 200 N], phase: {of: rocker, from: min, to: max}}",
+            {"coupler.length": (3.0, 4.0), "loads.push.ramp.1": (100.0, 300.0)},
+        ),
+        (
+            "crank_rocker",
+            "{kind: force, on: rocker, at: B, direction: 20 deg, magnitude: 80 N, phase: {of: rocker, from: max, to: min}}",
+            {"crank.length": (0.8, 1.2)},
+        ),
+        (  # the limits of an in-line slider-crank lie on positions, where the rate is zero but for rounding
+            "slider_crank_inline",
+            "{kind: force, on: piston, at: B, direction: 0 deg, ramp: [0 N, 9 kN], phase: {of: cylinder, from: max, to: min}}",
+            {"rod.length": (0.15, 0.25)},
+        ),
+    ],
+)
+def test_loads_between_limit_positions(model: str, load: str, varied: dict[str, tuple[float, float]]) -> None:
+    mechanism = lw.loads(f"{lw.dump(lw.load(f'gallery:{model}'))}\nloads: {{push: {load}}}\n")
+    columns = {address: np.linspace(*ends, 4) for address, ends in varied.items()}
+    found = sweep(mechanism, columns, outputs=["driver.effort rms", "load push max"])
+    for index in range(4):
+        forces = lw.solve_forces(mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()}))
+        torque = forces.input_torque
+        assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)
+        assert found["load push max"][index] == pytest.approx(forces.load("push").magnitude.max(), rel=1e-9)

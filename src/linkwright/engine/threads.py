@@ -61,6 +61,7 @@ def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], 
     try:
         drain()
     finally:
-        wait(futures)
-    for future in futures:
+        begun = [future for future in futures if not future.cancel()]
+        wait(begun)
+    for future in begun:
         future.result()

@@ -8,7 +8,6 @@ from linkwright.worked.digits import digits_needed, error_of, last_place, printe
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
 
-
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
 FADED = 1e-9
 

@@ -58,16 +58,27 @@ def _equation(item: Equation, margin: int) -> Iterator[str]:
 
 
 def _long(start: str, text: str, indent: str) -> Iterator[str]:
-    """A side of an equation, broken before a plus or a minus where it is too wide."""
+    """A side of an equation, broken before a plus or a minus between its terms where it is too wide."""
     line = start
-    tokens = text.replace(" + ", "\0+ ").replace(" - ", "\0- ").split("\0")
-    for i, token in enumerate(tokens):
-        glue = "" if i == 0 else " "
+    for i, token in enumerate(_terms(text)):
         if i and width(line) + width(token) + 1 > WIDTH:
             yield line
-            line, glue = f"{indent}     ", ""
-        line += glue + token
+            line = f"{indent}     {token}"
+        else:
+            line += (" " if i else "") + token
     yield line
+
+
+def _terms(text: str) -> list[str]:
+    """Parts that begin with a plus or a minus in at most one pair of parentheses."""
+    parts, depth = [""], 0
+    for word in text.split(" "):
+        if word in ("+", "-") and depth <= 1:
+            parts.append(word)
+        else:
+            parts[-1] += f" {word}" if parts[-1] else word
+        depth += word.count("(") - word.count(")")
+    return parts
 
 
 def wrapped(text: str) -> Iterator[str]:
