@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sections: list[Section] = []
     heads = [f"- {line}" for line in [*machine.description(), *missing_compiler()]]
     heads.append(
-        f"- {size.rounds} rounds; {machine.load():.1f} other processes at work at the start, on average"
+        f"- {size.rounds} rounds; {machine.load():.1f} processes at work in the minute before, on average"
     )
     print("\n".join(heads), flush=True)
     for name in options.only or SECTIONS:

@@ -17,7 +17,7 @@ Number = Any
 
 
 def _mp() -> Any:
-    import mpmath
+    import mpmath  # type: ignore[import-untyped, unused-ignore]
 
     mpmath.mp.dps = DIGITS
     return mpmath.mp
@@ -61,7 +61,7 @@ def _loop(u: Number, w: Number, right: Number) -> tuple[Number, Number]:
     return x, y
 
 
-def fourbar_row(cosine: Number, sine: Number, design: Sequence[float]) -> list[Number]:
+def fourbar_row(cosine: Number, sine: Number, design: Sequence[float] | Floats) -> list[Number]:
     """The outputs of W2 at one position."""
     mp = _mp()
     crank, speed, ground, coupler, rocker, side, u, v = (mp.mpf(float(x)) for x in design)
@@ -81,7 +81,7 @@ def _components(pins: list[Body]) -> list[Number]:
     return [part for kind in kinds for pin in pins for part in (kind(pin).real, kind(pin).imag)]
 
 
-def sixbar_row(cosine: Number, sine: Number, design: Sequence[float]) -> list[Number]:
+def sixbar_row(cosine: Number, sine: Number, design: Sequence[float] | Floats) -> list[Number]:
     """The outputs of W3 at one position."""
     mp = _mp()
     row = [mp.mpf(float(x)) for x in design]

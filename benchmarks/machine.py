@@ -45,7 +45,7 @@ def _compiler() -> str:
 
 
 def load() -> float:
-    """Processes that wanted to run in the last minute, on average; NaN where the system does not tell."""
+    """Processes that wanted to run in the last minute, on average, this one too; NaN where that is not told."""
     return os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
 
 

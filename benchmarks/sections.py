@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from benchmarks import by_c, by_numpy, kernels_alone, public
+from benchmarks import by_c, by_numpy, kernels_alone, machine, public
 from benchmarks.cases import Work, fourbar, sixbar
 from benchmarks.gradients import BOTH, VALUE, GradientWork
 from benchmarks.kernels_alone import COMPILED, HAND, C
@@ -41,6 +41,13 @@ QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3)
 def _agreement(gaps: Mapping[str, float]) -> str:
     told = ", ".join(f"{way} {gap:.1e}" for way, gap in gaps.items())
     return f"largest relative difference from {HAND}: {told}"
+
+
+def _crowded() -> list[str]:
+    """What is said where two threads cannot have had a core each."""
+    if machine.load() < 1.5:
+        return []
+    return ["other processes were at work, so the figures of two threads are below what a free machine gives"]
 
 
 def _peers(peers: list[Peer]) -> list[Candidate]:
@@ -106,7 +113,8 @@ def sweeps(name: str, size: Size) -> Section:
     configurations = len(sweep.designs) * size.steps
     title = f"W4: {len(sweep.designs)} {what}, {size.steps} positions"
     header, rows = timings(rounds, _reference(candidates), "ms", configurations)
-    return Section(title, header, rows, goals, [_agreement(sweep.disagreement()), *missing])
+    notes = [_agreement(sweep.disagreement()), *_crowded(), *missing]
+    return Section(title, header, rows, goals, notes)
 
 
 def gradients(size: Size) -> Section:

@@ -13,7 +13,7 @@ from benchmarks.timing import Candidate
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.sweep import sweep
+from linkwright.engine.sweep import Backend, sweep
 
 TWO, NUMPY_ROUTE = "linkwright, compiled, two threads", "linkwright, NumPy route"
 #: The share of the designs that slow candidates do.
@@ -35,7 +35,7 @@ class SweepWork:
         self.table = work.table(self.program, self.designs)
         self.arrays = {key: work.positions.arrays[key] for key in self.program.positions}
 
-    def ours(self, table: Floats, backend: str, threads: int) -> dict[str, Floats]:
+    def ours(self, table: Floats, backend: Backend, threads: int) -> dict[str, Floats]:
         """Summaries by the package."""
         return sweep(  # type: ignore[return-value]
             self.program,
@@ -43,7 +43,7 @@ class SweepWork:
             self.arrays,
             self.reductions,
             backend=backend,
-            threads=threads,  # type: ignore[arg-type]
+            threads=threads,
         )
 
     def few(self) -> int:
@@ -79,8 +79,8 @@ class SweepWork:
         """Largest difference of each way's summaries from NumPy by hand, relative."""
         few = self.few()
         truth = self.by_hand(self.designs[:few])
-        backends = ["numpy", *(["llvm"] if available() else [])]
-        ways = {}
+        backends: tuple[Backend, ...] = ("numpy", "llvm") if available() else ("numpy",)
+        ways: dict[str, Floats] = {}
         for backend in backends:
             results = self.ours(self.table[:few], backend, 1)
             assert (results["valid.count"] == self.work.positions.count).all()

@@ -83,7 +83,8 @@ class _Crusher:
         pull = self.speed**2 * self.crank * _unit(angle) + w[0] ** 2 * a * _unit(x[0])
         first = pull - w[1] ** 2 * b * _unit(x[1])
         second = pull + w[2] ** 2 * c * _unit(x[2]) - w[3] ** 2 * d * _unit(x[3])
-        return w, np.linalg.solve(jacobian, np.concatenate([first, second]))
+        g = np.linalg.solve(jacobian, np.concatenate([first, second]))
+        return np.asarray(w, dtype=float), np.asarray(g, dtype=float)
 
     def forces(self, x: Floats, w: Floats, g: Floats, angle: float) -> Floats:
         """Unknowns: O1, A, B (pitman), B (toggle), C, O3, O5, torque."""
@@ -114,7 +115,7 @@ class _Crusher:
             m, row = self.masses[link], 3 * link + 3
             right[row : row + 2] = m * (accelerations[link] + np.array([0.0, self.gravity]))
             right[row + 2] = self.inertias[link] * g[link]
-        return np.linalg.solve(matrix, right)
+        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
 
 
 def sixbar(work: Work) -> list[Peer]:

@@ -47,12 +47,13 @@ def _system(work: Work) -> tuple[Any, dict[str, Any]]:
 def _choose_modes(system: Any, pins: Mapping[str, Any], angles: Floats, truth: tuple[Floats, ...]) -> None:
     """The assembly modes whose point C is ours."""
     keys = list(system._object.signs)
-    gaps = {}
+    gaps: dict[tuple[int, ...], float] = {}
     for signs in itertools.product((1, -1), repeat=len(keys)):
         system.change_signs(dict(zip(keys, signs, strict=True)))
         system.solve_kinematics(angles.copy())
         gaps[signs] = float(np.nanmax(np.abs(pins["C"].point - np.stack(truth[4:6]))))
-    system.change_signs(dict(zip(keys, min(gaps, key=lambda each: gaps[each]), strict=True)))
+    best = min(gaps, key=lambda each: gaps[each])
+    system.change_signs(dict(zip(keys, best, strict=True)))
 
 
 def sixbar(work: Work) -> list[Peer]:

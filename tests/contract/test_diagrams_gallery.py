@@ -1,5 +1,6 @@
 """Every gallery file: all its standard diagrams are drawn without a warning, or refused with a sentence."""
 
+import re
 from importlib.resources import files
 
 import numpy as np
@@ -20,9 +21,9 @@ OF_MOTION = ("sva", "angles", "paths")
 OF_FORCES = ("torque", "power", "energy", "speed", "reactions", "hodograph", "shaking", "force_polygon")
 #: What a refusal may say: the diagram makes no sense for the machine.
 REASONS = (
-    "has no driver", "carries a force", "mean torque", "no link of", "one turning driver", "does not turn at constant",
-    "is not whole turns", "does not reach all", "pass a change point", "change point", "nothing moves", "no load",
-)  # fmt: skip
+    "has no driver|carries a force|mean torque|no link of|one turning driver|does not turn at constant"
+    "|is not whole turns|does not reach all|change point"
+)
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -35,7 +36,11 @@ def drawn(result: object, kind: str, **options: object) -> bool:
     try:
         diagram = plot(result, kind, **options)  # type: ignore[arg-type]
     except LinkwrightError as problem:
-        assert any(reason in str(problem) for reason in REASONS), problem
+        refusal = str(problem)
+    else:
+        refusal = ""
+    if refusal:
+        assert re.search(REASONS, refusal), refusal
         return False
     if kind in WRITTEN:
         assert diagram.svg().rstrip().endswith("</svg>")

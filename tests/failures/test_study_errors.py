@@ -49,6 +49,23 @@ def test_what_a_study_cannot_vary(vary: dict[str, Any], words: list[str]) -> Non
         assert word in text
 
 
+@pytest.mark.parametrize(
+    ("address", "given", "unit"),
+    [
+        ("loads.crushing.ramp.1", "50..90", "N"),
+        ("loads.crushing.ramp.1", "50..90 kg", "N"),
+        ("driver.speed", "100..200", "rad/s"),
+        ("driver.speed", "1..2 m/s", "rad/s"),
+        ("gravity.y", "-9..-10", "m/s²"),
+        ("jaw.D.x", "0.5..0.7", "m"),
+        ("pitman.inertia", "20..30 kg", "kg·m²"),
+    ],
+)
+def test_every_number_needs_its_unit(address: str, given: str, unit: str) -> None:
+    text = said(lambda: study(lw.load(SIX), {address: given}, metrics=["travel"]))
+    assert address in text and text.endswith(f"such as {unit}")
+
+
 def test_bounds_that_make_no_design_movable() -> None:
     text = said(lambda: study(machine(), {"coupler.length": "20..30 m:5"}, metrics=["travel"]))
     assert "none of the 5 designs" in text

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.plot.animation import animate
-from linkwright.plot.drawing.frames import frame_indices
+from linkwright.plot.drawing.frames import frame_indices, parting
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -48,6 +48,23 @@ def test_keyframes_follow_the_links(crusher: lw.Motion) -> None:
     jaw = np.degrees(crusher.link("jaw").angle)[[*range(0, 72, 3), 0]]
     assert any(np.allclose(np.diff(each), -np.diff(jaw), atol=0.02) for each in turns)
     assert {e.get("repeatCount") for e in root.iter(f"{SVG}animateTransform")} == {"indefinite"}
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "peaucellier", "oldham_coupling", "dyad_rpp"])
+def test_few_frames_do_not_part_the_pins(name: str) -> None:
+    animation = animate(lw.load(f"gallery:{name}"), frames=6)
+    machine = animation.scene.machine
+    assert parting(machine, list(animation.run)) > 2.6 > 1.31 > parting(machine, list(animation.keys))
+
+
+def test_loads_and_joint_forces_keep_their_colours_in_a_gif(crusher: lw.Motion, tmp_path: Path) -> None:
+    pytest.importorskip("resvg_py")
+    image = pytest.importorskip("PIL.Image")
+    animation = animate(crusher, forces=lw.solve_forces(crusher), frames=4, seconds=1)
+    with image.open(animation.save(tmp_path / "a.gif", width=500)) as picture:
+        seen = {colour for _, colour in picture.convert("RGB").getcolors(1 << 20)}
+    for colour in ((0xC6, 0x28, 0x28), (0x7B, 0x1F, 0xA2)):  # red of reactions, purple of loads
+        assert any(max(abs(a - b) for a, b in zip(colour, each, strict=True)) < 12 for each in seen)
 
 
 def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:

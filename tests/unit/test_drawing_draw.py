@@ -11,7 +11,8 @@ import pytest
 import linkwright as lw
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import Drawing, draw
-from linkwright.plot.drawing.limits import limit_positions
+from linkwright.plot.drawing.beside import at_input, at_time, with_limits
+from linkwright.plot.drawing.limits import limits_of
 from linkwright.plot.drawing.vectors import round_length, with_unit
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -129,16 +130,59 @@ def test_velocity_arrows_are_to_scale(crusher: lw.Motion) -> None:
         assert abs((tip - foot) - unit * complex(vx, -vy)) < 0.2
 
 
-def test_limit_positions_of_the_jaw(crusher: lw.Motion) -> None:
-    high, low = limit_positions(crusher, "jaw")
-    assert (high, low) == (limit_positions(crusher))
-    printed = np.degrees([-89.862115, -272.43420]) * 0 + [
-        -89.862115,
-        -272.43420,
-    ]  # of the gallery file, degrees
-    assert np.allclose(np.degrees(crusher.input[[high, low]]), printed, atol=2.5)
-    assert classes(draw(crusher, overlay="limits")).count("lw-dashed") == 2
+def test_limit_positions_of_the_jaw_are_exact(crusher: lw.Motion) -> None:
+    high, low = limits_of(crusher)
+    assert (high, low) == limits_of(crusher, "jaw")
+    printed = [-89.862115, -272.43420]  # of the gallery file, degrees
+    assert np.degrees([high.input, low.input]) == pytest.approx(printed, abs=1e-4)
+    denser, indices = with_limits(crusher, (high, low))
+    assert denser.steps == crusher.steps + 2
+    rates = denser.link("jaw").angular_velocity
+    assert np.abs(rates[indices]).max() < 1e-9 * np.abs(rates).max()
+    assert sorted(denser.input[indices]) == pytest.approx(sorted([high.input, low.input]), abs=1e-12)
+
+
+def test_limit_positions_are_drawn_there(crusher: lw.Motion) -> None:
+    high, _ = limits_of(crusher)
+    exact = circles_on_paper(draw(crusher, at=high.input, labels=False), "lw-pin")
+    drawing = draw(crusher, overlay="limits", labels=False)
+    everything = np.array(circles_on_paper(drawing, "lw-pin"))
+    for x, y in exact:
+        assert np.hypot(*(everything - (x, y)).T).min() < 0.02
     assert classes(draw(crusher, overlay=(5, 10, 15))).count("lw-faded") == 3
+    assert classes(draw(crusher, overlay="faded:8")).count("lw-faded") == 8
+
+
+def test_position_at_an_input_or_a_time(crusher: lw.Motion) -> None:
+    speed = -170.0 * 2 * math.pi / 60  # rad/s, of the gallery file
+    for shown in (at_input(crusher, math.radians(30)), at_time(crusher, math.radians(30) / speed)):
+        angle = shown.motion.link("crank").angle[shown.index]
+        assert (math.degrees(angle) - 30) % 360 == pytest.approx(0.0, abs=1e-8) or (
+            math.degrees(angle) - 30
+        ) % 360 == pytest.approx(360.0, abs=1e-8)
+    x, y = 0.1 * math.cos(math.radians(30)), 0.1 * math.sin(math.radians(30))
+    drawing = draw(crusher, at=math.radians(30), labels=False)
+    pins = np.array(circles_on_paper(drawing, "lw-pin"))
+    far = np.hypot(0.94, 1.0)  # O1 to O3, m
+    o1 = pins[np.argmin(np.hypot(*pins.T))]
+    o3 = pins[np.argmax(pins[:, 0])]
+    scale = np.hypot(*(o3 - o1)) / far
+    assert np.hypot(*(pins - (o1 + np.array([x, -y]) * scale)).T).min() < 0.05
+
+
+def test_position_keeps_the_assembly_beyond_a_change_point() -> None:
+    mechanism = lw.load("gallery:change_point_fourbar")  # its links line up at 180 degrees
+    motion = lw.solve_motion(mechanism, at=np.radians(np.arange(0.0, 352.0, 4.0)), failures="mark")
+    for degrees in (131.3, 223.7, 250.1, 301.1):
+        shown = at_input(motion, math.radians(degrees))
+        near = int(np.argmin(np.abs((motion.input - math.radians(degrees) + np.pi) % (2 * np.pi) - np.pi)))
+        there = shown.motion.link("rocker").angle[shown.index]
+        assert abs(math.remainder(there - motion.link("rocker").angle[near], 2 * np.pi)) < 0.2
+
+
+def test_only_one_position_is_drawn(crusher: lw.Motion) -> None:
+    with pytest.raises(lw.LinkwrightError, match="one of position, at and time"):
+        draw(crusher, at=0.1, time=0.2)
 
 
 def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
@@ -159,6 +203,9 @@ def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
         ({"paths": ("Bb",)}, "Bb"),
         ({"overlay": "limit"}, '"limits"'),
         ({"overlay": "limits:jam"}, "jam"),
+        ({"overlay": "limits:crank"}, "does not turn back"),
+        ({"overlay": "faded:0"}, "faded:0"),
+        ({"dimensions": ("jam",), "at": 0.1}, "jam"),
         ({"language": "de"}, '"de"'),
         ({"size": -3}, "pixels above 0"),
         ({"dimensions": ("jam",)}, "jam"),
@@ -176,13 +223,27 @@ def test_forces_of_another_motion_are_refused(crusher: lw.Motion) -> None:
         draw(crusher, forces=other)
 
 
+STUCK = """
+format: 1
+name: Stuck four-bar
+frame: {points: {O1: [0 m, 0 m], O2: [2 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 0.9 m}
+  coupler: {points: [A, B], length: 1.2 m}
+  rocker: {points: [O2, B], length: 1.5 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 10 rad/s, start: 170 deg}
+"""
+
+
 def test_position_that_was_not_reached_is_refused() -> None:
-    motion = lw.solve_motion(lw.load("gallery:change_point_fourbar"), steps=36, failures="mark")
-    failed = int(np.flatnonzero(~motion.ok)[0]) if not motion.ok.all() else None
-    if failed is None:
-        pytest.skip("all positions of this model are reached")
-    with pytest.raises(lw.LinkwrightError, match=f"position {failed} cannot be drawn"):
-        draw(motion, position=failed)
+    """At 170 degrees A is 2.89 m from O2, farther than 1.2 m and 1.5 m reach."""
+    motion = lw.solve_motion(lw.loads(STUCK), steps=36, failures="mark")
+    with pytest.raises(lw.LinkwrightError, match="position 0 cannot be drawn"):
+        draw(motion, position=0)
+    with pytest.raises(lw.LinkwrightError, match="the position cannot be drawn"):
+        draw(motion, at=math.radians(180))
+    assert len(circles_on_paper(draw(motion), "lw-pin")) == 4  # the first that is reached
 
 
 def test_names_from_a_file_cannot_break_the_picture() -> None:
@@ -217,6 +278,34 @@ loads:
   drag: {kind: torque, on: rocker, magnitude: -3 N·m}
   coil: {kind: torsion_spring, links: [frame, crank], stiffness: 3 N·m/rad, free_angle: 0 deg}
 """
+
+
+PRESSED = """
+format: 1
+name: Engine with dampers
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.5 m}
+  rod: {points: [A, B], length: 1.8 m}
+  piston: {points: [B]}
+joints:
+  bore: {kind: prismatic, guide: frame, through: O, block: piston, at: B, direction: 0 deg}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  gas: {kind: pressure, joint: bore, area: 20 cm², magnitude: 5 bar, pushes: PUSHES}
+  drag: {kind: torsion_damper, links: [frame, crank], damping: 1 N·m·s/rad}
+"""
+
+
+@pytest.mark.parametrize(("pushes", "sign"), [("backward", -1), ("forward", 1)])
+def test_pressure_and_torsion_damper_have_symbols(pushes: str, sign: int) -> None:
+    root = ET.fromstring(draw(lw.loads(PRESSED.replace("PUSHES", pushes)), labels=False).svg)
+    heads = [e.get("d", "") for e in root.iter() if e.get("class") == "lw-load-head"]
+    assert len(heads) == 3
+    for head in heads:
+        tip, *back = [float(x) for x in re.findall(r"-?[\d.]+", head)][::2]
+        assert (tip - back[0]) * sign > 0  # the block is on the right of the crank, forward is to the right
+    assert [e.get("class") for e in root.iter()].count("lw-spring") == 4
 
 
 def test_weld_springs_and_torques_have_symbols() -> None:
@@ -291,3 +380,40 @@ def test_chinese_needs_a_font(crusher: lw.Motion, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("linkwright.plot.svg.fonts.system_fonts", lambda: (Path("DejaVuSans.ttf"),))
     with pytest.raises(lw.LinkwrightError, match="fonts-noto-cjk"):
         draw(crusher, velocities=("B",), language="zh").png()
+
+
+def test_notebooks_show_the_drawing() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    motion = lw.solve_motion(mechanism, steps=12)
+    for shown in (mechanism, motion, lw.solve_forces(motion)):
+        picture = shown._repr_svg_()
+        assert picture is not None
+        assert ET.fromstring(picture).tag == f"{SVG}svg"
+
+
+def test_notebooks_show_nothing_of_what_cannot_be_assembled() -> None:
+    text = """
+format: 1
+name: too short
+frame: {points: {O1: [0 m, 0 m], O2: [9 m, 0 m]}}
+links: {crank: {points: [O1, A], length: 1 m}, rod: {points: [A, B], length: 1 m},
+  rocker: {points: [O2, B], length: 1 m}}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 1 rad/s}
+"""
+    mechanism = lw.loads(text)
+    assert mechanism._repr_svg_() is None
+    assert lw.solve_motion(mechanism, steps=8, failures="mark")._repr_svg_() is None
+
+
+def test_labels_of_dimensions_keep_clear_of_their_lines() -> None:
+    drawing = draw(lw.load("gallery:fourbar_lecture"), dimensions=("rocker",))
+    root = ET.fromstring(drawing.svg)
+    (text,) = [e for e in root.iter(f"{SVG}text") if e.get("class") == "lw-value"]
+    assert "".join(text.itertext()) == "177.8 mm"
+    middle, half = float(text.get("x", "nan")), 0.5 * 5.1 * float(text.get("font-size", "nan"))
+    y = float(text.get("y", "nan")) - 4.0
+    for line in (e.get("d", "") for e in root.iter() if e.get("class") == "lw-dimension"):
+        x0, y0, x1, y1 = map(float, re.findall(r"-?[\d.]+", line))
+        if min(y0, y1) < y < max(y0, y1):
+            assert abs(x0 + (y - y0) / (y1 - y0) * (x1 - x0) - middle) > half

@@ -223,17 +223,20 @@ loads:
     [
         (
             "crank_rocker",
-            "{kind: force, on: rocker, at: B, direction: 20 deg, ramp: [10 N, 200 N], phase: {of: rocker, from: min, to: max}}",
+            "{kind: force, on: rocker, at: B, direction: 20 deg, "
+            "ramp: [10 N, 200 N], phase: {of: rocker, from: min, to: max}}",
             {"coupler.length": (3.0, 4.0), "loads.push.ramp.1": (100.0, 300.0)},
         ),
         (
             "crank_rocker",
-            "{kind: force, on: rocker, at: B, direction: 20 deg, magnitude: 80 N, phase: {of: rocker, from: max, to: min}}",
+            "{kind: force, on: rocker, at: B, direction: 20 deg, "
+            "magnitude: 80 N, phase: {of: rocker, from: max, to: min}}",
             {"crank.length": (0.8, 1.2)},
         ),
         (  # the limits of an in-line slider-crank lie on positions, where the rate is zero but for rounding
             "slider_crank_inline",
-            "{kind: force, on: piston, at: B, direction: 0 deg, ramp: [0 N, 9 kN], phase: {of: cylinder, from: max, to: min}}",
+            "{kind: force, on: piston, at: B, direction: 0 deg, "
+            "ramp: [0 N, 9 kN], phase: {of: cylinder, from: max, to: min}}",
             {"rod.length": (0.15, 0.25)},
         ),
     ],

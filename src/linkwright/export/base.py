@@ -35,4 +35,6 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
         return importlib.import_module(name)
     except ImportError:
         command = f"pip install {install or name}"
-        raise LinkwrightError(f"{purpose} need the package {install or name}; install it with: {command}") from None
+        raise LinkwrightError(
+            f"{purpose} need the package {install or name}; install it with: {command}"
+        ) from None

@@ -51,7 +51,9 @@ def export(
     chosen = chosen_format(target, format)
     check_target(target, force=force)
     if language not in LANGUAGES:
-        raise LinkwrightError(f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}')
+        raise LinkwrightError(
+            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
+        )
     check_options(chosen, FORMATS[chosen], options)
     return write_whole(target, FORMATS[chosen].content(Results.of(result, steps, language), **options))
 

@@ -66,7 +66,9 @@ class Results:
     def first_ok(self) -> int:
         """Index of the first position that was reached; raises LinkwrightError if there is none."""
         if not self.motion.ok.any():
-            raise LinkwrightError(f"no position of {self.mechanism.name!r} was reached, so there is nothing to export")
+            raise LinkwrightError(
+                f"no position of {self.mechanism.name!r} was reached, so there is nothing to export"
+            )
         return int(self.motion.ok.argmax())
 
 

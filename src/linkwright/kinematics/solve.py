@@ -19,6 +19,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
@@ -52,9 +53,9 @@ def solve_motion(
         StructureError, AssemblyError, CycleError: the model is not determined, cannot be put together, or has no
             cycle.
     """
-    return MotionRun(MotionSolver(mechanism), _positions(mechanism, steps, at, times, endpoint)).solve(
-        failures
-    )
+    positions = _positions(mechanism, steps, at, times, endpoint)
+    single = at is not None or times is not None
+    return MotionRun(MotionSolver(mechanism), positions, single=single).solve(failures)
 
 
 def _positions(
@@ -72,21 +73,24 @@ def _positions(
 
 
 class MotionRun:
-    """One evaluation of a solver over given positions."""
+    """One evaluation of a solver over given positions; ``single``: inputs for themselves, not a cycle."""
 
-    def __init__(self, solver: MotionSolver, positions: Positions) -> None:
+    def __init__(self, solver: MotionSolver, positions: Positions, *, single: bool = False) -> None:
         self.solver = solver
         self.positions = positions
+        self.single = single
 
     def solve(self, failures: str = "raise") -> Motion:
         """The motion, with change points passed smoothly."""
         states = self.solver.states(self.positions)
-        found = passages(self.solver, self.positions, states)
-        modes: dict[str, Floats] = {}
+        modes, said = reached_modes(self.solver, self.positions) if self.single else ({}, ())
+        found = [] if modes else passages(self.solver, self.positions, states)
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
+        if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
         motion = self._evaluate(states, modes, found)
+        motion.notes += said
         if failures == "raise" and not motion.ok.all():
             raise refusal(motion)
         return motion

@@ -16,7 +16,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.drawing.draw import Names, solved, vector_groups
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
-from linkwright.plot.drawing.labels import Label, Obstacles, place, written
+from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, written
 from linkwright.plot.drawing.legend import legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_vectors, shift_text, shifted
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 FILM_RATE = 25
 STEPS = 360
+LABEL_FRAMES = 12
 
 
 def animate(
@@ -239,9 +240,14 @@ class Animation:
             return []
         machine = self.scene.machine
         labels = list(point_labels(machine, self.run[0]))
-        ink = [*self.scene.ink(self.run[0]), *load_marks(machine, self.run[0], forces=False).ink]
-        places = place(labels, Obstacles.of(ink))
-        return [(label, written(label, each)) for label, each in zip(labels, places, strict=True)]
+        first = np.array([self._place(label.point, self.run[0]) for label in labels]).reshape(-1, 2)
+        frames = []
+        for index in self.run[:: max(1, len(self.run) // LABEL_FRAMES)]:
+            ink = [*self.scene.ink(index), *load_marks(machine, index, forces=False).ink]
+            places = np.array([self._place(label.point, index) for label in labels]).reshape(-1, 2)
+            frames.append((Obstacles.of(ink), places - first))
+        chosen = place_moving(labels, frames)
+        return [(label, written(label, each)) for label, each in zip(labels, chosen, strict=True)]
 
     @cached_property
     def _drawn_box(self) -> Box:

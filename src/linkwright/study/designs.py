@@ -140,5 +140,12 @@ def sweep(
     )
     assembled, values = run.swept()
     return Sweep(
-        mechanism, columns, positions.count, assembled, values, run.quantities, run.unloaded, run.notes()
+        mechanism,
+        columns,
+        positions.count,
+        assembled,
+        values,
+        run.quantities,
+        run.unloaded,
+        run.traced.nominal.notes,
     )

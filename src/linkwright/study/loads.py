@@ -95,6 +95,8 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
     """Why a design cannot pass its cycle."""
     try:
         motion = OneByOne(traced).motion(changes)
-        return "" if motion.ok.all() else str(refusal(motion))
     except LinkwrightError as error:
         return str(error)
+    if motion.ok.all():
+        return "it could not be followed from position to position together with the others; give more steps"
+    return str(refusal(motion))

@@ -62,9 +62,8 @@ class Prepared:
         self.positions = positions
         self.solver = MotionSolver(mechanism, frozenset(vary))
         self.force_solver = ForceSolver(self.solver)
-        self._names = tuple(
-            [*self.solver.outputs.standard()[:-1], *self.force_solver.outputs.standard(), "outcome"]
-        )
+        motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
+        self._names = (*motion[:-1], *forces, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import units
 from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 
 Floats = NDArray[np.float64]
@@ -139,10 +140,40 @@ def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:
     if address in mechanism.parameters:
         return kinds.get(address)
     parts = address.split(".")
-    if parts[0] in ("loads", "cycle", "driver") or parts[0] in mechanism.drivers:
-        return None
+    name = _owned(mechanism, parts)
+    if name is None:
+        last = parts[-2] if parts[-1] in ("0", "1") else parts[-1]
+        name = {"lengths": "length", "x": "length", "y": "length"}.get(last) or _LAST.get(last)
+    return None if name is None or name not in units.DIMENSIONS else units.DIMENSIONS[name]
+
+
+def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
+    """The dimension of a number of a driver, a load, the cycle or gravity; None for another one."""
     if parts[0] == "gravity":
-        return units.DIMENSIONS["acceleration"]
-    last = parts[-2] if parts[-1] in ("0", "1") else parts[-1]
-    name = {"lengths": "length", "x": "length", "y": "length"}.get(last) or _LAST.get(last)
-    return None if name is None else units.DIMENSIONS[name]
+        return "acceleration"
+    if parts[0] == "loads":
+        return _of_load(mechanism, parts[1], parts[2:])
+    driver = mechanism.drivers.get(parts[0])
+    if driver is None and parts[0] != "cycle":
+        return None
+    first = driver or next(iter(mechanism.drivers.values()))
+    turning = isinstance(mechanism.joints[first.joint], RevoluteJoint)
+    travel, rate = ("angle", "angular_velocity") if turning else ("length", "velocity")
+    kinds = {
+        "speed": rate,
+        "start": travel,
+        "from": travel,
+        "to": travel,
+        "duration": "time",
+        "turns": "dimensionless",
+    }
+    return kinds.get(parts[-1])
+
+
+def _of_load(mechanism: Mechanism, name: str, field: list[str]) -> str | None:
+    """The declared dimension of a load's field."""
+    for own, each in mechanism.loads[name].fields().items():
+        if (each.key or own) == field[0]:
+            found = getattr(each, "dimension", None)
+            return found if isinstance(found, str) else None
+    return None

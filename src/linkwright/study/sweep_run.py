@@ -15,12 +15,14 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend, Progress, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.threads import chunks
+from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import Following
 from linkwright.study.loads import OneByOne, changes_of
 from linkwright.study.summary import Summary, finished, reductions
 from linkwright.study.swing_loads import SwingLoads, swings
+from linkwright.study.touching import Touching
 from linkwright.study.traced import NEAREST, VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -28,8 +30,6 @@ Counts = NDArray[np.int64]
 
 #: Designs of one block, and of one whose inputs are found design by design.
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
-#: Designs that come nearer to a change point than this are looked at one by one, as many as this.
-NEAR, LOOKED_AT = 1e-3, 2000
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,6 @@ class SweepRun:
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self.quantities)
         self.unloaded: dict[int, str] = {}
-        self.looked_at = self.left_out = 0
         alone = self.program.fields or self.traced.nominal.modes
         self.follow = Following(self.traced, names) if self.program.states and not alone else None
         self.alone = bool(alone)
@@ -86,16 +85,6 @@ class SweepRun:
         for into in values.values():
             into[list(self.unloaded)] = np.nan
         return assembled, values
-
-    def notes(self) -> tuple[str, ...]:
-        """What the user should know about change points."""
-        notes = self.traced.nominal.notes
-        if self.left_out:
-            notes += (
-                f"{self.left_out} designs pass so close to a singular position that they may pass a change point "
-                "between two positions; they were taken to keep their assembly mode",
-            )
-        return notes
 
     def _input(self) -> Floats:
         rows = [rows[0] for rows in self.positions.coordinates.values()]
@@ -145,6 +134,10 @@ class SweepRun:
         return results
 
     @cached_property
+    def _touching(self) -> Touching:
+        return Touching(self.traced)
+
+    @cached_property
     def _single(self) -> OneByOne:
         """For designs whose loads follow their own motion."""
         return OneByOne(self.traced)
@@ -161,17 +154,14 @@ class SweepRun:
                 (np.asarray(results[f"{NEAREST}.min"]) < NEAR)
                 & (results["valid.count"] == self.positions.count)
             )
-        room = max(0, LOOKED_AT - self.looked_at)
-        self.left_out += max(0, len(near) - room)
-        near = near[:room]
-        self.looked_at += len(near)
-        touching = [i for i in near.tolist() if self._flipping.motion(changes_of(part, i)).modes]
-        if touching:
-            numbers = np.array(touching)
-            found = self._one_by_one(self._flipping, {a: c[numbers] for a, c in part.items()})
-            again = self._noted(found, first + numbers)
+        if not len(near) or self.program.states or self.positions.count < 3:
+            return results
+        touching = near[self._touching.designs({a: c[near] for a, c in part.items()})]
+        if len(touching):
+            found = self._one_by_one(self._flipping, {a: c[touching] for a, c in part.items()})
+            again = self._noted(found, first + touching)
             for name, column in again.items():
-                results[name][numbers] = column
+                results[name][touching] = column
         return results
 
     def _reduced(

@@ -59,6 +59,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.cli.tables import refuse_output
     from linkwright.plot.animation import animate
+    from linkwright.plot.drawing.panel import title_of
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     seconds = _seconds(options.seconds, session.say)
@@ -66,12 +67,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     refuse_unknown_vectors(motion, options)
     refuse_unknown(motion.point, "--traces", names(options.traces))
+    forces = _forces(motion, options)
+    columns = (forces or motion).columns()
+    refuse_unknown(lambda name: title_of(columns, name), "--curves", names(options.curves))
     animation = animate(
         motion,
         traces=names(options.traces),
         velocities=names_or_all(options.velocities),
         accelerations=names_or_all(options.accelerations),
-        forces=_forces(motion, options),
+        forces=forces,
         reactions_of=names(options.forces) or None,
         curves=names(options.curves),
         seconds=seconds,

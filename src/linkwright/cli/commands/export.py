@@ -40,7 +40,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     chosen, form = _checked(path, options)
     refuse_existing(path, session.say, force=options.force)
     mechanism, _ = read_model(options.file)
-    export(mechanism, path, format=chosen, force=options.force, steps=options.steps, language=session.language, **form)
+    export(
+        mechanism,
+        path,
+        format=chosen,
+        force=options.force,
+        steps=options.steps,
+        language=session.language,
+        **form,
+    )
     if session.json:
         session.show(json_text({"ok": True, "path": str(path), "format": chosen}))
     else:

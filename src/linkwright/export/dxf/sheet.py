@@ -1,8 +1,9 @@
-"""A DXF sheet of one position of a mechanism at true scale."""
+"""A DXF sheet: one position of a mechanism at true scale, in layers."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,8 +13,195 @@ from linkwright.errors import LinkwrightError
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.plot.drawing.labels import LetterPlace
-from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.model.mechanism import Link
+from linkwright.plot.drawing.labels import Obstacles, place
+from linkwright.plot.drawing.names import link_labels, point_labels
+from linkwright.plot.drawing.parts import Part
+from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.element import Floats
-from linkwright.plot.symbols.base import PIN
+from linkwright.plot.symbols.base import PIN, Vec, points
+
+#: Layers with their colours (numbers of the AutoCAD colour index).
+LAYERS = {"frame": 8, "links": 5, "joints": 1, "paths": 3, "dimensions": 4, "text": 7}
+#: Layer of each layer of the drawing on paper.
+_OF_PART = {"ground": "frame", "bodies": "links", "blocks": "joints", "tops": "joints"}
+_CONTROL = re.compile(r"[\x00-\x1f]")
+STYLE = "LINKWRIGHT"
+
+
+class Sheet:
+    """The model space of a drawing; lengths in metres become units by ``factor``."""
+
+    def __init__(self, document: Any, results: Results, index: int, factor: float) -> None:
+        self.space = document.modelspace()
+        self.results, self.index, self.factor = results, index, factor
+        self.scene = laid_out(results.motion, index, inputs=False)
+        self.unit = factor / self.scene.machine.view.scale
+        self.height = 10.0 * self.unit
+        self.ink: list[Floats] = []
+
+    def machine(self) -> None:
+        """Supports, links, blocks and pins."""
+        for part in self.scene.parts:
+            if part.layer in _OF_PART:
+                for stroke in _strokes(part):
+                    self._stroke(stroke, part.carrier, _OF_PART[part.layer])
+        self._pins()
+
+    def paths(self, names: Sequence[str] | None, *, spline: bool) -> None:
+        """Paths of points, by default of all that move."""
+        motion = self.results.motion
+        for name in motion.point_names() if names is None else names:
+            track = motion.point(name).position
+            if names is None and not np.nanmax(np.ptp(track[motion.ok], axis=0), initial=0.0) > 0:
+                continue
+            closed = motion.positions.closed and bool(motion.ok.all())
+            for piece in unbroken(track):
+                self._path(self.factor * piece, closed, spline)
+
+    def dimensions(self) -> None:
+        """A dimension line for every length that the model gives."""
+        for name, link in self.results.mechanism.links.items():
+            for first, second in _lengths(link):
+                a, b = _upright(self._world(name, first), self._world(name, second))
+                side = 1.0 if self._side(a, b) >= 0 else -1.0
+                line = self.space.add_aligned_dim(
+                    p1=a,
+                    p2=b,
+                    distance=-side * 2.4 * self.height,
+                    dimstyle=STYLE,
+                    dxfattribs={"layer": "dimensions"},
+                )
+                line.render()
+                self.ink.append(self._beside(a, b, -side * 2.4 * self.height))
+
+    def labels(self) -> None:
+        """Names of points and links clear of lines, and the name of the mechanism below."""
+        wanted = [*point_labels(self.scene.machine, self.index), *link_labels(self.scene, self.index)]
+        ink = [*self.scene.ink(self.index), *self.ink]
+        for label, chosen in zip(wanted, place(wanted, Obstacles.of(ink)), strict=True):
+            left, _, _, bottom = chosen.box
+            self._text(label.text, (left, bottom - 0.15 * label.size), 0.7 * label.size * self.unit)
+        cloud = np.concatenate(ink)
+        corner = (float(cloud[:, 0].min()), float(cloud[:, 1].max()) + 60.0)
+        self._text(self.results.mechanism.name, corner, 1.2 * self.height)
+
+    def _text(self, text: str, paper: Vec, height: float) -> None:
+        attributes = {
+            "layer": "text",
+            "style": STYLE,
+            "height": height,
+            "insert": self._units(points([paper]))[0],
+        }
+        self.space.add_text(_CONTROL.sub(" ", text), dxfattribs=attributes)
+
+    def _units(self, paper: Floats) -> Floats:
+        """Points of the paper in units of the drawing."""
+        scaled: Floats = paper * (self.unit, -self.unit)
+        return scaled
+
+    def _stroke(self, stroke: Stroke, carrier: str, layer: str) -> None:
+        machine = self.scene.machine
+        at = self._units(moved(stroke.points, machine.view.transform(machine.placed[carrier], self.index)))
+        if stroke.radius is not None:
+            self.space.add_circle(at[0], stroke.radius * self.unit, dxfattribs={"layer": layer})
+        elif len(at) == 2 and not stroke.closed:
+            self.space.add_line(at[0], at[1], dxfattribs={"layer": layer})
+        elif len(at) > 1:
+            self.space.add_lwpolyline(at.tolist(), close=stroke.closed, dxfattribs={"layer": layer})
+
+    def _pins(self) -> None:
+        """Circles at pins, of the pin's radius where it is given; small ones at other points."""
+        mechanism = self.results.mechanism
+        for name, link in {"frame": mechanism.frame, **mechanism.links}.items():
+            for point in link.points:
+                joint = mechanism.joints.get(point)
+                pin = isinstance(joint, RevoluteJoint) and name in joint.links
+                if isinstance(joint, RevoluteJoint) and pin:
+                    if name != joint.links[0]:
+                        continue
+                    radius = joint.pin_radius * self.factor if joint.pin_radius else PIN * self.unit
+                elif name == "frame":
+                    continue
+                else:
+                    radius = 0.4 * PIN * self.unit
+                self.space.add_circle(self._world(name, point), radius, dxfattribs={"layer": "joints"})
+
+    def _world(self, link: str, point: str) -> Vec:
+        local = self.results.mechanism.link(link).points[point]
+        x, y = self.factor * self.scene.machine.placed[link].world(local)[self.index]
+        return float(x), float(y)
+
+    def _beside(self, a: Vec, b: Vec, distance: float) -> Floats:
+        """A dimension line and the middle of its text, on the paper."""
+        length = math.dist(a, b)
+        left = np.array([a[1] - b[1], b[0] - a[0]]) / length
+        ends = np.array([a, b]) + distance * left
+        middle = ends.mean(axis=0)
+        along = 1.5 * self.height * (ends[1] - ends[0]) / length
+        text = [middle + shift * self.height * left for shift in (0.0, 0.7, 1.3)]
+        rows = np.concatenate([ends, *([row - along, row + along] for row in text)])
+        return points(rows) / (self.unit, -self.unit)
+
+    def _path(self, track: Floats, closed: bool, spline: bool) -> None:
+        attributes = {"layer": "paths"}
+        if spline and len(track) > 3:
+            through = np.vstack([track, track[:1]]) if closed else track
+            self.space.add_spline([(x, y, 0.0) for x, y in through.tolist()], dxfattribs=attributes)
+        else:
+            self.space.add_lwpolyline(track.tolist(), close=closed, dxfattribs=attributes)
+
+    def _side(self, a: Vec, b: Vec) -> float:
+        """On which side of a line most of the machine is; left is positive."""
+        cloud = self._units(np.concatenate(self.scene.ink(self.index)))
+        x, y = cloud.mean(axis=0)
+        return float((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]))
+
+
+def _strokes(part: Part) -> list[Stroke]:
+    """Bars and plates from their exact lines, symbols from what they draw."""
+    if part.layer == "bodies":
+        return [Stroke(line) for line in part.shape.ink]
+    return [stroke for element in part.shape.elements for stroke in strokes(element)]
+
+
+def _upright(a: Vec, b: Vec) -> tuple[Vec, Vec]:
+    """Ends of a dimension line in the order in which its text is read from below or from the right."""
+    tilt = math.atan2(b[1] - a[1], b[0] - a[0])
+    return (a, b) if -0.5 * math.pi + 1e-6 < tilt <= 0.5 * math.pi + 1e-6 else (b, a)
+
+
+def _lengths(link: Link) -> list[tuple[str, str]]:
+    """Pairs of points whose distance is a dimension of the link."""
+    names = list(link.points)
+    if link.geometry == "length":
+        return [(names[0], names[1])]
+    if link.geometry == "bent":
+        return [(names[0], names[1]), (names[0], names[2])]
+    return []
+
+
+def check_unit(unit: str) -> tuple[float, int]:
+    """Units per metre, and DXF's number of the unit; raises LinkwrightError."""
+    known = {"mm": (1000.0, 4), "m": (1.0, 6)}
+    if unit not in known:
+        raise LinkwrightError(f'a drawing is in mm or m, not in "{unit}"')
+    return known[unit]
+
+
+def prepare(document: Any, height: float, text: str, decimals: int) -> None:
+    """Layers, and the styles of text and dimensions."""
+    for name, colour in LAYERS.items():
+        document.layers.add(name, color=colour)
+    document.styles.add(STYLE, font="arial.ttf" if text.isascii() else "simsun.ttc")
+    style = document.dimstyles.new(STYLE)
+    for key, value in {"dimtxt": height, "dimasz": 0.8 * height, "dimexo": 0.4 * height, "dimexe": 0.5 * height,
+                       "dimgap": 0.3 * height, "dimdec": decimals, "dimzin": 8, "dimtad": 1, "dimlfac": 1.0,
+                       "dimscale": 1.0, "dimtxsty": STYLE}.items():  # fmt: skip
+        style.set_dxf_attrib(key, value)
+
+
+def decimals_for(factor: float) -> int:
+    """Decimals of dimensions: to a thousandth of a millimetre."""
+    return max(0, 6 - round(math.log10(factor)))

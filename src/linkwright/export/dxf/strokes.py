@@ -41,7 +41,7 @@ def strokes(element: Element) -> Iterator[Stroke]:
 
 def unbroken(track: Floats) -> Iterator[Floats]:
     """The pieces of a path between positions that were not reached."""
-    good = np.isfinite(track).all(axis=1)
+    good = np.asarray(np.isfinite(track).all(axis=1))
     for piece in np.split(np.arange(len(track)), np.flatnonzero(np.diff(good.astype(int))) + 1):
         if len(piece) > 1 and good[piece[0]]:
             yield track[piece]

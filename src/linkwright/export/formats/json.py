@@ -16,7 +16,9 @@ def content(results: Results, *, indent: int = 1) -> bytes:
 
     What is not a finite number is null. ``indent``: spaces per level.
     """
-    return (json.dumps(_plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n").encode()
+    return (
+        json.dumps(_plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n"
+    ).encode()
 
 
 def _data(results: Results) -> dict[str, Any]:
@@ -29,8 +31,8 @@ def _data(results: Results) -> dict[str, Any]:
         "format": "linkwright results",
         "version": 1,
         "program": f"linkwright {__version__}",
-        "conventions": "SI units; angles in rad, counter-clockwise positive; x right, y up; reactions are forces that "
-        "the joint exerts on the named link",
+        "conventions": "SI units; angles in rad, counter-clockwise positive; x right, y up; a reaction is the "
+        "force that the joint exerts on the named link",
         "model": {
             "name": mechanism.name,
             "purpose": mechanism.purpose,

@@ -10,7 +10,9 @@ from linkwright.plot.drawing import draw
 from linkwright.plot.svg import render
 
 
-def svg(results: Results, *, position: int = 0, paths: Sequence[str] = (), size: float | None = None) -> bytes:
+def svg(
+    results: Results, *, position: int = 0, paths: Sequence[str] = (), size: float | None = None
+) -> bytes:
     """The drawing at a position with the paths of points; ``size``: longer side in pixels."""
     return _svg(results, position, paths, size).encode()
 

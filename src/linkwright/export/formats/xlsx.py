@@ -33,7 +33,12 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     """
     xlsxwriter = package("xlsxwriter", "Excel files", "XlsxWriter")
     stream = io.BytesIO()
-    settings = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    settings = {
+        "in_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "strings_to_numbers": False,
+    }
     with xlsxwriter.Workbook(stream, settings) as book:
         book.set_properties({"title": results.mechanism.name, "comments": results.mechanism.source})
         Workbook(book, results, degrees).write()
@@ -98,7 +103,9 @@ class Workbook:
         columns = [*leading, *self._turned(table.columns)][:MOST_COLUMNS]
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
-            sheet.set_column(index, index, 14, self.book.add_format({"num_format": number_format(column.values)}))
+            sheet.set_column(
+                index, index, 14, self.book.add_format({"num_format": number_format(column.values)})
+            )
             for row, value in enumerate(column.values[:MOST_ROWS].tolist(), start=1):
                 if math.isfinite(value):
                     sheet.write_number(row, index, value)

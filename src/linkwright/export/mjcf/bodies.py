@@ -108,8 +108,9 @@ class Bodies:
         else:
             place, axis = link.centre, self._slide_axis(step)
         coordinate = self._coordinate(step)
-        attributes = {"name": coordinate.name, "type": "hinge" if pin else "slide", "ref": numbers([coordinate.value]),
-                      "pos": numbers((*place, 0.0)), "axis": numbers(axis)}  # fmt: skip
+        kind, value = "hinge" if pin else "slide", numbers([coordinate.value])
+        attributes = {"name": coordinate.name, "type": kind, "ref": value, "pos": numbers((*place, 0.0)),
+                      "axis": numbers(axis)}  # fmt: skip
         if coordinate.driver is not None:
             attributes["armature"] = numbers([HEAVY * self.reflected[coordinate.driver]])
         ET.SubElement(body, "joint", attributes)
@@ -174,7 +175,9 @@ class Bodies:
             slide = self.motion.joint(cut.joint)
             found = Coordinate(cut.joint, slide.displacement[self.index], slide.velocity[self.index], None)
             axis = numbers((math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0))
-            ET.SubElement(rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value]))
+            ET.SubElement(
+                rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value])
+            )
             _inertial(rider, (0.0, 0.0), self.least_mass, self.least_mass * self.size**2 / 12)
             self.coordinates.append(found)
             body.append(rider)
@@ -182,7 +185,11 @@ class Bodies:
 
 def _inertial(body: ET.Element, centre: tuple[float, float], mass: float, inertia: float) -> None:
     ET.SubElement(
-        body, "inertial", pos=numbers((*centre, 0.0)), mass=numbers([mass]), diaginertia=numbers([inertia] * 3)
+        body,
+        "inertial",
+        pos=numbers((*centre, 0.0)),
+        mass=numbers([mass]),
+        diaginertia=numbers([inertia] * 3),
     )
 
 

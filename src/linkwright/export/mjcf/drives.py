@@ -38,10 +38,14 @@ def actuators(results: Results, bodies: Bodies, step: float) -> ET.Element:
     for name, driver in results.mechanism.drivers.items():
         inertia = HEAVY * bodies.reflected[name]
         stiffness = inertia * (SERVO / step) ** 2
-        steady = isinstance(driver.law, ConstantSpeed)
-        gains = {"gainprm": numbers([stiffness]), "biastype": "affine", "biasprm": numbers([0.0, -stiffness, 0.0])}
-        dynamics = {"dyntype": "integrator"} if steady else {}
-        ET.SubElement(found, "general", name=name, joint=bodies.joint_of[name], **gains, **dynamics)
+        gains = {
+            "gainprm": numbers([stiffness]),
+            "biastype": "affine",
+            "biasprm": numbers([0.0, -stiffness, 0.0]),
+        }
+        if isinstance(driver.law, ConstantSpeed):
+            gains["dyntype"] = "integrator"
+        ET.SubElement(found, "general", {"name": name, "joint": bodies.joint_of[name], **gains})
         damping = numbers([2 * inertia * SERVO / step])
         ET.SubElement(found, "velocity", name=f"{name}.rate", joint=bodies.joint_of[name], kv=damping)
     return found

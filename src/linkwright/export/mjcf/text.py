@@ -31,4 +31,6 @@ def written(root: ET.Element) -> bytes:
     for element in root.iter():
         for name, value in element.attrib.items():
             element.attrib[name] = _CONTROL.sub("", value)
-    return ET.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+    return (
+        b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
+    )

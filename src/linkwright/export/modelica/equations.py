@@ -95,7 +95,9 @@ class Equations:
             self._place(link, point, f"{me}_x", f"{me}_y")
 
     def _point(self, me: str, key: str, meaning: str) -> None:
-        x, y = self.motion.point_of(key).position[self.index] if not self._fixed(key) else self._fixed_place(key)
+        x, y = (
+            self.motion.point_of(key).position[self.index] if not self._fixed(key) else self._fixed_place(key)
+        )
         self._unknown(f"{me}_x", "m", x, f"{meaning}, x")
         self._unknown(f"{me}_y", "m", y, f"{meaning}, y")
 
@@ -121,7 +123,10 @@ class Equations:
         if link == "frame":
             return a, b
         me = self.links[link]
-        return (f"{me}_x + cos({me}_phi)*{a} - sin({me}_phi)*{b}", f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}")
+        return (
+            f"{me}_x + cos({me}_phi)*{a} - sin({me}_phi)*{b}",
+            f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}",
+        )
 
     def _angle(self, link: str) -> str:
         return "0.0" if link == "frame" else f"{self.links[link]}_phi"
@@ -129,11 +134,17 @@ class Equations:
     def _guide(self, joint: PrismaticJoint) -> None:
         me = self.names.of("guide", joint.name)
         slide = self.motion.joint(joint.name)
-        self._unknown(f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}")
+        self._unknown(
+            f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}"
+        )
         self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
-        turn = self._parameter(f"{me}_direction", "rad", guide_angle(self.mechanism, joint), f"direction of {joint.name}")
+        turn = self._parameter(
+            f"{me}_direction", "rad", guide_angle(self.mechanism, joint), f"direction of {joint.name}"
+        )
         offset = self._parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
-        block = self._parameter(f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block")
+        block = self._parameter(
+            f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block"
+        )
         along = f"({self._angle(joint.guide)} + {turn})"
         (bx, by), (gx, gy) = self._world(joint.block, joint.at), self._world(joint.guide, joint.through)
         self.text.equations += [
@@ -170,7 +181,9 @@ class Equations:
             return
         moved, base = (self.motion.link(link).angle[self.index] for link in (driver.link, driver.relative_to))
         against = "" if driver.relative_to == "frame" else f" - {self._angle(driver.relative_to)}"
-        self.text.equations.append(f"{self._angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};")
+        self.text.equations.append(
+            f"{self._angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};"
+        )
 
 
 def turns(angle: float) -> str:

@@ -40,13 +40,15 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
 def main_output(motion: Motion) -> Output | str:
     """The output that matters most: the last in solving order on the frame, else a free point, else a link."""
     mechanism = motion.mechanism
+    points = free_points(mechanism)
+    if len(mechanism.drivers) > 1 and points:
+        return points[-1]
     outputs = mechanism_outputs(mechanism)
     order = [link for group in motion.structure.groups for link in group.links]
     slides = [each for each in outputs if each.kind == "displacement"]
     for found in (slides, list(outputs)):
         if found:
             return max(found, key=lambda each: order.index(output_link(mechanism, each)))
-    points = free_points(mechanism)
     if points:
         return points[-1]
     moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]

@@ -95,7 +95,7 @@ class OverInput(Kind):
         legend = Legend()
         for one, panel in zip(axes, panels, strict=True):
             _draw_panel(one, panel, axis, request, legend)
-        if request.marks and len(sources) == 1:
+        if request.marks and len(sources) == 1 and sources[0].has_motion:
             _draw_marks(list(axes), sources[0], self.output(sources[0], request), legend, request.say)
         label_input(axes[-1], axis, request.say)
         title = (

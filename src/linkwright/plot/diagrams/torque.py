@@ -33,6 +33,6 @@ class Torque(OverInput):
             title = f"{say(f'input_{dimension}')} {'T' if turning else 'F'}{f' {name}' if several else ''}"
             panel = Panel(title, dimension, (Curve("", source.closed(effort)),))
             mean = Analysis(motion, forces).mean(effort)
-            label = say("mean", value=panel.unit.text(mean))
+            label = f"{f'{name}: ' if several else ''}{say('mean', value=panel.unit.text(mean))}"
             found.append(Panel(title, dimension, panel.curves, (Level(label, mean),)))
         return found

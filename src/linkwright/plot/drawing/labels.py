@@ -107,15 +107,30 @@ def candidates(label: Label) -> list[Candidate]:
     return found
 
 
-def place(labels: Sequence[Label], obstacles: Obstacles, rounds: int = 4) -> list[Candidate]:
+def place(labels: Sequence[Label], obstacles: Obstacles) -> list[Candidate]:
     """The chosen place of every label."""
+    return place_moving(labels, [(obstacles, np.zeros((len(labels), 2)))])
+
+
+def place_moving(labels: Sequence[Label], frames: Sequence[tuple[Obstacles, Floats]]) -> list[Candidate]:
+    """The chosen place of every label at the first frame, for labels that move with their points.
+
+    ``frames``: the obstacles of each frame, and how far every label (k, 2) has moved since the first.
+    """
     options = [candidates(label) for label in labels]
     boxes = [np.array([each.box for each in some]) for some in options]
     margin = np.array([-2.0, -1.0, 2.0, 1.0])
-    own = [1.6 * obstacles.under(box + margin) + [each.dislike for each in some]
-           for box, some in zip(boxes, options, strict=True)]  # fmt: skip
-    chosen = [-1] * len(labels)
-    order = sorted(range(len(labels)), key=lambda k: -float(own[k].min()))
+    own: list[Floats] = []
+    for k, (box, some) in enumerate(zip(boxes, options, strict=True)):
+        under = [obstacles.under(box + margin + np.tile(shift[k], 2)) for obstacles, shift in frames]
+        own.append(1.6 * np.mean(under, axis=0) + [each.dislike for each in some])
+    return [options[k][c] for k, c in enumerate(_settled(boxes, own))]
+
+
+def _settled(boxes: Sequence[Floats], own: Sequence[Floats], rounds: int = 4) -> list[int]:
+    """Which box every label takes: one after the other, then each anew while that changes anything."""
+    chosen = [-1] * len(boxes)
+    order = sorted(range(len(boxes)), key=lambda k: -float(own[k].min()))
     for _ in range(rounds):
         before = list(chosen)
         for k in order:
@@ -123,7 +138,7 @@ def place(labels: Sequence[Label], obstacles: Obstacles, rounds: int = 4) -> lis
             chosen[k] = int(np.argmin(own[k] + 3.0 * _overlap(boxes[k], others)))
         if chosen == before:
             break
-    return [options[k][c] for k, c in enumerate(chosen)]
+    return chosen
 
 
 def _overlap(boxes: Floats, others: Floats) -> Floats:

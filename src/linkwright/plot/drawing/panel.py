@@ -48,7 +48,7 @@ def panel(columns: Mapping[str, Floats], wanted: Sequence[str], box: Box) -> Pan
     elements: list[Element] = []
     right = left + span
     for name in wanted:
-        title = _find(columns, name)
+        title = title_of(columns, name)
         elements += _row(title, columns[title], left, span, y)
         right = max(right, left + width(title, SIZE))
         y += HEIGHT + GAP
@@ -71,7 +71,8 @@ def _row(title: str, values: Floats, left: float, span: float, top: float) -> li
     return elements
 
 
-def _find(columns: Mapping[str, Floats], name: str) -> str:
+def title_of(columns: Mapping[str, Floats], name: str) -> str:
+    """The column of a name with or without its unit; raises LinkwrightError for an unknown one."""
     for title in columns:
         if name in (title, title.split(" [", 1)[0]):
             return title

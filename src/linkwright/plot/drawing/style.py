@@ -8,6 +8,7 @@ from linkwright.plot.symbols.base import LINE
 INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE = (
     "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2",
 )  # fmt: skip
+COLOURS = (INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE)
 
 
 def _arrow(name: str, colour: str, width: float = 2.0) -> str:

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from linkwright.errors import LinkwrightError
+from linkwright.plot.drawing.style import COLOURS
 
 
 def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
-    """An endless GIF of PNG frames, all in the colours of the first."""
+    """An endless GIF of PNG frames, all in the colours of the drawings and their way to white."""
     try:
         from PIL import Image
     except ImportError:
@@ -18,7 +19,8 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
             'GIF animations need Pillow; install it with: pip install "linkwright[plot]"'
         ) from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
-    palette = pictures[0].quantize(colors=64)
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(_palette())
     small = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures]
     stream = io.BytesIO()
     duration = max(20, round(1000 * seconds_per_frame))
@@ -26,6 +28,17 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
         stream, "GIF", save_all=True, append_images=small[1:], duration=duration, loop=0, optimize=False
     )
     return stream.getvalue()
+
+
+def _palette() -> bytes:
+    """256 colours: each colour of the drawings in even steps to white, as at the edges of strokes."""
+    steps = 256 // len(COLOURS)
+    found = bytearray()
+    for colour in COLOURS:
+        start = bytes.fromhex(colour.removeprefix("#"))
+        for step in range(steps):
+            found += bytes(round(c + (255 - c) * step / (steps - 1)) for c in start)
+    return bytes(found).ljust(768, b"\xff")
 
 
 def mp4(frames: Iterator[bytes], rate: int) -> bytes:

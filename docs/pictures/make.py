@@ -1,0 +1,61 @@
+"""Makes the pictures of this folder: ``python docs/pictures/make.py``."""
+
+from pathlib import Path
+
+import linkwright as lw
+from linkwright.plot.animation import animate
+from linkwright.plot.drawing import draw
+from linkwright.plot.drawing.picture import bounds, document
+from linkwright.plot.svg.element import group
+from linkwright.plot.svg.text import text_element
+from linkwright.plot.symbols.base import SYMBOLS
+
+HERE = Path(__file__).parent
+STILL = {
+    "jaw_crusher": ("jaw_crusher_sixbar", {"overlay": "limits", "at": 0.0}),
+    "jaw_crusher_forces": ("jaw_crusher_sixbar", {"at": 2.0, "forces": True}),
+    "crank_rocker": ("crank_rocker", {"overlay": "faded:8", "paths": ("P",)}),
+    "swing_conveyor": ("swing_conveyor", {"overlay": "limits", "dimensions": ("crank", "coupler", "rod")}),
+    "swing_conveyor_velocities": ("swing_conveyor", {"velocities": True}),
+    "excavator": ("excavator", {}),
+    "oldham_coupling": ("oldham_coupling", {"at": 0.5}),
+    "scotch_yoke": ("scotch_yoke", {"at": 0.8, "overlay": "faded:4"}),
+    "shaper_quick_return": ("shaper_quick_return", {"overlay": "limits"}),
+    "triad": ("triad", {}),
+}
+MOVING = {
+    "jaw_crusher_moving": (
+        "jaw_crusher_sixbar",
+        {"traces": ("C",), "forces": True, "curves": ("jaw.angle",)},
+    ),
+    "theo_jansen_leg_moving": ("theo_jansen_leg", {"traces": ("leg.T",), "frames": 36}),
+}
+
+
+def symbols(columns: int = 5, wide: float = 150.0, high: float = 120.0) -> str:
+    """A table of all symbols with their names, as SVG text."""
+    content = []
+    names = sorted(SYMBOLS)
+    for k, name in enumerate(names):
+        shape = SYMBOLS[name]()
+        left, top, right, bottom = bounds(shape.ink)
+        x, y = (k % columns + 0.5) * wide, (k // columns + 0.42) * high
+        shift = f"translate({x - (left + right) / 2:.2f} {y - (top + bottom) / 2:.2f})"
+        content.append(group(shape.elements, transform=shift))
+        content.append(text_element(x, y + 0.46 * high, name.replace("_", " "), "lw-link", 12.0, "middle"))
+    box = (0.0, 0.0, columns * wide, -(-len(names) // columns) * high)
+    return document(content, box, "Symbols", None)
+
+
+def main() -> None:
+    """Writes every picture."""
+    (HERE / "symbols.svg").write_text(symbols(), encoding="utf-8")
+    for name, (model, options) in STILL.items():
+        draw(lw.load(f"gallery:{model}"), **options).save(HERE / f"{name}.svg")
+    for name, (model, options) in MOVING.items():
+        motion = lw.solve_motion(lw.load(f"gallery:{model}"), steps=180)
+        animate(motion, **options).save(HERE / f"{name}.svg")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""DXF: the drawing and the paths of points at true scale."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+from linkwright.errors import LinkwrightError
+from linkwright.export.base import FORMATS, Format, package
+from linkwright.export.dxf.sheet import Sheet, check_unit, decimals_for, prepare
+from linkwright.export.results import Results
+
+
+def content(
+    results: Results,
+    *,
+    unit: str = "mm",
+    position: int | None = None,
+    paths: Sequence[str] | None = None,
+    curve: str = "polyline",
+    dimensions: bool = True,
+    labels: bool = True,
+) -> bytes:
+    """Links, joints and supports at one position, paths of points, dimensions, names; each kind in its layer.
+
+    Coordinates are those of the frame, in ``unit`` (mm or m). Links, pins and paths are exact; the size of symbols
+    goes with the machine. ``position``: index, default the first that was reached; ``paths``: points, default all
+    that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of the lengths in
+    the model.
+    """
+    ezdxf = package("ezdxf", "DXF drawings")
+    factor, code = check_unit(unit)
+    if curve not in ("polyline", "spline"):
+        raise LinkwrightError(f'a path is a "polyline" or a "spline", not a "{curve}"')
+    index = _index(results, position)
+    document = ezdxf.new("R2010", setup=["linetypes"])
+    document.units = code
+    sheet = Sheet(document, results, index, factor)
+    words = " ".join([results.mechanism.name, *results.mechanism.links, *results.motion.point_names()])
+    prepare(document, sheet.height, words, decimals_for(factor))
+    sheet.machine()
+    sheet.paths(paths, spline=curve == "spline")
+    if dimensions:
+        sheet.dimensions()
+    if labels:
+        sheet.labels()
+    stream = io.StringIO()
+    document.write(stream)
+    return bytes(document.encode(stream.getvalue()))
+
+
+def _index(results: Results, position: int | None) -> int:
+    if position is None:
+        return results.first_ok()
+    steps = results.motion.steps
+    if not -steps <= position < steps:
+        raise LinkwrightError(f"position {position} does not exist; there are the positions 0 to {steps - 1}")
+    if not results.motion.ok[position]:
+        raise LinkwrightError(
+            f"position {position} cannot be drawn: {results.motion.outcomes[position].sentence}"
+        )
+    return position % steps
+
+
+FORMATS.register("dxf")(Format((".dxf",), content))

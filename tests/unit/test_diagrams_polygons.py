@@ -1,0 +1,95 @@
+"""Polygons: printed velocities, directions of the parts, closed forces, and a true scale on the paper."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.errors import LinkwrightError
+from linkwright.plot.diagrams.link_forces import link_forces
+from linkwright.plot.diagrams.motion_vectors import acceleration_polygon, velocity_polygon
+from linkwright.plot.diagrams.paper import Cell, page
+from linkwright.plot.diagrams.position import place_of
+
+INCH = 25.4
+
+
+def at(name: str, degrees: float) -> lw.Motion:
+    return lw.solve_motion(lw.load(f"gallery:{name}"), at=[np.radians(degrees)])
+
+
+def cross(a: np.ndarray, b: np.ndarray) -> float:
+    return float(a[0] * b[1] - a[1] * b[0])
+
+
+def test_images_are_the_printed_velocity_and_acceleration_of_the_conveyor() -> None:
+    motion = at("swing_conveyor", 120.0)
+    assert velocity_polygon(motion, 0).images["F"] == pytest.approx([-11.027246, 0.0], abs=5e-6)
+    assert acceleration_polygon(motion, 0).images["F"] == pytest.approx([143.06898, 0.0], abs=5e-5)
+
+
+def test_relative_velocities_stand_across_their_links() -> None:
+    motion = at("jaw_crusher_sixbar", -40.0)
+    steps = {step.name: step for step in velocity_polygon(motion, 0).steps if step.role == "relative"}
+    assert set(steps) == {"BA", "CB"}
+    for name, link in (("BA", "pitman"), ("CB", "toggle")):
+        arm = place_of(motion, link, name[0], 0) - place_of(motion, link, name[1], 0)
+        along = steps[name].end - steps[name].start
+        assert abs(along @ arm) < 1e-12 * np.hypot(*along) * np.hypot(*arm)
+
+
+def test_normal_parts_point_to_the_first_joint_and_tangential_ones_lead_to_the_image() -> None:
+    motion = at("jaw_crusher_sixbar", -40.0)
+    polygon = acceleration_polygon(motion, 0)
+    parts = {(step.name, step.role): step for step in polygon.steps}
+    for name, link in (("BA", "pitman"), ("CB", "toggle")):
+        arm = place_of(motion, link, name[0], 0) - place_of(motion, link, name[1], 0)
+        normal, tangential = parts[name, "normal"], parts[name, "tangential"]
+        inward = normal.end - normal.start
+        assert abs(cross(inward, arm)) < 1e-12 * np.hypot(*inward) * np.hypot(*arm)
+        assert inward @ arm < 0
+        assert tangential.start == pytest.approx(normal.end, abs=1e-12)
+        assert tangential.end == pytest.approx(polygon.images[name[0]], abs=1e-11)
+
+
+def test_at_a_moving_guide_coriolis_stands_across_it_and_the_rest_along_it() -> None:
+    motion = at("shaper_quick_return", 70.0)
+    steps = {step.role: step for step in acceleration_polygon(motion, 0).steps}
+    along = place_of(motion, "lever", "E", 0) - place_of(motion, "lever", "O3", 0)
+    coriolis, sliding = steps["coriolis"], steps["sliding"]
+    across = coriolis.end - coriolis.start
+    assert abs(across @ along) < 1e-12 * np.hypot(*across) * np.hypot(*along)
+    slip = sliding.end - sliding.start
+    assert abs(cross(slip, along)) < 1e-9 * np.hypot(*slip) * np.hypot(*along)
+    assert coriolis.end == pytest.approx(sliding.start, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "degrees"), [("jaw_crusher_sixbar", -200.0), ("swing_conveyor", 300.0)])
+def test_forces_on_every_link_close(name: str, degrees: float) -> None:
+    forces = lw.solve_forces(at(name, degrees))
+    for link in forces.mechanism.links:
+        found = link_forces(forces, link, 0)
+        largest = max(each.size for each in found)
+        assert np.abs(sum(each.force for each in found)).max() < 1e-8 * largest
+
+
+def test_a_millimetre_of_the_picture_is_one_of_the_paper() -> None:
+    cells = [
+        Cell(np.array([[0.0, 0.0], [60.0, 40.0]]), "a"),
+        Cell(np.array([[-30.0, 5.0], [12.0, 95.0]]), "b"),
+    ]
+    figure, axes = page(cells, 2, foot=10.0)
+    wide, tall = figure.get_size_inches() * INCH
+    for one in axes:
+        box = one.get_position()
+        assert np.ptp(one.get_xlim()) == pytest.approx(box.width * wide)
+        assert np.ptp(one.get_ylim()) == pytest.approx(box.height * tall)
+        assert box.x1 <= 1 + 1e-12 and box.y0 >= 0
+
+
+def test_a_polygon_of_several_results_is_refused() -> None:
+    from linkwright.plot import plot
+
+    motion = at("crank_rocker", 30.0)
+    for kind in ("velocity_polygon", "acceleration_polygon", "force_polygon"):
+        with pytest.raises(LinkwrightError, match="give one result"):
+            plot({"a": motion, "b": motion}, kind)
