@@ -1,6 +1,7 @@
 """Makes the pictures of this folder: ``python docs/pictures/make.py``."""
 
 from pathlib import Path
+from typing import Any
 
 import linkwright as lw
 from linkwright.plot.animation import animate
@@ -11,7 +12,7 @@ from linkwright.plot.svg.text import text_element
 from linkwright.plot.symbols.base import SYMBOLS
 
 HERE = Path(__file__).parent
-STILL = {
+STILL: dict[str, tuple[str, dict[str, Any]]] = {
     "jaw_crusher": ("jaw_crusher_sixbar", {"overlay": "limits", "at": 0.0}),
     "jaw_crusher_forces": ("jaw_crusher_sixbar", {"at": 2.0, "forces": True}),
     "crank_rocker": ("crank_rocker", {"overlay": "faded:8", "paths": ("P",)}),
@@ -23,7 +24,7 @@ STILL = {
     "shaper_quick_return": ("shaper_quick_return", {"overlay": "limits"}),
     "triad": ("triad", {}),
 }
-MOVING = {
+MOVING: dict[str, tuple[str, dict[str, Any]]] = {
     "jaw_crusher_moving": (
         "jaw_crusher_sixbar",
         {"traces": ("C",), "forces": True, "curves": ("jaw.angle",)},

@@ -159,7 +159,7 @@ def test_comparisons_that_cannot_be_made(options: dict[str, Any], words: list[st
 
 def test_one_machine_is_no_comparison() -> None:
     assert "two or more" in said(lambda: compare([SIX]))
-    assert "two or more" in said(lambda: compare(SIX))  # type: ignore[arg-type]
+    assert "two or more" in said(lambda: compare(SIX))
 
 
 def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:

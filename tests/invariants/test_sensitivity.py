@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ KINDS: dict[str, Callable[[np.ndarray], float]] = {
 }
 
 
-def curve(mechanism: lw.Mechanism, output: str, steps: int) -> np.ndarray:
+def curve(mechanism: lw.Mechanism, output: str, steps: int) -> Any:
     """An output by the public results."""
     motion = lw.solve_motion(mechanism, steps=steps)
     if output.endswith(".angle"):
@@ -36,13 +37,13 @@ def curve(mechanism: lw.Mechanism, output: str, steps: int) -> np.ndarray:
 
 def differences(
     mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float
-) -> tuple[np.ndarray, dict]:
+) -> tuple[Any, dict[str, Any]]:
     """Central differences of the fourth order: of the curve, and of its summaries."""
     value = mechanism.dimension(by)
     step = part * max(abs(value), 0.1)
     ends = [curve(mechanism.with_dimensions({by: value + k * step}), output, steps) for k in (-2, -1, 1, 2)]
 
-    def slope(a, b, c, d):  # type: ignore[no-untyped-def]
+    def slope(a: Any, b: Any, c: Any, d: Any) -> Any:
         return (8 * (c - b) - (d - a)) / (12 * step)
 
     return slope(*ends), {kind: slope(*map(reduce, ends)) for kind, reduce in KINDS.items()}
@@ -112,7 +113,7 @@ def test_torque_is_linear_in_masses_and_load() -> None:
     linear = [a for a in mechanism.dimensions() if a.endswith((".mass", ".inertia"))]
     linear += ["loads.crushing.ramp.0", "loads.crushing.ramp.1"]
     for way in ("forward", "reverse"):
-        found = sensitivity(mechanism, of=["driver.effort rms"], by=linear, way=way)  # type: ignore[arg-type]
+        found = sensitivity(mechanism, of=["driver.effort rms"], by=linear, way=way)
         dimensions, gradient = mechanism.dimensions(), found.gradient("driver.effort rms")
         assert sum(dimensions[a] * gradient[a] for a in linear) == pytest.approx(
             found.value("driver.effort rms"), rel=1e-12
@@ -160,7 +161,7 @@ gravity: [0, -9.81 m/s²]
     )
     for way in ("forward", "reverse"):
         asked = ["driver.effort", "driver.effort mean"]
-        found = sensitivity(mechanism, of=asked, by=["coupler.mass"], way=way)  # type: ignore[arg-type]
+        found = sensitivity(mechanism, of=asked, by=["coupler.mass"], way=way)
         expected = 9.81 * 0.1 * np.cos(found.input)
         assert found.slope("driver.effort", "coupler.mass") == pytest.approx(expected, abs=1e-7)
         assert found.gradient("driver.effort mean")["coupler.mass"] == pytest.approx(0.0, abs=1e-7)

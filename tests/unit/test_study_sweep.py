@@ -87,8 +87,7 @@ def test_summaries_are_those_of_every_design_solved_alone(
 ) -> None:
     mechanism = lw.load(f"gallery:{name}")
     rng = np.random.default_rng(3)
-    nominal = mechanism.dimensions()
-    columns = {a: np.clip(rng.uniform(*r, 6), *sorted(r)) for a, r in varied.items() if a in nominal}
+    columns = {a: rng.uniform(*r, 6) for a, r in varied.items()}
     last = list(mechanism.links)[-1]
     joint = next(j for j in mechanism.joints if last in mechanism.joints[j].joined)
     reaction = f"reaction {joint} on {last}"

@@ -1,4 +1,4 @@
-"""What stands beneath the table of ``solve``: largest values, checks, notes, positions that failed."""
+"""What stands beneath the table of ``solve``: largest values, checks, notes, warnings, positions that failed."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from linkwright.cli.solving import Solved, reaction_pairs
 from linkwright.cli.text_table import aligned
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.words import Say
 
@@ -53,6 +54,16 @@ def checks(solved: Solved, say: Say) -> list[str]:
         say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}")
     )
     return lines
+
+
+def closeness(motion: Motion, language: str) -> list[str]:
+    """Warnings about groups that pass close to a singular position, each with the place."""
+    if not motion.inputs or not motion.ok.any():
+        return []
+    from linkwright.metrics.singularity import Singularity
+
+    values = Singularity().evaluate(motion)
+    return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
 
 
 def failures(solved: Solved, say: Say, *, degrees: bool) -> list[str]:

@@ -22,6 +22,7 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         *_table(solved, options, session),
         beneath.extremes(solved, say, degrees=degrees),
         beneath.checks(solved, say),
+        beneath.closeness(solved.motion, session.language),
         beneath.failures(solved, say, degrees=degrees),
         [say("solve.note", text=note) for note in solved.notes],
         [str(finding) for finding in solved.warnings],

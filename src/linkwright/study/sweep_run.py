@@ -19,7 +19,7 @@ from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import Following
-from linkwright.study.loads import OneByOne, changes_of
+from linkwright.study.loads import OneByOne
 from linkwright.study.summary import Summary, finished, reductions
 from linkwright.study.swing_loads import SwingLoads, swings
 from linkwright.study.touching import Touching

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Mask = NDArray[np.bool_]
-#: Two labels nearer than this share of the picture's size are not both written.
-NEAR = 0.055
+#: Two labels nearer than these shares of the picture's size, across and up, are not both written.
+NEAR = np.array([0.09, 0.05])
 _HALO: dict[str, Any] = {
     "boxstyle": "round,pad=0.08",
     "facecolor": "white",
@@ -58,7 +58,7 @@ def mark_inputs(axes: Axes, curve: Floats, axis: InputAxis, colour: str) -> None
     for index, text in _round_places(axis, good):
         at = curve[index]
         axes.plot([at[0]], [at[1]], "o", color=colour, markersize=2.8, zorder=4)
-        if any(np.abs(at - other).max() < NEAR * extent for other in written):
+        if any((np.abs(at - other) < NEAR * extent).all() for other in written):
             continue
         written.append(at)
         out = _outward(curve, index, middle)

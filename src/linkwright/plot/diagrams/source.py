@@ -180,13 +180,6 @@ class Source:
             last = last + TURN * np.round((values[-1] - last) / TURN)
         return np.concatenate([values, last])
 
-    def index_at(self, value: float) -> int:
-        """Index of the position nearest to a value of the axis (SI); angles modulo a turn."""
-        gap = self.axis.values - value
-        if self.axis.dimension == "angle":
-            gap = (gap + np.pi) % TURN - np.pi
-        return int(np.argmin(np.abs(gap))) % self.motion.steps
-
     @cached_property
     def _end(self) -> float | None:
         """Time at which a closed cycle has returned to its first position, if that is no position already."""

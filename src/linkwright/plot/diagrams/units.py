@@ -63,12 +63,6 @@ def significant(value: float, digits: int = 4) -> str:
     return ("0" if text in ("-0", "") else text).replace("-", "−")
 
 
-def round_down(value: float) -> float:
-    """The largest of 1, 2, 2.5, 5 times a power of ten that is not above a value."""
-    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
-    return max(k * power for k in (1.0, 2.0, 2.5, 5.0) if k * power <= value * (1 + 1e-9))
-
-
 def round_up(value: float) -> float:
     """The smallest of 1, 2, 2.5, 5 times a power of ten that is not below a value."""
     power = 10.0 ** math.floor(math.log10(value) + 1e-12)

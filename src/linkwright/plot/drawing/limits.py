@@ -30,7 +30,7 @@ def _last_to_and_fro(motion: Motion) -> str:
     for group in reversed(motion.structure.groups):
         for link in reversed(group.links):
             for name, joint in joints.items():
-                if name in driven or set(joint.joined) != {"frame", link}:
+                if name in driven or not {"frame", link} <= set(joint.joined):
                     continue
                 if isinstance(joint, PrismaticJoint):
                     return name
@@ -39,5 +39,5 @@ def _last_to_and_fro(motion: Motion) -> str:
                     return link
     raise LinkwrightError(
         f"no link of {motion.mechanism.name!r} on the frame goes to and fro, so there are no limit positions; "
-        "name a link or a guide: overlay='limits:coupler'"
+        "name a link or a guide, such as limits:coupler"
     )

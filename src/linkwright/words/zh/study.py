@@ -11,7 +11,7 @@ linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700,
     --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
 linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256""",
     "vary_help": '变化量:"地址=起..止 单位:个数" 或 "地址=值, 值 单位";多个变化量组成网格',
-    "metrics_help": '设计指标(见 linkwright.metrics)、travel、flywheel,或加引号的输出统计量'
+    "metrics_help": "设计指标(见 linkwright.metrics)、travel、flywheel,或加引号的输出统计量"
     '("driver.effort rms"、"C.velocity max")',
     "sampling_help": "grid:所有组合(默认);sobol:在范围内均匀分布的方案",
     "samples_help": "Sobol 序列的方案数(默认 64)",

@@ -1,0 +1,79 @@
+"""The command ``export``: one file per call, refused before any work where it cannot be written."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from linkwright.cli import main
+from linkwright.cli.commands import export as command
+from linkwright.export.base import FORMATS
+
+MODEL = "gallery:crank_rocker"
+
+
+def test_a_file_is_written_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "a.csv"
+    assert main(["export", MODEL, "--output", str(path), "--steps", "12"]) == 0
+    assert len(path.read_text(encoding="utf-8").splitlines()) == 13
+    assert capsys.readouterr().out == f"written: {path}\n"
+
+
+def test_as_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "machine.txt"
+    words = ["export", MODEL, "--output", str(path), "--format", "modelica", "--steps", "12", "--json"]
+    assert main(words) == 0
+    assert json.loads(capsys.readouterr().out) == {"ok": True, "path": str(path), "format": "modelica"}
+    assert path.read_text(encoding="utf-8").startswith("model Linkwright_")
+
+
+def test_a_file_that_exists_is_kept_without_force(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("mine", encoding="utf-8")
+    assert main(["export", MODEL, "--output", str(path)]) == 2
+    assert "--force" in capsys.readouterr().err and path.read_text(encoding="utf-8") == "mine"
+    assert main(["export", MODEL, "--output", str(path), "--steps", "12", "--force"]) == 0
+    assert path.read_text(encoding="utf-8").startswith("time")
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--output", "a.xslx"], 'did you mean ".xlsx"'),
+        (["--output", "a.csv", "--unit", "mm"], "the format csv has no option unit"),
+        (["--output", "a.csv", "--format", "exel"], "--format"),
+        (["--output", "no/folder/a.csv"], "no folder"),
+        (["--output", "a.csv", "--steps", "0"], "--steps"),
+        ([], "--output"),
+    ],
+)
+def test_a_wrong_command_is_refused(
+    words: list[str],
+    sentence: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["export", MODEL, *words]) == 2
+    assert sentence in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_machine_that_does_not_assemble_leaves_no_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "m.yaml"
+    model.write_text(
+        "format: 1\nname: short\nframe: {points: {O: [0 m, 0 m], P: [9 m, 0 m]}}\nlinks:\n"
+        "  crank: {points: [O, A], length: 1 m}\n  coupler: {points: [A, B], length: 2 m}\n"
+        "  rocker: {points: [P, B], length: 2 m}\ndriver: {turn: crank, about: O, speed: 1 rad/s}\n",
+        encoding="utf-8",
+    )
+    assert main(["export", str(model), "--output", str(tmp_path / "a.xml")]) == 1
+    assert capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["m.yaml"]
+
+
+def test_the_command_offers_every_format() -> None:
+    assert set(command.NAMES) == set(FORMATS)
