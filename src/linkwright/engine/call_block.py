@@ -142,6 +142,16 @@ class SingleCall:
         self._seen = parameters
         self._own[:] = parameters
 
+    def new_out(self) -> Floats:
+        """An array of its own for the outputs, which starts at a cache line."""
+        count = self.shape[0] * self.shape[1]
+        room = np.empty(count + _LINE // 8)
+        address = address_of(room)
+        skipped = -address % _LINE
+        self._out = None
+        self._block[Block.OUT] = address + skipped
+        return room[skipped // 8 : skipped // 8 + count].reshape(self.shape)
+
     def set_out(self, out: Floats) -> None:
         """Where the outputs go."""
         if out is self._out:

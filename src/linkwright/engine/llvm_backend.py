@@ -106,8 +106,9 @@ class CompiledProgram:
             return self._run_by_store(parameters, positions, fields, out, start)
         call.set_parameters(parameters)
         if out is None:
-            out = aligned(call.shape)
-        call.set_out(out)
+            out = call.new_out()
+        else:
+            call.set_out(out)
         self._function(call.address)
         return out
 

@@ -28,14 +28,27 @@ if TYPE_CHECKING:
     from linkwright.plot import Diagram
 
 
-@dataclass(frozen=True)
 class PointMotion:
-    """Motion of a point in frame axes, arrays (n, 2): ``position`` m, ``velocity`` m/s, ``acceleration`` m/s²."""
+    """Motion of a point in frame axes, arrays (n, 2)."""
 
-    name: str
-    position: Floats
-    velocity: Floats
-    acceleration: Floats
+    def __init__(self, motion: Motion, name: str) -> None:
+        self._motion = motion
+        self.name = name
+
+    @cached_property
+    def position(self) -> Floats:
+        """(n, 2) m."""
+        return self._motion.vector("p", self.name)
+
+    @cached_property
+    def velocity(self) -> Floats:
+        """(n, 2) m/s."""
+        return self._motion.vector("v", self.name)
+
+    @cached_property
+    def acceleration(self) -> Floats:
+        """(n, 2) m/s²."""
+        return self._motion.vector("a", self.name)
 
 
 @dataclass(frozen=True)
@@ -162,13 +175,13 @@ class Motion:
 
     def link(self, name: str) -> LinkMotion:
         """Motion of a link."""
-        if name != "frame" and name not in self.mechanism.links:
-            self.mechanism.link(name)
+        if name != "frame" and name not in self.design.base.links:
+            self.design.base.link(name)
         return LinkMotion(self, name)
 
     def joint(self, name: str) -> JointMotion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
-        joint = self.mechanism.joints.get(name)
+        joint = self.design.base.joints.get(name)
         if isinstance(joint, PrismaticJoint):
             return JointMotion(name, *(self.row(kind, name) for kind in ("s", "sv", "sa")))
         if isinstance(joint, RevoluteJoint):
@@ -185,12 +198,11 @@ class Motion:
 
     def point_of(self, key: str) -> PointMotion:
         """Motion of a point by its canonical key."""
-        return PointMotion(key, *(self.vector(prefix, key) for prefix in ("p", "v", "a")))
+        return PointMotion(self, key)
 
     def vector(self, prefix: str, key: str) -> Floats:
         """A vector output, (n, 2)."""
-        rows = self._fetch(vector_names(prefix, key))
-        return np.stack(rows, axis=1)
+        return self.rows.pair(vector_names(prefix, key), self.evaluate)
 
     def row(self, prefix: str, key: str) -> Floats:
         """A scalar output, (n,)."""
@@ -209,10 +221,17 @@ class Motion:
         return values
 
     def _point_key(self, name: str) -> str:
-        link = self.mechanism.links.get(name.removesuffix(".centre"))
+        found = self.solver.point_keys.get(name)
+        if found is None:
+            found = self.solver.point_keys[name] = self._find_key(name)
+        return found
+
+    def _find_key(self, name: str) -> str:
+        known = self.design.base
+        link = known.links.get(name.removesuffix(".centre"))
         if name.endswith(".centre") and link is not None and "centre" not in link.points:
             return name.removesuffix("centre") + "@centre"
-        return canonical(self.mechanism, *find_point(self.mechanism, name))
+        return canonical(known, *find_point(known, name))
 
     def point_names(self) -> Iterable[str]:
         """Names of all points that move."""

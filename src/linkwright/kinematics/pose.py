@@ -31,6 +31,11 @@ class Pose:
         return self.spin(Vec(1.0, 0.0))
 
 
+def _real(share: Vec) -> bool:
+    """Whether a point is known to lie on the line of the rotor: its motion is a part of the line's."""
+    return isinstance(share.y, float) and share.y == 0.0
+
+
 #: Any vector whose world image is itself: no rotation.
 UNTURNED = Rotor(Vec(1.0, 0.0), Vec(1.0, 0.0))
 FRAME_POSE = Pose(ZERO, ZERO, UNTURNED)
@@ -52,16 +57,22 @@ class State:
 
     def velocity_of(self, local: Vec) -> Vec:
         """Velocity of a point given in the link's axes."""
-        rotor = self.pose.rotor
-        return self.velocity + (rotor.now.perp * self.omega).turn(
-            (local - self.pose.anchor).over(rotor.local)
-        )
+        share = self._share(local)
+        if _real(share):
+            return self.velocity + (self.pose.rotor.now.perp * self.omega) * share.x
+        return self.velocity_at(self.arm(local))
 
     def acceleration_of(self, local: Vec) -> Vec:
         """Acceleration of a point given in the link's axes."""
-        rotor = self.pose.rotor
-        bend = rotor.now.perp * self.alpha - rotor.now * (self.omega * self.omega)
-        return self.acceleration + bend.turn((local - self.pose.anchor).over(rotor.local))
+        share = self._share(local)
+        if _real(share):
+            now = self.pose.rotor.now
+            return self.acceleration + (now.perp * self.alpha - now * (self.omega * self.omega)) * share.x
+        return self.acceleration_at(self.arm(local))
+
+    def _share(self, local: Vec) -> Vec:
+        """What the point's arm is of the rotor's vector, as a complex number."""
+        return (local - self.pose.anchor).over(self.pose.rotor.local)
 
     def velocity_at(self, arm: Vec) -> Vec:
         """Velocity of the point of the link that is ``arm`` away from the anchor."""

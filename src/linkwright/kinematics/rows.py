@@ -25,6 +25,13 @@ class Rows:
         found: Floats = self.values[self.index[name]]
         return found
 
+    def pair(self, names: tuple[str, str], evaluate: Callable[[tuple[str, ...]], Floats]) -> Floats:
+        """The two components of a vector output, (n, 2)."""
+        first = self.index.get(names[0])
+        if first is not None and self.index.get(names[1]) == first + 1:
+            return self.values[first : first + 2].T.copy()
+        return np.stack(self.fetch(names, evaluate), axis=1)
+
     def fetch(self, names: tuple[str, ...], evaluate: Callable[[tuple[str, ...]], Floats]) -> list[Floats]:
         """The rows of some outputs, (n,) each; ``evaluate`` supplies those that are not stored."""
         missing = tuple(name for name in names if name not in self.index and name not in self.extra)

@@ -26,6 +26,7 @@ class MotionSolver:
         self.mechanism = mechanism
         self.free = free
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+        self.point_keys: dict[str, str] = {}
         self.flipping: frozenset[str] = frozenset()
         self.iterations = 1
 

@@ -101,8 +101,9 @@ class Forces:
 
     def driver_effort(self, name: str) -> Floats:
         """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
-        if name not in self.mechanism.drivers:
-            offer = nearest(name, list(self.mechanism.drivers))
+        drivers = self.motion.design.base.drivers
+        if name not in drivers:
+            offer = nearest(name, list(drivers))
             raise LinkwrightError(
                 f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
             )
@@ -181,16 +182,16 @@ class Forces:
         return plot(self, kind, **options)
 
     def _reaction(self, joint: str, link: str) -> Floats:
-        links = self.mechanism.joints[joint].joined
+        links = self.motion.design.base.joints[joint].joined
         if link != links[0]:
-            return np.stack(self.fetch((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y")), axis=1)
+            return self.rows.pair((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y"), self.evaluate)
         total = np.zeros((self.steps, 2))
         for other in links[1:]:
             total -= self._reaction(joint, other)
         return total
 
     def _link_at(self, joint: str, on: str | None) -> str:
-        joints = self.mechanism.joints
+        joints = self.motion.design.base.joints
         if joint not in joints:
             offer = nearest(joint, list(joints))
             raise LinkwrightError(
@@ -223,9 +224,10 @@ class Forces:
         return name
 
     def _first_driver(self) -> str:
-        if not self.mechanism.drivers:
+        drivers = self.motion.design.base.drivers
+        if not drivers:
             raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
-        return next(iter(self.mechanism.drivers))
+        return next(iter(drivers))
 
     def fetch(self, names: tuple[str, ...]) -> list[Floats]:
         """Outputs by name, (n,) each."""

@@ -105,7 +105,7 @@ class Prepared:
             return self._solve_in_turn(design, failures)
         values = self._evaluate(self._table(changes))
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
-        if values[-1].any():
+        if np.count_nonzero(values[-1]):
             if failures == "raise":
                 raise refusal(motion)
             values[:-1, values[-1] != 0.0] = np.nan
