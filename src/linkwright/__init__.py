@@ -36,12 +36,16 @@ if TYPE_CHECKING:
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure
+    from linkwright.study.compare import Comparison as Comparison
+    from linkwright.study.compare import compare as compare
     from linkwright.study.designs import Sweep as Sweep
     from linkwright.study.designs import sweep as sweep
     from linkwright.study.prepared import Prepared as Prepared
     from linkwright.study.prepared import prepare as prepare
     from linkwright.study.sensitivity import Sensitivity as Sensitivity
     from linkwright.study.sensitivity import sensitivity as sensitivity
+    from linkwright.study.study import Study as Study
+    from linkwright.study.study import study as study
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
@@ -62,9 +66,11 @@ PUBLIC = {
     "linkwright.model.mechanism": ("Mechanism",),
     "linkwright.model.schema": ("json_schema",),
     "linkwright.structure": ("Structure", "StructureError", "structure"),
+    "linkwright.study.compare": ("Comparison", "compare"),
     "linkwright.study.designs": ("Sweep", "sweep"),
     "linkwright.study.prepared": ("Prepared", "prepare"),
     "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
+    "linkwright.study.study": ("Study", "study"),
     "linkwright.worked.solution": ("Worked", "worked"),
 }
 

@@ -55,7 +55,7 @@ def test_mujoco_starts_closed_at_our_places(results: Results) -> None:
 
 
 def test_modelica_equations_hold_and_are_as_many_as_unknowns(results: Results) -> None:
-    text = FORMATS["modelica"].content(results).decode()
+    text = FORMATS["modelica"].content(results, form="positions").decode()
     head, body = text.split("\nequation\n")
     unknowns = re.findall(r"^  Real (\w+)\(", head, re.MULTILINE)
     starts = re.findall(r"^  Real (\w+)\(unit=\"[^\"]*\", start=([^)]*)\)", head, re.MULTILINE)
@@ -69,3 +69,15 @@ def test_modelica_equations_hold_and_are_as_many_as_unknowns(results: Results) -
         if "der(" not in right and "if " not in right:
             a, b = (parse(side, list(values)).evaluate(values) for side in (left, right))
             assert math.isclose(a, b, abs_tol=1e-9 * max(1.0, abs(a))), f"{left} = {right}"
+
+
+def test_modelica_moves_as_the_mechanism_does(results: Results) -> None:
+    rumoca = pytest.importorskip("rumoca")
+    text = FORMATS["modelica"].content(results, name="Machine").decode()
+    begin, end = (float(re.findall(rf"{word}=([^,]+),", text)[0]) for word in ("StartTime", "StopTime"))
+    model = rumoca.Session().loads(text, model="Machine")
+    config = rumoca.SimConfig(rtol=1e-9, atol=1e-11)
+    result = model.simulate((begin, end), dt=(end - begin) / 90, config=config)
+    motion = lw.solve_motion(results.mechanism, times=np.clip(result.time, begin, end))
+    for name in results.mechanism.links:
+        assert np.asarray(result[f"{name}_phi"]) == pytest.approx(motion.link(name).angle, abs=5e-7)

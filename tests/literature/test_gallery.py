@@ -61,7 +61,9 @@ def test_structure(name: str) -> None:
     if "groups" in expected:
         groups = [group for group in found.groups if group.assur_class > 1]
         words = [
-            group.signature if group.assur_class == 2 else f"class {ROMAN[group.assur_class]}, order {group.assur_order}"
+            group.signature
+            if group.assur_class == 2
+            else f"class {ROMAN[group.assur_class]}, order {group.assur_order}"
             for group in groups
         ]
         assert sorted(words) == sorted(expected["groups"])

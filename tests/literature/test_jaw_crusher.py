@@ -32,7 +32,9 @@ def test_forces_of_the_six_bar_with_the_load_as_reported() -> None:
     forces = lw.solve_forces(lw.solve_motion(mechanism, at=np.radians(printed["crank_deg"])))
     reaction = forces.reaction("O5", on="jaw")
     assert np.hypot(*reaction.T) == pytest.approx(printed["FR6_N"], abs=0.00051)
-    assert np.degrees(np.arctan2(reaction[:, 1], reaction[:, 0])) == pytest.approx(printed["BT6_deg"], abs=0.00101)
+    assert np.degrees(np.arctan2(reaction[:, 1], reaction[:, 0])) == pytest.approx(
+        printed["BT6_deg"], abs=0.00101
+    )
     assert forces.input_torque == pytest.approx(printed["TB_Nm"], abs=0.00051)
     assert forces.input_torque_from_power == pytest.approx(forces.input_torque, rel=1e-9, abs=1e-9)
 

@@ -38,7 +38,9 @@ def test_printed_positions(conveyor: lw.Mechanism, crank: float) -> None:
 def test_corrected_rates_at_0_degrees(conveyor: lw.Mechanism) -> None:
     motion = lw.solve_motion(conveyor, at=0.0)
     links = [motion.link(name) for name in ("coupler", "rocker", "rod")]
-    assert [link.angular_velocity[0] for link in links] == pytest.approx([-1.834732, 15.837381, -11.728288], abs=1e-6)
+    assert [link.angular_velocity[0] for link in links] == pytest.approx(
+        [-1.834732, 15.837381, -11.728288], abs=1e-6
+    )
     accelerations = [link.angular_acceleration[0] for link in links]
     assert accelerations == pytest.approx([1950.2000, 2386.1162, -1741.1396], abs=1e-4)
     assert motion.point("F").velocity[0, 0] == pytest.approx(0.779319, abs=1e-6)

@@ -13,9 +13,9 @@ from linkwright.export.modelica.names import Names, quoted
 from linkwright.export.results import Results
 
 
-def text_of(name: str, *, accelerations: bool = True) -> str:
+def text_of(name: str, form: str) -> str:
     results = Results.of(lw.load(f"gallery:{name}"), 72)
-    return str(FORMATS["modelica"].content(results, name="Machine", accelerations=accelerations).decode())
+    return str(FORMATS["modelica"].content(results, name="Machine", form=form).decode())
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,7 @@ def text_of(name: str, *, accelerations: bool = True) -> str:
 )
 def test_a_cycle_agrees(name: str) -> None:
     rumoca = pytest.importorskip("rumoca")
-    text = text_of(name)
+    text = text_of(name, "positions")
     begin, end = (float(re.findall(rf"{word}=([^,]+),", text)[0]) for word in ("StartTime", "StopTime"))
     model = rumoca.Session().loads(text, model="Machine")
     result = model.simulate(
@@ -39,6 +39,22 @@ def test_a_cycle_agrees(name: str) -> None:
     for pin in (each for each in motion.mechanism.joints if f"{each}_x" in result.names):
         places = np.stack([result[f"{pin}_x"], result[f"{pin}_y"]], axis=1)
         assert places == pytest.approx(motion.point(pin).position, abs=2e-9)
+
+
+def test_rates_keep_the_assembly_where_positions_may_lose_it() -> None:
+    rumoca = pytest.importorskip("rumoca")
+    motion = lw.solve_motion(lw.load("gallery:press_double_crank"), steps=180, endpoint=True)
+    model = rumoca.Session().loads(text_of("press_double_crank", "rates"), model="Machine")
+    config = rumoca.SimConfig(rtol=1e-9, atol=1e-11)
+    result = model.simulate((0.0, float(motion.time[-1])), dt=float(motion.time[1]), config=config)
+    motion = lw.solve_motion(motion.mechanism, times=np.asarray(result.time))
+    for link in motion.mechanism.links:
+        assert np.asarray(result[f"{link}_phi"]) == pytest.approx(motion.link(link).angle, abs=1e-6)
+
+
+def test_an_unknown_form_is_refused() -> None:
+    with pytest.raises(LinkwrightError, match='not of "forces"'):
+        text_of("crank_rocker", "forces")
 
 
 def test_expressions_keep_their_meaning() -> None:

@@ -145,6 +145,16 @@ def test_number_formats_show_six_digits() -> None:
     assert number_format(np.array([54321678.0])) == "0"
 
 
+def test_a_sheet_that_would_not_hold_all_is_refused(
+    forces: Forces, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("xlsxwriter")
+    monkeypatch.setattr("linkwright.export.formats.xlsx.MOST_ROWS", 23)
+    with pytest.raises(LinkwrightError, match="fewer steps"):
+        export(forces, tmp_path / "a.xlsx")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_files_that_exist_are_kept(forces: Forces, tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("mine", encoding="utf-8")

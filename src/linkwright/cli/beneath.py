@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 
 from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved, reaction_pairs
 from linkwright.cli.text_table import aligned
+from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.words import Say
 
@@ -57,12 +61,19 @@ def checks(solved: Solved, say: Say) -> list[str]:
 
 
 def closeness(motion: Motion, language: str) -> list[str]:
-    """Warnings about groups that pass close to a singular position, each with the place."""
+    """Warnings about groups whose cycle passes close to a singular position, each with the place.
+
+    Of chosen inputs or times the whole cycle is looked at where there is one.
+    """
     if not motion.inputs or not motion.ok.any():
         return []
     from linkwright.metrics.singularity import Singularity
 
-    values = Singularity().evaluate(motion)
+    cycle = motion
+    if not motion.positions.closed:
+        with contextlib.suppress(LinkwrightError):
+            cycle = solve_motion(motion.mechanism, steps=360, failures="mark")
+    values = Singularity().evaluate(cycle)
     return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
 
 

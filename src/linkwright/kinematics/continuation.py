@@ -33,9 +33,12 @@ class Follower:
     structure: Structure
     assembly: Assembly
     parameters: Mapping[str, float]
+    free: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
-        self.motion = trace_motion(self.mechanism, self.structure, rates=False, iterations=ITERATIONS)
+        self.motion = trace_motion(
+            self.mechanism, self.structure, free=self.free, rates=False, iterations=ITERATIONS
+        )
         self.program = _follow_program(self.motion)
         self.scalar = ScalarProgram(self.program)
         self.size = mechanism_size(self.motion.dimensions)

@@ -90,7 +90,7 @@ class Dimensions:
 
     def _unit(self, address: str) -> Vec:
         angle = self(address)
-        if not isinstance(angle, float) and address not in self.free:
+        if not isinstance(angle, float) and not self._follows(address):
             turns = round(self.nominal[address] / (0.5 * _PI))
             if self.nominal[address] == turns * 0.5 * _PI:
                 return _QUARTERS[turns % 4]

@@ -59,6 +59,15 @@ class MotionSolver:
         """The mechanism as it is."""
         return Design(self.mechanism, self.assembly.modes, {})
 
+    def for_design(self, design: Design) -> MotionSolver:
+        """The same structure and assembly for a design with its changes made."""
+        if not design.changes:
+            return self.with_flips(()) if self.flipping else self
+        other = MotionSolver(design.mechanism, self.free)
+        other.__dict__["structure"] = self.structure
+        other.__dict__["assembly"] = self.assembly
+        return other
+
     def with_flips(self, groups: Iterable[str]) -> MotionSolver:
         """The same mechanism, with assembly modes of some groups given per position."""
         other = MotionSolver(self.mechanism, self.free)
@@ -79,7 +88,9 @@ class MotionSolver:
         if not self.motion.next_states:
             return {}
         parameters = (design or self.nominal).parameters
-        return Follower(self.mechanism, self.structure, self.assembly, parameters).follow(positions)
+        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.free).follow(
+            positions
+        )
 
     def evaluate(
         self,

@@ -139,7 +139,7 @@ class Forces:
 
     @cached_property
     def balance_residual(self) -> Floats:
-        """Largest gap in the balance of any link, (n,) N, put together again from the results; see ``link_balance``."""
+        """Largest gap in the balance of any link, (n,) N, put together from the results; see ``link_balance``."""
         return balance_residual(self)
 
     @cached_property

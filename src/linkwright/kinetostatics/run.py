@@ -21,9 +21,9 @@ class FrictionError(LinkwrightError):
     """Friction for which no finite driver effort is found."""
 
 
-def run_forces(motion: Motion, static: bool) -> Forces:
-    """Solves the forces of a motion."""
-    solver = ForceSolver(motion.solver, inertia=not static)
+def run_forces(motion: Motion, static: bool, solver: ForceSolver | None = None) -> Forces:
+    """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again."""
+    solver = solver or ForceSolver(motion.solver, inertia=not static)
     fields = _load_fields(motion, solver)
     if solver.friction.terms:
         fields = with_friction(motion, solver, fields)

@@ -157,8 +157,7 @@ class MotionSignals:
             positions: Positions = over_cycle(mechanism, STEPS)
         except CycleError:
             return None
-        solver = self.motion.solver
-        return MotionRun(solver.with_flips(()) if solver.flipping else solver, positions).solve("mark")
+        return MotionRun(self.motion.solver.for_design(self.motion.design), positions).solve("mark")
 
 
 def _between(motion: Motion, a: str, b: str) -> Floats:

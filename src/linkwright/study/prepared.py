@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Literal
 
 import numpy as np
@@ -78,13 +78,14 @@ class Prepared:
         values = {name: (motion if name in stored else forces).value(name) for name in self._names}
         return Program.of(self.solver.motion.trace, values)
 
-    def _evaluator(self, backend: Backend):  # type: ignore[no-untyped-def]
+    def _evaluator(self, backend: Backend) -> Callable[[Floats], Floats]:
         arrays = {name: self.positions.arrays[name] for name in self.program.positions}
         if backend != "numpy":
             from linkwright.engine.llvm_backend import compile_program
 
-            compiled = compile_program(self.program) if self.program.positions else None
-            if compiled is not None and not self.program.states:
+            able = bool(self.program.positions) and not self.program.states
+            compiled = compile_program(self.program) if able else None
+            if compiled is not None:
                 return lambda table: compiled.run(table, arrays)
             if backend == "llvm":
                 raise LinkwrightError(
@@ -97,7 +98,7 @@ class Prepared:
         """Motion and forces of the design with some dimensions changed (SI values by address).
 
         Raises:
-            LinkwrightError: a dimension that was not named in ``vary``.
+            LinkwrightError: a dimension that is zero in the starting design, and was not named in ``vary``.
             PositionError: a position cannot be reached, and ``failures`` is ``raise``.
         """
         design = Design(self.mechanism, self.solver.assembly.modes, changes)
@@ -138,4 +139,4 @@ class Prepared:
             if failures == "raise":
                 raise refusal(motion)
             values[:-1, ~motion.ok] = np.nan
-        return run_forces(motion, False)
+        return run_forces(motion, False, self.force_solver)

@@ -36,8 +36,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
     from linkwright.kinematics import solve_motion
-    from linkwright.model.file import check, load
     from linkwright.kinematics.rank import analysed
+    from linkwright.model.file import check, load
 
     found = check(name)
     if any(finding.severity == "error" for finding in found):

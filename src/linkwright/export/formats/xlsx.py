@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.errors import LinkwrightError
 from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
@@ -100,13 +101,17 @@ class Workbook:
     def _values(self, table: Table, leading: Sequence[Column]) -> None:
         """A sheet of values over the positions."""
         sheet = self._sheet(table.subject)
-        columns = [*leading, *self._turned(table.columns)][:MOST_COLUMNS]
+        columns = [*leading, *self._turned(table.columns)]
+        if len(columns) > MOST_COLUMNS or len(columns[0].values) > MOST_ROWS:
+            raise LinkwrightError(
+                f"an Excel sheet holds {MOST_COLUMNS} columns of {MOST_ROWS} values; take fewer steps, or .parquet"
+            )
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
             sheet.set_column(
                 index, index, 14, self.book.add_format({"num_format": number_format(column.values)})
             )
-            for row, value in enumerate(column.values[:MOST_ROWS].tolist(), start=1):
+            for row, value in enumerate(column.values.tolist(), start=1):
                 if math.isfinite(value):
                     sheet.write_number(row, index, value)
         sheet.set_row(0, 48)

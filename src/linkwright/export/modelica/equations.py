@@ -45,7 +45,7 @@ class Equations:
         for name in self.pins:
             self._pin(name)
         for name in self.links:
-            self._plain_points(name)
+            self.plain_points(name)
         for joint in self.mechanism.joints.values():
             if isinstance(joint, PrismaticJoint):
                 self._guide(joint)
@@ -55,10 +55,10 @@ class Equations:
             self._driver(name)
         return self.text
 
-    def _unknown(self, name: str, unit: str, start: float, meaning: str) -> None:
+    def unknown(self, name: str, unit: str, start: float, meaning: str) -> None:
         self.text.unknowns.append(f'Real {name}(unit="{unit}", start={number(start)}) {quoted(meaning)};')
 
-    def _parameter(self, name: str, unit: str, value: float, meaning: str) -> str:
+    def parameter(self, name: str, unit: str, value: float, meaning: str) -> str:
         self.text.parameters.append(
             f'parameter Real {name}(unit="{unit}") = {number(value)} {quoted(meaning)};'
         )
@@ -75,31 +75,31 @@ class Equations:
     def _link(self, name: str) -> None:
         me = self.links[name]
         x, y = self.placed[name].origin[self.index]
-        self._unknown(f"{me}_x", "m", x, f"origin of link {name}, x")
-        self._unknown(f"{me}_y", "m", y, f"origin of link {name}, y")
-        self._unknown(f"{me}_phi", "rad", self.motion.link(name).angle[self.index], f"angle of link {name}")
+        self.unknown(f"{me}_x", "m", x, f"origin of link {name}, x")
+        self.unknown(f"{me}_y", "m", y, f"origin of link {name}, y")
+        self.unknown(f"{me}_phi", "rad", self.motion.link(name).angle[self.index], f"angle of link {name}")
         self._rates(me, f"{me}_phi", ("rad/s", "rad/s2"), f"link {name} (angular)")
 
     def _pin(self, name: str) -> None:
         me = self.names.of("pin", name)
-        self._point(me, name, f"pin {name}")
+        self.point(me, name, f"pin {name}")
         for link in self.pins[name].links:
             self._place(link, name, f"{me}_x", f"{me}_y")
 
-    def _plain_points(self, link: str) -> None:
+    def plain_points(self, link: str) -> None:
         for point in self.mechanism.links[link].points:
             if point in self.pins and link in self.pins[point].links:
                 continue
             me = self.names.of("point", f"{link}.{point}")
-            self._point(me, canonical(self.mechanism, link, point), f"point {point} of link {link}")
+            self.point(me, canonical(self.mechanism, link, point), f"point {point} of link {link}")
             self._place(link, point, f"{me}_x", f"{me}_y")
 
-    def _point(self, me: str, key: str, meaning: str) -> None:
+    def point(self, me: str, key: str, meaning: str) -> None:
         x, y = (
             self.motion.point_of(key).position[self.index] if not self._fixed(key) else self._fixed_place(key)
         )
-        self._unknown(f"{me}_x", "m", x, f"{meaning}, x")
-        self._unknown(f"{me}_y", "m", y, f"{meaning}, y")
+        self.unknown(f"{me}_x", "m", x, f"{meaning}, x")
+        self.unknown(f"{me}_y", "m", y, f"{meaning}, y")
 
     def _fixed(self, key: str) -> bool:
         return key in self.pins and "frame" in self.pins[key].links
@@ -109,17 +109,17 @@ class Equations:
 
     def _place(self, link: str, point: str, x: str, y: str) -> None:
         """The point's coordinates from the place of the link."""
-        right = self._world(link, point)
+        right = self.world(link, point)
         self.text.equations += [f"{x} = {right[0]};", f"{y} = {right[1]};"]
 
-    def _world(self, link: str, point: str) -> tuple[str, str]:
+    def world(self, link: str, point: str) -> tuple[str, str]:
         px, py = self.mechanism.link(link).points[point]
         base, meaning = self.names.of("local", f"{link}.{point}"), f"{point} in the axes of {link}"
         a, b = f"{base}_u", f"{base}_v"
         if base not in self.known:
             self.known.add(base)
-            self._parameter(a, "m", px, f"{meaning}, x")
-            self._parameter(b, "m", py, f"{meaning}, y")
+            self.parameter(a, "m", px, f"{meaning}, x")
+            self.parameter(b, "m", py, f"{meaning}, y")
         if link == "frame":
             return a, b
         me = self.links[link]
@@ -128,25 +128,25 @@ class Equations:
             f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}",
         )
 
-    def _angle(self, link: str) -> str:
+    def angle(self, link: str) -> str:
         return "0.0" if link == "frame" else f"{self.links[link]}_phi"
 
     def _guide(self, joint: PrismaticJoint) -> None:
         me = self.names.of("guide", joint.name)
         slide = self.motion.joint(joint.name)
-        self._unknown(
+        self.unknown(
             f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}"
         )
         self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
-        turn = self._parameter(
+        turn = self.parameter(
             f"{me}_direction", "rad", guide_angle(self.mechanism, joint), f"direction of {joint.name}"
         )
-        offset = self._parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
-        block = self._parameter(
+        offset = self.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
+        block = self.parameter(
             f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block"
         )
-        along = f"({self._angle(joint.guide)} + {turn})"
-        (bx, by), (gx, gy) = self._world(joint.block, joint.at), self._world(joint.guide, joint.through)
+        along = f"({self.angle(joint.guide)} + {turn})"
+        (bx, by), (gx, gy) = self.world(joint.block, joint.at), self.world(joint.guide, joint.through)
         self.text.equations += [
             f"{bx} = {gx} + {me}_s*cos{along} - {offset}*sin{along};",
             f"{by} = {gy} + {me}_s*sin{along} + {offset}*cos{along};",
@@ -154,18 +154,18 @@ class Equations:
         if joint.name not in self.results.structure.redundant:
             angles = [self.motion.link(link).angle[self.index] for link in (joint.block, joint.guide)]
             gap = angles[0] + joint.block_angle - angles[1] - guide_angle(self.mechanism, joint)
-            self.text.equations.append(f"{self._angle(joint.block)} + {block} = {along}{turns(gap)};")
+            self.text.equations.append(f"{self.angle(joint.block)} + {block} = {along}{turns(gap)};")
 
     def _weld(self, joint: WeldJoint) -> None:
         a, b = joint.links
-        for left, right in zip(self._world(a, joint.at), self._world(b, joint.at), strict=True):
+        for left, right in zip(self.world(a, joint.at), self.world(b, joint.at), strict=True):
             self.text.equations.append(f"{left} = {right};")
         first, second = (self.motion.link(link).angle[self.index] for link in (a, b))
-        turn = self._parameter(
+        turn = self.parameter(
             f"{self.names.of('weld', joint.name)}_angle", "rad", joint.angle, f"angle of {joint.name}"
         )
         self.text.equations.append(
-            f"{self._angle(b)} = {self._angle(a)} + {turn}{turns(second - first - joint.angle)};"
+            f"{self.angle(b)} = {self.angle(a)} + {turn}{turns(second - first - joint.angle)};"
         )
 
     def _driver(self, name: str) -> None:
@@ -174,15 +174,15 @@ class Equations:
         me = self.names.of("driver", name)
         rotary = self.motion.positions.rotary[name]
         start = self.motion.inputs[name][self.index]
-        self._unknown(f"{me}_q", "rad" if rotary else "m", start, f"coordinate of the driver {name}")
+        self.unknown(f"{me}_q", "rad" if rotary else "m", start, f"coordinate of the driver {name}")
         self.text.equations.append(f"{me}_q = {law_text(driver.law, begin, end)};")
         if not rotary:
             self.text.equations.append(f"{self.names.of('guide', driver.joint)}_s = {me}_q;")
             return
         moved, base = (self.motion.link(link).angle[self.index] for link in (driver.link, driver.relative_to))
-        against = "" if driver.relative_to == "frame" else f" - {self._angle(driver.relative_to)}"
+        against = "" if driver.relative_to == "frame" else f" - {self.angle(driver.relative_to)}"
         self.text.equations.append(
-            f"{self._angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};"
+            f"{self.angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};"
         )
 
 

@@ -1,6 +1,24 @@
 """Design numbers of mechanisms and machines."""
 
 WORDS = {
+    "summary": "design numbers: transmission angle, strokes, peak torque and reactions, …",
+    "description": """\
+Prints all design numbers of a machine that apply to it, each with its value, where
+in the cycle it occurs, the recommended limit and a remark. Warnings stand beneath,
+closeness to a singular position first.""",
+    "examples": """\
+linkwright metrics gallery:jaw_crusher_sixbar
+linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
+linkwright metrics crusher.yaml --output numbers.csv""",
+    "names_help": "names of the numbers, separated by commas (default: all that apply; --json shows the names)",
+    "steps_help": "equal steps over the cycle (default 360); extreme values are refined between them",
+    "forces_help": "joint forces and what follows from them (default: where the model has masses or loads)",
+    "mark_help": "leave out positions that cannot be reached instead of refusing",
+    "output_help": "write the numbers in SI units to a .csv or .json file",
+    "no_names": '--names: "{text}" has an empty place between commas',
+    "nothing": "none of the design numbers applies to this mechanism",
+    "column.limit": "limit",
+    "column.remark": "remark",
     "column.metric": "design number",
     "column.subject": "of",
     "column.value": "value",

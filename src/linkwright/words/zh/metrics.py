@@ -1,6 +1,23 @@
 """机构与机器的设计指标。"""
 
 WORDS = {
+    "summary": "设计指标:传动角、行程、力矩与反力峰值等",
+    "description": """\
+输出机器适用的全部设计指标:数值、出现的位置、推荐限值与说明。
+警告列在表格下方,接近奇异位置的警告在最前。""",
+    "examples": """\
+linkwright metrics gallery:jaw_crusher_sixbar
+linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
+linkwright metrics crusher.yaml --output numbers.csv""",
+    "names_help": "指标名称,以逗号分隔(默认:全部适用的指标;--json 显示名称)",
+    "steps_help": "一个循环内的等分数(默认 360);极值在各位置之间再精确求取",
+    "forces_help": "运动副反力及由其得出的指标(默认:模型有质量或载荷时)",
+    "mark_help": "略去不能到达的位置,而不是拒绝计算",
+    "output_help": "以国际单位制写入 .csv 或 .json 文件",
+    "no_names": '--names:"{text}" 的逗号之间有空缺',
+    "nothing": "没有适用于该机构的设计指标",
+    "column.limit": "限值",
+    "column.remark": "说明",
     "column.metric": "设计指标",
     "column.subject": "对象",
     "column.value": "数值",

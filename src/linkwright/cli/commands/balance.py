@@ -1,0 +1,172 @@
+"""``linkwright balance``: counterweights, and what they do to the shaking force."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.balancing import Balancing
+    from linkwright.model.mechanism import Mechanism
+
+ENDINGS = (".yaml", ".yml")
+#: A peak below this share of the one without counterweights is rounding.
+NOTHING = 1e-12
+
+
+class _Radii(dict[str, float]):
+    """Radii by link; one that is not given is refused."""
+
+    def __init__(self, radii: dict[str, float], say: Say) -> None:
+        super().__init__(radii)
+        self._say = say
+
+    def __missing__(self, link: str) -> float:
+        raise UsageError(self._say("balance.no_radius", link=link))
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument("--radius", required=True, metavar="LENGTH", help=say("balance.radius_help"))
+    parser.add_argument("--share", default="1", metavar="NUMBER", help=say("balance.share_help"))
+    parser.add_argument(
+        "--steps", type=whole_number, default=360, metavar="N", help=say("balance.steps_help")
+    )
+    parser.add_argument("--output", metavar="FILE", help=say("balance.output_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Prints the counterweights and their effect, and writes the balanced model."""
+    from linkwright.cli.files import write_whole
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import refuse_output
+    from linkwright.kinetostatics.balancing import balance
+
+    say = session.say
+    refuse_output(options.output, ENDINGS, say, force=options.force)
+    share = _share(options.share, say)
+    mechanism, _ = read_model(options.file)
+    radius = _radius(options.radius, mechanism, say)
+    found = balance(mechanism, radius=radius, share=share, steps=options.steps)
+    if options.output is not None:
+        write_whole(Path(options.output), _model_text(found), say, force=options.force)
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text(_data(found)))
+        return 0
+    session.show("\n".join(_report(found, session)))
+    if options.output is not None:
+        session.show(f"\n{say('cli.written', path=options.output)}")
+    return 0
+
+
+def _share(text: str, say: Say) -> float:
+    try:
+        share = float(text)
+    except ValueError:
+        share = math.nan
+    if not 0.0 <= share <= 1.0:
+        raise UsageError(say("balance.bad_share", text=text))
+    return share
+
+
+def _radius(text: str, mechanism: Mechanism, say: Say) -> float | _Radii:
+    """One radius, or radii by link from ``crank=80 mm, rod=40 mm``; raises UsageError."""
+    if "=" not in text:
+        return _length(text, say)
+    radii: dict[str, float] = {}
+    for part in text.split(","):
+        link, _, given = (piece.strip() for piece in part.partition("="))
+        if link not in mechanism.links:
+            from linkwright.registry import nearest
+
+            offer = nearest(link, list(mechanism.links))
+            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            raise UsageError(say("balance.no_link", link=link) + hint)
+        radii[link] = _length(given, say)
+    return _Radii(radii, say)
+
+
+def _length(text: str, say: Say) -> float:
+    from linkwright import units
+    from linkwright.errors import QuantityError
+
+    try:
+        value = units.parse(text, "length")
+    except QuantityError as error:
+        raise UsageError(f"--radius: {error}") from None
+    if not value > 0:
+        raise UsageError(say("balance.bad_radius", text=text))
+    return value
+
+
+def _model_text(found: Balancing) -> str:
+    """The balanced model; masses that were expressions become the new numbers."""
+    from linkwright.model.file import dump
+
+    changed = tuple(
+        f"{weight.link}.{key}"
+        for weight in found.counterweights
+        for key in ("mass", "inertia", "mass_centre")
+    )
+    kept = {
+        address: each
+        for address, each in found.mechanism.expressions.items()
+        if not any(address == name or address.startswith(f"{name}.") for name in changed)
+    }
+    return dump(replace(found.mechanism, expressions=kept))
+
+
+def _effects(found: Balancing) -> dict[str, tuple[str, float, float]]:
+    """Unit and peaks without and with, by name."""
+    effects = {}
+    for label, (without, having) in found.effect().items():
+        name, _, unit = label.removesuffix("]").partition(" [")
+        effects[name.replace(" ", "_")] = (unit, without, having if having > NOTHING * without else 0.0)
+    return effects
+
+
+def _report(found: Balancing, session: Session) -> list[str]:
+    from linkwright.cli.text_table import aligned
+
+    say = session.say
+    lines = [session.strong(found.mechanism.name), ""]
+    if not found.counterweights:
+        lines.append(say("balance.none"))
+    else:
+        rows = [[say(f"balance.column.{key}") for key in ("link", "mass", "x", "y")]]
+        for weight in found.counterweights:
+            x, y = weight.place
+            rows.append([weight.link, *(f"{value:.6g}" for value in (weight.mass, 1e3 * x, 1e3 * y))])
+        lines += aligned(rows, "<>>>")
+    rows = [[say(f"balance.column.{key}") for key in ("peak", "unit", "without", "with", "share")]]
+    for name, (unit, without, having) in _effects(found).items():
+        share = f"{100 * having / without:.4g} %" if without else ""
+        rows.append([say(f"balance.{name}"), unit, f"{without:.6g}", f"{having:.6g}", share])
+    return [*lines, "", *aligned(rows, "<<>>>")]
+
+
+def _data(found: Balancing) -> dict[str, Any]:
+    return {
+        "ok": True,
+        "name": found.mechanism.name,
+        "counterweights": [
+            {"link": weight.link, "mass [kg]": weight.mass, "place [m]": list(weight.place)}
+            for weight in found.counterweights
+        ],
+        "peaks": {
+            f"{name} [{unit}]": {"without": without, "with": having}
+            for name, (unit, without, having) in _effects(found).items()
+        },
+    }

@@ -1,0 +1,171 @@
+"""``linkwright metrics``: the design numbers of a machine."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.errors import LinkwrightError
+    from linkwright.metrics.base import MetricValue
+    from linkwright.metrics.table import MetricsTable
+    from linkwright.model.mechanism import Mechanism
+
+ENDINGS = (".csv", ".json")
+COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument("--names", nargs="+", metavar="NAME,NAME", help=say("metrics.names_help"))
+    parser.add_argument(
+        "--steps", type=whole_number, default=360, metavar="N", help=say("metrics.steps_help")
+    )
+    parser.add_argument(
+        "--forces", action=argparse.BooleanOptionalAction, default=None, help=say("metrics.forces_help")
+    )
+    parser.add_argument("--mark", action="store_true", help=say("metrics.mark_help"))
+    parser.add_argument("--output", metavar="FILE", help=say("metrics.output_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Prints or writes the numbers; 1 where the joint forces failed that some of them need."""
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import csv_of, refuse_output, write_table
+
+    say = session.say
+    refuse_output(options.output, ENDINGS, say, force=options.force)
+    names = _names(options.names, say)
+    mechanism, _ = read_model(options.file)
+    table, trouble = _evaluated(mechanism, names, options)
+    data = _data(table, trouble, session.language)
+    rows = data["metrics"]
+    columns = {name: [_cell(row[name]) for row in rows] for name in COLUMNS}
+    write_table(options.output, lambda: csv_of(columns), lambda: data, session, force=options.force)
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text(data))
+    else:
+        session.show("\n".join(_report(table, session)))
+        if options.output is not None:
+            session.show(f"\n{say('cli.written', path=options.output)}")
+    if trouble is not None:
+        session.tell(f"{session.alarm(say('cli.error'))}: {trouble}")
+    return int(trouble is not None)
+
+
+def _names(texts: list[str] | None, say: Say) -> list[str] | None:
+    """Names that were asked for; raises UsageError for one that no number has, with the nearest."""
+    if texts is None:
+        return None
+    from linkwright.metrics.base import METRICS
+    from linkwright.registry import UnknownName
+
+    names = [name.strip() for text in texts for name in text.split(",")]
+    if not all(names):
+        raise UsageError(say("metrics.no_names", text=" ".join(texts)))
+    for name in names:
+        try:
+            METRICS[name]
+        except UnknownName as error:
+            raise UsageError(f"--names: {error}") from None
+    return names
+
+
+def _evaluated(
+    mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
+) -> tuple[MetricsTable, LinkwrightError | None]:
+    """The numbers, and why there are no forces where they failed."""
+    from linkwright.cli.solving import has_loads
+    from linkwright.errors import LinkwrightError
+    from linkwright.kinematics.solve import solve_motion
+    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.metrics import metrics
+
+    motion = solve_motion(mechanism, steps=options.steps, failures="mark" if options.mark else "raise")
+    if options.forces is False or not (options.forces or has_loads(mechanism)):
+        return metrics(motion, names), None
+    try:
+        forces = solve_forces(motion)
+    except LinkwrightError as error:
+        if names is None:
+            return metrics(motion), error
+        raise
+    return metrics(forces, names), None
+
+
+def _ordered_warnings(table: MetricsTable, language: str) -> list[str]:
+    """Sentences that need attention, closeness to a singular position first."""
+    rows = sorted(table, key=lambda row: row.metric != "singularity")
+    return [f"{row.subject}: {remark.text(language)}" for row in rows for remark in row.warnings]
+
+
+def _report(table: MetricsTable, session: Session) -> list[str]:
+    from linkwright.cli.text_table import aligned
+
+    say = session.say
+    if not table.rows:
+        return [session.strong(table.title), "", say("metrics.nothing")]
+    keys = ("metric", "subject", "value", "unit", "at", "limit", "remark")
+    rows = [[say(f"metrics.column.{key}") for key in keys]]
+    rows += [_cells(row, session.language) for row in table]
+    kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
+    align = "".join("<<><>><"[i] for i in kept)
+    lines = [session.strong(table.title), "", *aligned([[row[i] for i in kept] for row in rows], align)]
+    warnings = _ordered_warnings(table, session.language)
+    return [*lines, *([""] if warnings else []), *(f"! {warning}" for warning in warnings)]
+
+
+def _cells(row: MetricValue, language: str) -> list[str]:
+    """Cells of a row; its warnings stand beneath the table, and are marked here."""
+    from linkwright.metrics.base import METRICS
+    from linkwright.metrics.quantities import number, shown, shown_unit
+
+    metric = METRICS[row.metric]()
+    at = "" if row.at is None else shown(row.at, row.at_dimension)
+    limit = ""
+    if metric.limit is not None:
+        limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
+    remarks = ["!"] if row.warnings else []
+    remarks += [remark.text(language) for remark in row.remarks if not remark.warning]
+    value = number(row.value, row.dimension)
+    return [
+        metric.label_in(language),
+        row.subject,
+        value,
+        shown_unit(row.dimension),
+        at,
+        limit,
+        " ".join(remarks),
+    ]
+
+
+def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -> dict[str, Any]:
+    from linkwright.metrics.base import METRICS
+
+    rows = []
+    for row, plain in zip(table, table.data(), strict=True):
+        remark = "; ".join(remark.text(language) for remark in row.remarks)
+        rows.append({**plain, "limit": METRICS[row.metric].limit, "remark": remark})
+    found: dict[str, Any] = {
+        "ok": trouble is None,
+        "name": table.title,
+        "metrics": rows,
+        "warnings": _ordered_warnings(table, language),
+        "not_applicable": list(table.skipped),
+    }
+    return found if trouble is None else {**found, "error": str(trouble)}
+
+
+def _cell(value: Any) -> str | float:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "" if value is None else value
