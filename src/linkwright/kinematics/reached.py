@@ -19,7 +19,8 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
     Empty if no change point is passed.
 
     For mechanisms of dyads with one driver that turns at constant speed and passes the whole turn. The way
-    begins at the start of the cycle; after an odd number of change points in one turn the second turn has the other sign.
+    begins at the start of the cycle; after an odd number of change points in one turn the second turn has the
+    other sign.
     """
     drivers = list(solver.mechanism.drivers.values())
     if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed) or solver.motion.next_states:

@@ -119,14 +119,21 @@ class Prepared:
             if place is not None:
                 table[place] = value
             elif address not in self.vary:
-                raise LinkwrightError(
-                    f"{address!r} was not named when the mechanism was prepared; "
-                    f"write prepare(mechanism, vary=[{address!r}, …])"
-                )
+                self._refuse_fixed(address)
         return table
+
+    def _refuse_fixed(self, address: str) -> None:
+        """Refuses a dimension that the programs hold as a known zero, or do not know."""
+        if self.mechanism.dimension(address) == 0.0:
+            raise LinkwrightError(
+                f"{address!r} is zero and was not named when the mechanism was prepared; "
+                f"write prepare(mechanism, vary=[{address!r}, …])"
+            )
 
     def _solve_in_turn(self, design: Design, failures: str) -> Forces:
         """Motion first, as loads or iterations need it."""
+        for address in set(design.changes) - set(self.vary):
+            self._refuse_fixed(address)
         states = self.solver.states(self.positions, design)
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, {}, design)
