@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
+    from linkwright.export.export import export as export
     from linkwright.kinematics import Motion as Motion
     from linkwright.kinematics import Outcome as Outcome
     from linkwright.kinematics import PositionError as PositionError
@@ -54,6 +55,7 @@ __version__ = "0.1.0"
 #: Public names by the module that has them.
 PUBLIC = {
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
+    "linkwright.export.export": ("export",),
     "linkwright.kinematics": ("Motion", "Outcome", "PositionError", "solve_motion"),
     "linkwright.kinematics.input_range": ("input_range",),
     "linkwright.kinematics.limits": ("LimitPosition", "limit_positions"),

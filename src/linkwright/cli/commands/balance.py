@@ -147,7 +147,7 @@ def _report(found: Balancing, session: Session) -> list[str]:
     else:
         rows = [[say(f"balance.column.{key}") for key in ("link", "mass", "x", "y")]]
         for weight in found.counterweights:
-            x, y = weight.place
+            x, y = _cleared(weight.place)
             rows.append([weight.link, *(f"{value:.6g}" for value in (weight.mass, 1e3 * x, 1e3 * y))])
         lines += aligned(rows, "<>>>")
     rows = [[say(f"balance.column.{key}") for key in ("peak", "unit", "without", "with", "share")]]
@@ -155,6 +155,13 @@ def _report(found: Balancing, session: Session) -> list[str]:
         share = f"{100 * having / without:.4g} %" if without else ""
         rows.append([say(f"balance.{name}"), unit, f"{without:.6g}", f"{having:.6g}", share])
     return [*lines, "", *aligned(rows, "<<>>>")]
+
+
+def _cleared(place: tuple[float, float]) -> tuple[float, float]:
+    """A place without the coordinates that are rounding."""
+    size = math.hypot(*place)
+    x, y = (0.0 if abs(value) < NOTHING * size else value for value in place)
+    return x, y
 
 
 def _data(found: Balancing) -> dict[str, Any]:

@@ -109,19 +109,31 @@ def _ordered_warnings(table: MetricsTable, language: str) -> list[str]:
 
 
 def _report(table: MetricsTable, session: Session) -> list[str]:
-    from linkwright.cli.text_table import aligned
-
     say = session.say
     if not table.rows:
         return [session.strong(table.title), "", say("metrics.nothing")]
+    warnings = _ordered_warnings(table, session.language)
+    lines = [session.strong(table.title), "", *_lines(table, session)]
+    return [*lines, *([""] if warnings else []), *(f"! {warning}" for warning in warnings)]
+
+
+def _lines(table: MetricsTable, session: Session) -> list[str]:
+    """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
+    from linkwright.cli.text_table import aligned, shown_width
+
     keys = ("metric", "subject", "value", "unit", "at", "limit", "remark")
-    rows = [[say(f"metrics.column.{key}") for key in keys]]
+    rows = [[session.say(f"metrics.column.{key}") for key in keys]]
     rows += [_cells(row, session.language) for row in table]
     kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
     align = "".join("<<><>><"[i] for i in kept)
-    lines = [session.strong(table.title), "", *aligned([[row[i] for i in kept] for row in rows], align)]
-    warnings = _ordered_warnings(table, session.language)
-    return [*lines, *([""] if warnings else []), *(f"! {warning}" for warning in warnings)]
+    lines = aligned([[row[i] for i in kept] for row in rows], align)
+    if kept[-1] < 6 or max(map(shown_width, lines)) <= session.width:
+        return lines
+    lines = aligned([[row[i] for i in kept[:-1]] for row in rows], align[:-1])
+    found = [lines[0]]
+    for line, row in zip(lines[1:], rows[1:], strict=True):
+        found += [line, f"    {row[-1]}"] if row[-1] else [line]
+    return found
 
 
 def _cells(row: MetricValue, language: str) -> list[str]:

@@ -7,9 +7,8 @@ Lays out counterweights for a four-bar or a slider-crank, for full or partial
 balance of the shaking force, and shows the peaks of shaking force, shaking moment
 and input torque without and with them. --output writes the balanced model.""",
     "examples": """\
-linkwright balance gallery:fourbar_lecture --radius 80mm
+linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
 linkwright balance press.yaml --radius 120mm --share 0.5
-linkwright balance press.yaml --radius "crank=120 mm, rod=90 mm"
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "radius_help": "distance of the counterweights from the pins that carry them, one (80mm) or by link "
     '("crank=80 mm, rod=40 mm")',
@@ -21,7 +20,7 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "no_radius": "--radius: no radius is given for the counterweight on {link}; add {link}=… to the list, or "
     "give one length for all",
     "no_link": '--radius: there is no link "{link}"',
-    "none": "No counterweight is needed.",
+    "none": "No counterweight is needed: the links have no mass, or their mass centres lie where they must.",
     "column.link": "counterweight on",
     "column.mass": "mass kg",
     "column.x": "x mm",

@@ -6,9 +6,8 @@ WORDS = {
 为四杆机构或曲柄滑块机构设计配重,完全或部分平衡摆动力,
 并给出加配重前后摆动力、摆动力矩和输入力矩的峰值。--output 写出平衡后的模型。""",
     "examples": """\
-linkwright balance gallery:fourbar_lecture --radius 80mm
+linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
 linkwright balance press.yaml --radius 120mm --share 0.5
-linkwright balance press.yaml --radius "crank=120 mm, rod=90 mm"
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "radius_help": '配重到所在铰链的距离:一个值(80mm)或按构件给出("crank=80 mm, rod=40 mm")',
     "share_help": "平衡的比例,0 到 1(默认 1:摆动力为零)",
@@ -18,7 +17,7 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "bad_radius": '--radius:"{text}" 不是半径;请给出大于零的长度,例如 80mm',
     "no_radius": "--radius:没有给出构件 {link} 上配重的半径;请在列表中加上 {link}=…,或给出一个共用的长度",
     "no_link": '--radius:没有构件 "{link}"',
-    "none": "不需要配重。",
+    "none": "不需要配重:各构件没有质量,或质心已在所需位置。",
     "column.link": "配重所在构件",
     "column.mass": "质量 kg",
     "column.x": "x mm",

@@ -1,0 +1,166 @@
+"""``linkwright machine``: motor and flywheel for steady running, of a mechanism or of torque curves."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.cli.machine_options import Wanted
+    from linkwright.cli.machine_rows import Row
+    from linkwright.machine.running import SteadyRunning
+
+ENDINGS = (".csv", ".json")
+#: Coefficient of speed fluctuation for a mechanism where none is asked for.
+FLUCTUATION = "0.02"
+CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", nargs="?", help=say("machine.file_help"))
+    what = parser.add_argument_group(say("machine.what_title"))
+    what.add_argument("--fluctuation", metavar="δ", help=say("machine.fluctuation_help"))
+    what.add_argument("--ratio", default="1", metavar="i", help=say("machine.ratio_help"))
+    what.add_argument("--efficiency", default="1", metavar="η", help=say("machine.efficiency_help"))
+    what.add_argument("--margin", default="1", metavar="NUMBER", help=say("machine.margin_help"))
+    shape = what.add_mutually_exclusive_group()
+    for name in ("disk", "rim"):
+        shape.add_argument(
+            f"--{name}", nargs="?", const="", metavar="KEY=VALUE,…", help=say(f"machine.{name}_help")
+        )
+    curves = parser.add_argument_group(say("machine.curves_title"))
+    given = curves.add_mutually_exclusive_group()
+    given.add_argument("--areas", metavar="MM²,…", help=say("machine.areas_help"))
+    given.add_argument("--torque", metavar="EXPRESSION", help=say("machine.torque_help"))
+    for name in CURVE_OPTIONS:
+        curves.add_argument(f"--{name}", metavar=name.upper(), help=say(f"machine.{name}_help"))
+    form = parser.add_argument_group(say("machine.form_title"))
+    form.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("machine.steps_help"))
+    form.add_argument("--output", metavar="FILE", help=say("machine.output_help"))
+    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Lays out motor and flywheel and prints them."""
+    from linkwright.cli.machine_options import wanted
+
+    say = session.say
+    _refuse_contradictions(options, say)
+    if options.file is not None and options.fluctuation is None:
+        options.fluctuation = FLUCTUATION
+    asked = wanted(options, say)
+    if options.file is not None:
+        return _mechanism(options, asked, session)
+    if asked.speed is None and (asked.fluctuation is not None or asked.inertia):
+        raise UsageError(say("machine.needs_speed"))
+    title, blocks = _curves(options, asked, session)
+    _show(title, blocks, [], session)
+    return 0
+
+
+def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
+    curves = "--areas" if options.areas is not None else "--torque" if options.torque is not None else None
+    if options.file is None and curves is None:
+        raise UsageError(say("machine.nothing_given"))
+    from_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
+    if options.file is not None and (curves or from_curves):
+        raise UsageError(say("machine.not_with_file", option=curves or from_curves[0]))
+    if options.file is None and options.output is not None:
+        raise UsageError(say("machine.output_needs_file"))
+    only = {"--areas": ("load", "period"), "--torque": ("scale",)}
+    for name in only.get(curves or "", ()):
+        if getattr(options, name) is not None:
+            raise UsageError(say("cli.not_together", name=str(curves), other=f"--{name}"))
+
+
+def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
+    from linkwright.cli.beneath import closeness
+    from linkwright.cli.machine_rows import of_running
+    from linkwright.cli.source import read_model
+    from linkwright.cli.tables import csv_of, refuse_output, write_table
+    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.machine.running import steady_running
+
+    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    mechanism, _ = read_model(options.file)
+    forces = solve_forces(mechanism, steps=options.steps)
+    running = steady_running(
+        forces,
+        fluctuation=asked.fluctuation or 0.0,
+        ratio=asked.ratio,
+        efficiency=asked.efficiency,
+        margin=asked.margin,
+    )
+    columns = _cycle(running) if options.output is not None else {}
+    write_table(options.output, lambda: csv_of(columns), lambda: columns, session, force=options.force)
+    warnings = closeness(forces.motion, session.language)
+    if running.exact_flywheel == 0:
+        warnings.insert(0, session.say("machine.none_needed"))
+    _show(mechanism.name, of_running(running, asked), warnings, session)
+    if options.output is not None and not session.json:
+        session.show(f"\n{session.say('cli.written', path=options.output)}")
+    return 0
+
+
+def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tuple[str, list[list[Row]]]:
+    from linkwright.cli.machine_options import areas, curve, scale
+    from linkwright.cli.machine_rows import of_areas, of_curves
+    from linkwright.machine.energy import fluctuation_from_areas
+
+    say = session.say
+    if options.areas is not None:
+        given, (torque, angle) = areas(options.areas, say), scale(options.scale, say)
+        energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
+        return say("machine.areas_title", count=len(given)), of_areas(energy, asked)
+    driver = curve("--torque", options.torque, options.period, say)
+    load = None if options.load is None else curve("--load", options.load, options.period, say)
+    against = say("machine.its_mean") if options.load is None else options.load
+    title = say("machine.torque_title", torque=options.torque, load=against)
+    return title, of_curves(driver, load, asked, say)
+
+
+def _cycle(running: SteadyRunning) -> dict[str, Any]:
+    """Curves over the cycle, SI: torque, inertia, excess energy, speed with both flywheels."""
+    reduced, energy = running.equivalent, running.energy
+    return {
+        "input [rad]": reduced.start + reduced.direction * energy.angle,
+        "equivalent_torque [N·m]": reduced.load(energy.angle),
+        "equivalent_inertia [kg·m²]": reduced.inertia_at(energy.angle),
+        "excess_energy [J]": energy.energy,
+        "speed_with_flywheel [rad/s]": running.speed.at(energy.angle),
+        "speed_with_exact_flywheel [rad/s]": running.exact_speed.at(energy.angle),
+    }
+
+
+def _show(title: str, blocks: list[list[Row]], remarks: list[str], session: Session) -> None:
+    from linkwright.cli.text_table import aligned
+
+    say = session.say
+    if session.json:
+        from linkwright.cli.data import json_text
+
+        session.show(json_text(_data(title, blocks, remarks)))
+        return
+    kept = [block for block in blocks if block]
+    lines = aligned([row.cells(say) for block in kept for row in block], "<><>")
+    session.show(session.strong(title))
+    for block in kept:
+        session.show("")
+        session.show("\n".join(lines[: len(block)]))
+        lines = lines[len(block) :]
+    if remarks:
+        session.show("\n" + "\n".join(remarks))
+
+
+def _data(title: str, blocks: list[list[Row]], remarks: list[str]) -> dict[str, Any]:
+    """Numbers by name; those of the exact flywheel, which come again, under ``exact_…``."""
+    found: dict[str, Any] = {"ok": True, "name": title}
+    for row in (row for block in blocks for row in block):
+        found[f"exact_{row.key}" if row.key in found else row.key] = row.data()
+    return {**found, "remarks": remarks}

@@ -1,0 +1,187 @@
+"""Options of ``machine``: numbers and quantities, areas and torque curves, shapes of flywheels."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from linkwright import units
+from linkwright.cli.errors import UsageError
+from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
+from linkwright.machine.motor import motor
+from linkwright.machine.torque_curve import TURN, TorqueCurve
+from linkwright.registry import nearest
+from linkwright.words import Say
+
+#: Keys of --disk and --rim: dimension, and the argument that takes it.
+SHAPE_KEYS = {
+    "density": ("density", "density"),
+    "width": ("dimensionless", "width_ratio"),
+    "thickness": ("dimensionless", "thickness_ratio"),
+}
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked of motor and flywheel; ``speed`` rad/s and ``inertia`` kg·m² that are there already.
+
+    ``size`` gives the dimensions of a flywheel from its inertia, None where no shape is asked for.
+    """
+
+    fluctuation: float | None
+    ratio: float
+    efficiency: float
+    margin: float
+    speed: float | None
+    inertia: float
+    size: Callable[[float], FlywheelSize] | None
+
+
+def wanted(options: argparse.Namespace, say: Say) -> Wanted:
+    """The numbers of the options; raises UsageError for one that makes no sense, before any work is done."""
+    found = Wanted(
+        fluctuation=None
+        if options.fluctuation is None
+        else _number("--fluctuation", options.fluctuation, say),
+        ratio=_number("--ratio", options.ratio, say),
+        efficiency=_number("--efficiency", options.efficiency, say),
+        margin=_number("--margin", options.margin, say),
+        speed=None if options.speed is None else quantity("--speed", options.speed, "angular_velocity", say),
+        inertia=_inertia(options, say),
+        size=_size(options, say),
+    )
+    _checked(
+        "--fluctuation", lambda: flywheel_inertia(1.0, 1.0, found.fluctuation or 0.0), options.fluctuation
+    )
+    _checked("--ratio", lambda: on_faster_shaft(1.0, found.ratio))
+    _checked("--efficiency", lambda: motor(1.0, 1.0, efficiency=found.efficiency))
+    _checked("--margin", lambda: motor(1.0, 1.0, margin=found.margin))
+    if found.size is not None:
+        shape = found.size
+        _checked("--disk" if options.disk is not None else "--rim", lambda: shape(1.0))
+    return found
+
+
+def quantity(option: str, text: str, dimension: str, say: Say) -> float:
+    """SI value above zero of an option; raises UsageError."""
+    try:
+        value = units.parse(text, dimension)
+    except QuantityError as error:
+        raise UsageError(f"{option}: {error}") from None
+    if not value > 0:
+        raise UsageError(say("machine.not_above_zero", option=option, text=text))
+    return value
+
+
+def curve(option: str, text: str, period: str | None, say: Say) -> TorqueCurve:
+    """Torque curve of an expression of theta; raises UsageError with the column of what is wrong."""
+    length = TURN if period is None else quantity("--period", period, "angle", say)
+    try:
+        found = TorqueCurve.from_function(text, period=length)
+        if not math.isfinite(found.mean):
+            raise UsageError(say("machine.not_finite", option=option, text=text))
+    except QuantityError as error:
+        raise UsageError(f"{option}: {error}") from None
+    return found
+
+
+def areas(text: str, say: Say) -> list[float]:
+    """Areas in mm²; raises UsageError for a text that is no list of numbers."""
+    found = []
+    for part in text.replace("−", "-").split(","):
+        try:
+            found.append(float(part.replace("mm²", "").replace("mm2", "").replace(" ", "")))
+        except ValueError:
+            found.append(math.nan)
+        if not math.isfinite(found[-1]):
+            raise UsageError(say("machine.bad_area", text=part.strip()))
+    return found
+
+
+def scale(text: str | None, say: Say) -> tuple[float, float]:
+    """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; raises UsageError."""
+    if text is None:
+        raise UsageError(say("machine.no_scale"))
+    found = {}
+    torque, angle = units.DIMENSIONS["torque"], units.DIMENSIONS["angle"]
+    for part in text.split(","):
+        value, dimension = _any_quantity(part, text, say)
+        per_mm = {units.times(torque, units.DIMENSIONS["length"], -1): "torque"}
+        per_mm[units.times(angle, units.DIMENSIONS["length"], -1)] = "angle"
+        if dimension not in per_mm or not value > 0:
+            raise UsageError(say("machine.bad_scale", text=text))
+        found[per_mm[dimension]] = 1e-3 * value
+    if len(found) != 2:
+        raise UsageError(say("machine.bad_scale", text=text))
+    return found["torque"], found["angle"]
+
+
+def _any_quantity(part: str, text: str, say: Say) -> tuple[float, units.Dimension]:
+    plain = units.tidy(part)
+    number = units.NUMBER.match(plain)
+    if number is None or not plain[number.end() :].strip():
+        raise UsageError(say("machine.bad_scale", text=text))
+    try:
+        factor, dimension = units.unit(plain[number.end() :].strip())
+    except QuantityError as error:
+        raise UsageError(f"--scale: {error}") from None
+    return float(number.group()) * factor, dimension
+
+
+def _number(option: str, text: str, say: Say) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise UsageError(say("machine.no_number", option=option, text=text))
+    return value
+
+
+def _inertia(options: argparse.Namespace, say: Say) -> float:
+    """Moment of inertia that is there: given, or of a mass and a radius of gyration; 0 where neither is."""
+    if options.inertia is not None and (options.mass is not None or options.gyration is not None):
+        raise UsageError(say("cli.not_together", name="--inertia", other="--mass"))
+    if (options.mass is None) != (options.gyration is None):
+        raise UsageError(say("machine.mass_and_gyration"))
+    if options.inertia is not None:
+        return quantity("--inertia", options.inertia, "inertia", say)
+    if options.mass is None:
+        return 0.0
+    mass = quantity("--mass", options.mass, "mass", say)
+    return mass * quantity("--gyration", options.gyration, "length", say) ** 2
+
+
+def _size(options: argparse.Namespace, say: Say) -> Callable[[float], FlywheelSize] | None:
+    for option, text, shape in (("--disk", options.disk, disk), ("--rim", options.rim, rim)):
+        if text is not None:
+            given = _shape_values(option, text, say)
+            return lambda inertia, shape=shape, given=given: shape(inertia, **given)  # type: ignore[misc]
+    return None
+
+
+def _shape_values(option: str, text: str, say: Say) -> dict[str, float]:
+    keys = [key for key in SHAPE_KEYS if option == "--rim" or key != "thickness"]
+    found = {}
+    for part in filter(None, (part.strip() for part in text.split(","))):
+        key, sign, given = (piece.strip() for piece in part.partition("="))
+        if not sign or key not in keys:
+            offer = nearest(key, keys) if sign else None
+            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            raise UsageError(say("machine.bad_shape", option=option, text=part, keys=", ".join(keys)) + hint)
+        dimension, name = SHAPE_KEYS[key]
+        found[name] = quantity(f"{option} {key}", given, dimension, say)
+    return found
+
+
+def _checked(option: str, trial: Callable[[], object], given: object = True) -> None:
+    """Runs what refuses a value out of range; raises UsageError with the option's name."""
+    if given is None:
+        return
+    try:
+        trial()
+    except LinkwrightError as error:
+        raise UsageError(f"{option}: {error}") from None
