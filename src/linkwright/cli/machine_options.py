@@ -7,6 +7,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.errors import LinkwrightError, QuantityError
@@ -22,6 +24,10 @@ SHAPE_KEYS = {
     "width": ("dimensionless", "width_ratio"),
     "thickness": ("dimensionless", "thickness_ratio"),
 }
+
+
+#: Angles of a cycle at which a torque must be finite.
+TRIED = 3601
 
 
 @dataclass(frozen=True)
@@ -81,10 +87,12 @@ def curve(option: str, text: str, period: str | None, say: Say) -> TorqueCurve:
     length = TURN if period is None else quantity("--period", period, "angle", say)
     try:
         found = TorqueCurve.from_function(text, period=length)
-        if not math.isfinite(found.mean):
-            raise UsageError(say("machine.not_finite", option=option, text=text))
+        with np.errstate(all="ignore"):
+            values = found.function(np.linspace(0.0, length, TRIED))
     except QuantityError as error:
         raise UsageError(f"{option}: {error}") from None
+    if not np.isfinite(values).all():
+        raise UsageError(say("machine.not_finite", option=option, text=text))
     return found
 
 

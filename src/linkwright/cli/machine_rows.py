@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 DIGITS = 7
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
+#: An energy below this share of the work of a cycle is rounding.
+ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         shown_mean = shown(mean, "torque") if mean < -NOTHING * abs(lowest) else "0 N·m"
         raise LinkwrightError(say("machine.no_mean_torque", mean=shown_mean))
     resisting = TorqueCurve.constant(mean, period=driver.period) if load is None else load
-    energy = energy_fluctuation(driver, resisting)
+    energy = _without_rounding(energy_fluctuation(driver, resisting), mean * driver.period)
     first = [Row("mean_torque", mean, "torque")]
     if wanted.speed:
         found = motor(mean, wanted.speed, efficiency=wanted.efficiency, margin=wanted.margin)
@@ -128,6 +130,13 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         third += _speeds(true_speed(resisting, total, wanted.speed, driver=driver), lambda angle: angle)
         third += _accelerations(driver.minus(resisting), total)
     return [first, second, third, _dimensions(flywheel, wanted.speed or 0.0, wanted)]
+
+
+def _without_rounding(energy: EnergyFluctuation, work: float) -> EnergyFluctuation:
+    """The same with energies set to zero that are mere rounding of the work of a cycle, J."""
+    kept = np.where(np.abs(energy.energy) < ROUNDING * work, 0.0, energy.energy)
+    value = energy.value if energy.value >= ROUNDING * work else 0.0
+    return replace(energy, value=value, energy=kept)
 
 
 def _by_formula(energy: float, wanted: Wanted) -> tuple[float, list[Row]]:

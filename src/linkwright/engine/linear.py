@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from linkwright.engine.trace import Scalar, absolute, select
+from linkwright.engine.trace import Scalar, absolute, reciprocal, select
 
 Matrix = list[list[Scalar]]
 
@@ -19,10 +19,10 @@ def inverse(matrix: Sequence[Sequence[Scalar]], inverse_determinant: Scalar | No
     if size == 0:
         return []
     if size == 1:
-        return [[1.0 / matrix[0][0]]]
+        return [[reciprocal(matrix[0][0])]]
     if size == 2:
         (a, b), (c, d) = matrix
-        factor = inverse_determinant if inverse_determinant is not None else 1.0 / (a * d - b * c)
+        factor = inverse_determinant if inverse_determinant is not None else reciprocal(a * d - b * c)
         return [[d * factor, -(b * factor)], [-(c * factor), a * factor]]
     return _gauss_jordan(matrix)
 
@@ -32,7 +32,7 @@ def _gauss_jordan(matrix: Sequence[Sequence[Scalar]]) -> Matrix:
     rows: Matrix = [[*row, *(1.0 if i == j else 0.0 for j in range(size))] for i, row in enumerate(matrix)]
     for column in range(size):
         _bring_largest_up(rows, column)
-        factor = 1.0 / rows[column][column]
+        factor = reciprocal(rows[column][column])
         rows[column] = [entry * factor for entry in rows[column]]
         for i in range(size):
             if i != column and not _is_zero(rows[i][column]):

@@ -196,11 +196,11 @@ class Trace:
         if _is(a, 0.0):
             return 0.0
         if isinstance(a, float | int) and isinstance(b, float | int):
-            return a / b
+            return a * reciprocal(b) if b == 0 else a / b
         if _same(a, b):
             return 1.0
         if isinstance(b, float | int):
-            return self.mul(a, 1.0 / b)
+            return self.mul(a, reciprocal(b))
         return self._operation("div", a, b)
 
     def neg(self, a: Scalar) -> Scalar:
@@ -296,6 +296,13 @@ def _apply(op: str, x: Scalar) -> Scalar:
 def sqrt(x: Scalar) -> Scalar:
     """Square root; NaN for a negative number."""
     return _apply("sqrt", x)
+
+
+def reciprocal(x: Scalar) -> Scalar:
+    """One over a number; infinite for zero, known or not."""
+    if isinstance(x, Value):
+        return 1.0 / x
+    return 1.0 / x if x else math.inf
 
 
 def absolute(x: Scalar) -> Scalar:

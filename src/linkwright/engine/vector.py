@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from linkwright.engine.trace import Mask, Scalar, select
+from linkwright.engine.trace import Mask, Scalar, Value, reciprocal, select
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +60,13 @@ class Vec:
         if self == other:
             return Vec(1.0, 0.0)
         if isinstance(other.y, float) and other.y == 0.0:
-            return Vec(self.x / other.x, self.y / other.x)
-        inverse = 1.0 / other.square
+            return Vec(_quotient(self.x, other.x), _quotient(self.y, other.x))
+        inverse = reciprocal(other.square)
         return Vec(self.dot(other) * inverse, other.cross(self) * inverse)
+
+
+def _quotient(a: Scalar, b: Scalar) -> Scalar:
+    return a / b if isinstance(b, Value) else a * reciprocal(b) if b == 0.0 else a / b
 
 
 ZERO = Vec(0.0, 0.0)

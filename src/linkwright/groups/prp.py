@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkwright.engine.trace import Scalar
+from linkwright.engine.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
 
 
@@ -24,7 +24,7 @@ class PRP:
         n1, n2 = a.directions[0], b.directions[0]
         f = b.anchor - a.anchor
         sine = n1.cross(n2)
-        inverse = 1.0 / sine
+        inverse = reciprocal(sine)
         return Solved(
             coordinates=(f.cross(n2) * inverse, f.cross(n1) * inverse),
             inverse_determinant=-inverse,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.engine.trace import Scalar, sqrt
+from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
 
 
@@ -31,7 +31,7 @@ class RPR:
         e = m.cross(a.arm)
         square = dd - e * e
         root = sqrt(square)
-        inverse = 1.0 / (dd * root)
+        inverse = reciprocal(dd * root)
         along = mode * root
         scaled = inverse * root
         n = d * (along * scaled) - d.perp * (e * scaled)

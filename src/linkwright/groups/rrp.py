@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.engine.trace import Scalar, sqrt
+from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
 
 
@@ -33,7 +33,7 @@ class RRP:
         u = n * root - n.perp * h
         return Solved(
             coordinates=(Rotor(u, a.arm), f.dot(n) + root),
-            inverse_determinant=1.0 / root,
+            inverse_determinant=reciprocal(root),
             square=square,
             scale=rr,
             facts={"height": h, "length²": rr},

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.engine.trace import Scalar, sqrt
+from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
 
 
@@ -32,7 +32,7 @@ class RRR:
         scale = (4.0 * r1) * dd
         square = scale - t * t
         root = sqrt(square)
-        inverse = 1.0 / (dd * root)
+        inverse = reciprocal(dd * root)
         half = 0.5 * (inverse * root)
         along, across = t * half, (mode * root) * half
         u = d * along + d.perp * across

@@ -220,7 +220,8 @@ class _Search:
         infinite = np.array([np.inf])
         left = np.concatenate([row[-1:] if closed else infinite, row[:-1]])
         right = np.concatenate([row[1:], row[:1] if closed else infinite])
-        rises = [np.where(np.isfinite(side), side - row, 0.0) for side in (left, right)]
+        with np.errstate(invalid="ignore"):
+            rises = [np.where(np.isfinite(side), side - row, 0.0) for side in (left, right)]
         small = (row > -TOUCH) & (row < np.maximum(near, np.maximum(*rises)))
         lowest = small & ~(left < row) & ~(right <= row)
         first, last = (-1.0, float(n)) if closed else (0.0, n - 1.0)

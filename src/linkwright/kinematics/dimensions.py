@@ -6,7 +6,7 @@ from collections.abc import Set
 from math import cos as cosine
 from math import sin as sine
 
-from linkwright.engine.trace import Scalar, Trace, cos, sin, sqrt
+from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
@@ -78,7 +78,7 @@ class Dimensions:
             ahead = nominal[joint.direction_points[1]][0] > nominal[joint.direction_points[0]][0]
             if f"{joint.guide}.length" not in self.free and ahead:
                 return Vec(1.0, 0.0)
-        return d * (1.0 / sqrt(d.square))
+        return d * reciprocal(sqrt(d.square))
 
     def block_direction(self, joint: PrismaticJoint) -> Vec:
         """Unit vector along the guide, in the axes of the block."""

@@ -59,6 +59,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
         return _mechanism(options, asked, session)
     if asked.speed is None and (asked.fluctuation is not None or asked.inertia):
         raise UsageError(say("machine.needs_speed"))
+    if asked.size is not None and asked.fluctuation is None:
+        raise UsageError(say("machine.shape_needs_fluctuation"))
     title, blocks = _curves(options, asked, session)
     _show(title, blocks, [], session)
     return 0

@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.registry import Registry
 from linkwright.words import Say, say
@@ -60,7 +60,24 @@ class Kind(ABC):
         """
 
 
+class ResultKind(ABC):
+    """A kind of diagram of one result that has no single motion behind it: a comparison, a study, a balancing."""
+
+    name: ClassVar[str]
+    takes: ClassVar[type]
+    usual: ClassVar[bool] = True
+
+    def suits(self, result: object) -> bool:
+        """Whether this kind draws such a result."""
+        return isinstance(result, self.takes)
+
+    @abstractmethod
+    def draw(self, result: Any, request: Request) -> Figure:
+        """The figure; raises LinkwrightError for unknown names, and where there is nothing to draw."""
+
+
 DIAGRAMS: Registry[type[Kind]] = Registry("kind of diagram", "linkwright.plot.diagrams")
+RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("kind of diagram", "linkwright.plot.diagrams")
 
 
 def _word(key: str, *, language: str, **values: object) -> str:

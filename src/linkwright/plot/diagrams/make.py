@@ -3,20 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
-from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import nearest
 from linkwright.units import parse
 from linkwright.words import LANGUAGES
 
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.balancing import Balancing
+    from linkwright.machine.torque_curve import TorqueCurve
+    from linkwright.metrics.coupler_curve import CouplerCurve
+    from linkwright.metrics.table import MetricsTable
+    from linkwright.study.compare import Comparison
+    from linkwright.study.designs import Sweep
+    from linkwright.study.sensitivity import Sensitivity
+    from linkwright.study.study import Study
+
+    Single: TypeAlias = (
+        Comparison | Study | Sweep | Sensitivity | MetricsTable | TorqueCurve | Balancing | CouplerCurve
+    )
+
+_Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]
+
 
 def plot(
-    result: Result | Sequence[Result] | Mapping[str, Result],
+    result: _Solved | Single,
     kind: str | None = None,
     *,
     of: str | Sequence[str] = (),
@@ -35,11 +52,14 @@ def plot(
 
     Args:
         result: a mechanism (solved first), motion, forces, or steady running; a list, or a mapping from labels, of
-            several are compared in one diagram.
+            several are compared in one diagram. Or one comparison, study, sweep, sensitivity, table of design
+            numbers, torque curve, balancing or coupler curve.
         kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
             ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``shaking``,
-            ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``.
-        of: outputs, links or points that the diagram is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``.
+            ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison ``comparison`` (the
+            default) or ``pivot_hodograph``; other results have one kind each.
+        of: outputs, links or points that the diagram is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
+            metrics or curves of a study, a comparison or a table.
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
         axes: ``"frame"``, or a link in whose axes forces are resolved.
         at: the input of a polygon: rad, m or s, or a text with its unit (``"30 deg"``).
@@ -61,15 +81,17 @@ def plot(
         raise LinkwrightError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
-    sources = _sources(result, static=static)
-    name = kind or _usual(result)
-    require_kind(name)
+    own = _own_kind(result, kind)
+    sources = [] if own else _sources(cast(_Solved, result), static=static)
+    name = own or kind or _usual(cast(_Solved, result))
+    if not own:
+        require_kind(name)
     request = Request(
         of=(of,) if isinstance(of, str) else tuple(of),
         joint=joint,
         on=on,
         axes=axes,
-        at=_place(at, sources[0]),
+        at=_place(at, sources[0]) if sources else None,
         fluctuation=fluctuation,
         marks=marks,
         title=title,
@@ -77,8 +99,8 @@ def plot(
         language=language,
     )
     with style(language):
-        figure = DIAGRAMS[name]().draw(sources, request)
-    return Diagram(name, figure, language)
+        drawn = RESULT_DIAGRAMS[name]().draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
+    return Diagram(name, drawn, language)
 
 
 def kinds() -> tuple[str, ...]:
@@ -95,7 +117,21 @@ def require_kind(name: str) -> None:
     raise LinkwrightError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
 
 
-def _sources(result: Result | Sequence[Result] | Mapping[str, Result], *, static: bool) -> list[Source]:
+def _own_kind(result: object, kind: str | None) -> str | None:
+    """The kind for a result that is no motion, forces or running; None for those."""
+    own = [name for name in RESULT_DIAGRAMS if RESULT_DIAGRAMS[name]().suits(result)]
+    if not own:
+        return None
+    if kind is None:
+        return next(name for name in own if RESULT_DIAGRAMS[name].usual)
+    if kind not in own:
+        raise LinkwrightError(
+            f'there is no kind of diagram "{kind}" of this result; the kinds are {", ".join(own)}'
+        )
+    return kind
+
+
+def _sources(result: _Solved, *, static: bool) -> list[Source]:
     if isinstance(result, Mapping):
         found = [Source(each, label, static=static) for label, each in result.items()]
     elif isinstance(result, Sequence):
@@ -111,7 +147,7 @@ def _sources(result: Result | Sequence[Result] | Mapping[str, Result], *, static
     return found
 
 
-def _usual(result: Result | Sequence[Result] | Mapping[str, Result]) -> str:
+def _usual(result: _Solved) -> str:
     values = list(result.values()) if isinstance(result, Mapping) else result
     first = values[0] if isinstance(values, Sequence) and values else values
     return "speed" if isinstance(first, SteadyRunning) else "torque" if isinstance(first, Forces) else "sva"

@@ -90,13 +90,9 @@ class OverInput(Kind):
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         panels = _laid_over([(each, self.axis(each), self.panels(each, request)) for each in sources])
         axis = self.axis(sources[0])
-        figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(panels), 1.45)))
-        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        legend = Legend()
-        for one, panel in zip(axes, panels, strict=True):
-            _draw_panel(one, panel, axis, request, legend)
+        figure, axes, legend = stacked(panels, axis, request)
         if request.marks and len(sources) == 1 and sources[0].has_motion:
-            _draw_marks(list(axes), sources[0], self.output(sources[0], request), legend, request.say)
+            _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
         label_input(axes[-1], axis, request.say)
         title = (
             f"{sources[0].label}: {self.subject(sources, request)}"
@@ -104,9 +100,19 @@ class OverInput(Kind):
             else self.subject(sources, request)
         )
         framed(figure, title, request)
-        figure.align_ylabels(list(axes))
+        figure.align_ylabels(axes)
         legend.put(figure)
         return figure
+
+
+def stacked(panels: Sequence[Panel], axis: InputAxis, request: Request) -> tuple[Figure, list[Axes], Legend]:
+    """A figure with panels one below the other over one axis, and the legend that is to be put below them."""
+    figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(panels), 1.45)))
+    axes = list(figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0])
+    legend = Legend()
+    for one, panel in zip(axes, panels, strict=True):
+        draw_panel(one, panel, axis, request, legend)
+    return figure, axes, legend
 
 
 def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel]:
@@ -128,7 +134,8 @@ def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel
     ]
 
 
-def _draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, legend: Legend) -> None:
+def draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, legend: Legend) -> None:
+    """Curves, levels, range, label and peaks of one panel; what they are called goes into the legend."""
     unit = panel.unit
     many = len(panel.curves) > 1
     axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
@@ -145,7 +152,7 @@ def _draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, leg
     if panel.fill and panel.levels:
         _fill(axes, panel, axis, unit)
     _set_range(axes, panel, unit)
-    axes.set_ylabel(f"{panel.title}\n({unit.name})")
+    axes.set_ylabel(unit.label(panel.title, "\n"))
     if request.marks:
         mark_peaks(axes, panel, axis, unit)
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
+from linkwright.metrics.quantities import si_unit
 
 _FIXED = {
     "angle": ("°", 180 / math.pi),
@@ -33,13 +34,19 @@ class Unit:
     def text(self, value: float, digits: int = 4) -> str:
         """An SI value as text with the unit: ``56.14 kN``."""
         shown = significant(value * self.factor, digits)
-        return f"{shown}°" if self.name == "°" else f"{shown} {self.name}"
+        return f"{shown}{self.name}" if self.name in ("°", "") else f"{shown} {self.name}"
+
+    def label(self, quantity: str, between: str = " ") -> str:
+        """The label of an axis: quantity and unit, ``travel (mm)``; the quantity alone where there is no unit."""
+        return f"{quantity}{between}({self.name})" if self.name else quantity
 
 
 def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
     """The unit for a quantity; forces, torques, powers and energies take a prefix by their largest size."""
     if dimension in _FIXED:
         return Unit(*_FIXED[dimension])
+    if dimension not in _PREFIXED:
+        return Unit(si_unit(dimension), 1.0)
     largest = max((size(values) for values in arrays), default=0.0)
     prefix, factor = next(
         (p, f) for least, p, f in _PREFIXES if largest >= least or (largest == 0.0 and f == 1.0)

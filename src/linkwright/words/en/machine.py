@@ -75,6 +75,8 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     "not_with_file": "{option} describes a torque diagram; it cannot be used together with a model file",
     "output_needs_file": "--output writes the cycle of a mechanism; name a model file",
     "needs_speed": "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
+    "shape_needs_fluctuation": "the dimensions of a flywheel need to know how even the speed must be; add "
+    "--fluctuation, such as --fluctuation 0.01",
     "no_scale": '--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"',
     "bad_scale": '--scale: "{text}" does not give both scales; write torque and angle per mm above zero, such as '
     '"5 N·m/mm, 1 deg/mm"',

@@ -73,6 +73,7 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     "not_with_file": "{option} 描述力矩图,不能与模型文件同时使用",
     "output_needs_file": "--output 写出机构的循环曲线;请给出模型文件",
     "needs_speed": "设计飞轮或求速度不均匀系数需要平均转速;请加上 --speed,例如 --speed 180rpm",
+    "shape_needs_fluctuation": "确定飞轮尺寸需要速度不均匀系数;请加上 --fluctuation,例如 --fluctuation 0.01",
     "no_scale": '--areas 需要力矩图的比例尺:--scale "5 N·m/mm, 1 deg/mm"',
     "bad_scale": '--scale:"{text}" 没有给出两个比例尺;请写出每 mm 的力矩和转角(大于零),例如 "5 N·m/mm, 1 deg/mm"',
     "bad_area": '--areas:"{text}" 不是面积;请给出以逗号分隔的 mm² 数值,例如 "+295, -685, +390"',
@@ -81,5 +82,6 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     "not_finite": "{option}:{text} 在循环内不处处有限;请检查除法和开方",
     "mass_and_gyration": "--mass 与 --gyration 须同时给出;或改用 --inertia",
     "bad_shape": '{option}:"{text}" 无法识别;请写作 键=值,可用的键:{keys}',
-    "no_mean_torque": "--torque 在一个循环内的平均值为 {mean},不做功,无法选电动机或设计飞轮;请给出平均值为正的驱动力矩",
+    "no_mean_torque": "--torque 在一个循环内的平均值为 {mean},不做功,无法选电动机或设计飞轮;"
+    "请给出平均值为正的驱动力矩",
 }

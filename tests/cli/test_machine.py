@@ -1,0 +1,212 @@
+"""``linkwright machine``: flywheels of textbooks, both crushers, what is refused.
+
+Areas and curves: Khurmi and Gupta, Theory of Machines, ch. 16.
+"""
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from linkwright.cli import main
+
+SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
+AREAS = ["--areas", "+295, -685, +40, -340, +960, -270"]
+SCALE = ["--scale", "5 N·m/mm, 1 deg/mm"]
+ENGINE = ["--torque", "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)", "--speed", "180rpm"]
+
+#: A crank of 500 kg·m² at 20 rad/s against 100 N along a stroke of 200 mm.
+HEAVY = """\
+format: 1
+name: Heavy press
+frame:
+  points: {O: [0 mm, 0 mm]}
+links:
+  crank: {points: [O, A], length: 100 mm, mass: 6000 kg, inertia: 500 kg·m², mass_centre: [0 mm, 0 mm]}
+  rod: {points: [A, B], length: 400 mm}
+  slider: {points: [B]}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slider, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 20 rad/s}
+loads:
+  work: {kind: force, on: slider, at: B, direction: 180 deg, magnitude: 100 N, phase: {input: [180 deg, 360 deg]}}
+"""
+
+
+def numbers(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    assert main(["machine", *arguments, "--json"]) == 0
+    return dict(json.loads(capsys.readouterr().out))
+
+
+def refusal(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 2) -> str:
+    assert main(["machine", *arguments]) == code
+    shown = capsys.readouterr()
+    assert not shown.out
+    assert "Traceback" not in shown.err
+    return shown.err
+
+
+def test_areas_of_a_torque_diagram(capsys: pytest.CaptureFixture[str]) -> None:
+    flywheel = ["--speed", "1800rpm", "--mass", "36kg", "--gyration", "150mm"]
+    found = numbers(capsys, *AREAS, *SCALE, *flywheel)
+    assert found["energy_fluctuation"]["value"] == pytest.approx(85.957, abs=6e-4)
+    assert found["formula_fluctuation"]["value"] == pytest.approx(0.2987e-2, abs=5e-7)
+    assert (found["energy_lowest"]["after_area"], found["energy_highest"]["after_area"]) == (4, 1)
+    assert main(["machine", *AREAS, *SCALE, *flywheel]) == 0
+    shown = capsys.readouterr().out
+    assert "after area 4" in shown
+    assert "0.29867  %" in shown
+
+
+def test_an_engine_against_its_mean_torque(capsys: pytest.CaptureFixture[str]) -> None:
+    found = numbers(capsys, *ENGINE, "--fluctuation", "0.01")
+    assert found["mean_power"]["value"] == pytest.approx(376.99e3, abs=5)
+    assert found["energy_fluctuation"]["value"] == pytest.approx(11078.81, abs=5e-3)
+    assert found["flywheel"]["value"] == pytest.approx(3118.1, abs=5e-2)
+    low, high = (found[f"energy_{end}est"]["at [rad]"] for end in ("low", "high"))
+    assert 20000 + 9500 * np.sin(2 * low) - 5700 * np.cos(2 * low) == pytest.approx(20000)
+    assert abs(high - low) % np.pi == pytest.approx(np.pi / 2)
+
+
+def test_an_engine_against_a_load_that_varies(capsys: pytest.CaptureFixture[str]) -> None:
+    torques = ["--torque", "5000 + 600*sin(2*theta)", "--load", "5000 + 500*sin(theta)"]
+    found = numbers(capsys, *torques, "--speed", "150rpm", "--mass", "500kg", "--gyration", "0.4m")
+    assert found["energy_fluctuation"]["value"] == pytest.approx(1204.1667, abs=5e-5)
+    assert found["formula_fluctuation"]["value"] == pytest.approx(6.1004e-2, abs=5e-7)
+    largest, smallest = found["acceleration_largest"], found["acceleration_smallest"]
+    assert (largest["value"], smallest["value"]) == pytest.approx((12.203, -12.203), abs=5e-4)
+    places = np.degrees([largest["at [rad]"], smallest["at [rad]"]])
+    assert places == pytest.approx([232.37, 127.63], abs=5e-3)
+
+
+def test_what_is_there_already_is_taken_off_the_flywheel(capsys: pytest.CaptureFixture[str]) -> None:
+    bare = numbers(capsys, *ENGINE, "--fluctuation", "0.01")["flywheel"]["value"]
+    eased = numbers(capsys, *ENGINE, "--fluctuation", "0.01", "--inertia", "118.1 kg·m²", "--ratio", "2")
+    assert eased["flywheel"]["value"] == pytest.approx(bare - 118.1)
+    assert eased["shaft_flywheel"]["value"] == pytest.approx((bare - 118.1) / 4)
+
+
+@pytest.mark.parametrize("model", [SIX, FOUR])
+def test_both_crushers_by_one_command_each(model: str, capsys: pytest.CaptureFixture[str]) -> None:
+    found = numbers(capsys, model, "--fluctuation", "0.03")
+    speed = 170 * 2 * np.pi / 60
+    assert found["speed"]["value"] == pytest.approx(speed)
+    assert found["mean_power"]["value"] == pytest.approx(found["mean_torque"]["value"] * speed)
+    spread = found["energy_highest"]["value"] - found["energy_lowest"]["value"]
+    assert found["energy_fluctuation"]["value"] == pytest.approx(spread)
+    assert found["exact_reached_fluctuation"]["value"] == pytest.approx(0.03, rel=1e-9)
+    assert found["reached_fluctuation"]["value"] == pytest.approx(0.03, rel=0.01)
+    slow, fast = found["exact_slowest"]["value"], found["exact_fastest"]["value"]
+    assert (fast - slow) / speed == pytest.approx(0.03, rel=1e-9)
+
+
+def test_motor_shaft_and_rim(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--ratio", "5", "--efficiency", "0.9", "--margin", "1.2"]
+    found = numbers(capsys, SIX, *options, "--rim", "density=7850kg/m³, width=0.2, thickness=0.1")
+    assert found["motor_power"]["value"] == pytest.approx(found["mean_power"]["value"] * 1.2 / 0.9)
+    inertia = found["shaft_flywheel"]["value"]
+    assert inertia == pytest.approx(found["exact_flywheel"]["value"] / 25)
+    outer = found["rim_diameter"]["value"]
+    inner = outer - 2 * found["thickness"]["value"]
+    mass = 7850 * np.pi / 4 * (outer**2 - inner**2) * found["width"]["value"]
+    assert found["mass"]["value"] == pytest.approx(mass)
+    assert mass * (outer**2 + inner**2) / 8 == pytest.approx(inertia)
+    assert found["width"]["value"] == pytest.approx(0.2 * outer)
+    assert found["rim_speed"]["value"] == pytest.approx(outer / 2 * 5 * found["speed"]["value"])
+
+
+def test_a_machine_that_would_stop_within_its_cycle_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "carry the machine over its cycle" in refusal(capsys, FOUR, "--fluctuation", "30", code=1)
+
+
+def test_a_machine_with_inertia_enough_needs_no_flywheel(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "heavy.yaml"
+    path.write_text(HEAVY)
+    assert main(["machine", str(path), "--fluctuation", "0.05", "--disk"]) == 0
+    shown = capsys.readouterr().out
+    assert "No flywheel is needed" in shown
+    assert "diameter" not in shown
+
+
+def test_the_curves_of_the_cycle_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "cycle.csv"
+    found = numbers(capsys, SIX, "--fluctuation", "0.03", "--output", str(path))
+    rows = list(csv.DictReader(path.read_text().splitlines()))
+    speeds = np.array([float(row["speed_with_exact_flywheel [rad/s]"]) for row in rows])
+    inertia = np.array([float(row["equivalent_inertia [kg·m²]"]) for row in rows])
+    assert speeds[0] == pytest.approx(speeds[-1], rel=1e-9)
+    assert (speeds.max() - speeds.min()) / found["speed"]["value"] == pytest.approx(0.03, rel=1e-3)
+    assert inertia.max() == pytest.approx(found["inertia_largest"]["value"], rel=1e-3)
+    assert main(["machine", SIX, "--output", str(path)]) == 2
+    assert "--force" in capsys.readouterr().err
+
+
+def test_closeness_to_a_singular_position_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["machine", "gallery:swing_conveyor", "--lang", "zh"]) == 0
+    assert "coupler+rocker" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        ([], "--areas"),
+        ([SIX, "--fluctuation", "0"], "--fluctuation"),
+        ([SIX, "--fluctuation=-0.02"], "above zero"),
+        ([SIX, "--fluctuation", "3%"], '"3%" is no number'),
+        ([SIX, "--ratio", "0"], "ratio"),
+        ([SIX, "--efficiency", "1.2"], "efficiency"),
+        ([SIX, "--margin", "0.5"], "margin"),
+        ([SIX, "--rim", "densty=3"], 'did you mean "density"'),
+        ([SIX, "--disk", "thickness=0.1"], "density, width"),
+        ([SIX, "--rim", "density=7850 kg"], "density is needed"),
+        ([SIX, "--rim", "thickness=0.7"], "0.5 (a disk) or less"),
+        ([SIX, "--disk", "--rim"], "cannot be used together"),
+        ([SIX, "--speed", "180rpm"], "--speed"),
+        ([SIX, *AREAS], "--areas"),
+        (AREAS, "--scale"),
+        (["--areas", "+295, x", *SCALE], '"x" is no area'),
+        ([*AREAS, "--scale", "5 N/mm, 1 deg/mm"], "both scales"),
+        ([*AREAS, "--scale", "5 N·m/mm, 1 dgr/mm"], "unknown unit"),
+        ([*AREAS, *SCALE, "--fluctuation", "0.01"], "--speed"),
+        ([*AREAS, *SCALE, "--load", "3"], "--load"),
+        ([*AREAS, *SCALE, "--mass", "36kg"], "--gyration"),
+        ([*ENGINE, "--disk"], "--fluctuation"),
+        (["--torque", "5 + sin(tehta)"], 'did you mean "theta"'),
+        (["--torque", "5 + 1/sin(theta)"], "not finite"),
+        (["--torque", "5", "--period", "0 deg"], "above zero"),
+        ([*ENGINE, "--output", "cycle.csv"], "--output"),
+    ],
+)
+def test_wrong_options_are_refused(
+    arguments: list[str], part: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert part in refusal(capsys, *arguments)
+
+
+def test_the_column_of_an_unknown_name_is_marked(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = refusal(capsys, "--torque", "5 + sin(tehta)").splitlines()
+    assert lines[-1].index("^") == lines[-2].index("tehta")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--torque", "100*sin(theta)", "--speed", "180rpm", "--fluctuation", "0.01"], "0 N·m"),
+        (["--torque", "-5000 + sin(theta)"], "-5000 N·m"),
+        (["--torque", "5000", "--load", "4000"], "do not balance"),
+        (["--areas", "1, 2, -4", *SCALE], "-1 mm²"),
+        (["gallery:slider_crank_offset"], "mean torque"),
+        (["gallery:truss"], "turning driver"),
+        (["gallery:excavator"], "turning driver"),
+    ],
+)
+def test_what_gives_no_flywheel_is_refused(
+    arguments: list[str], part: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert part in refusal(capsys, *arguments, code=1)
