@@ -31,7 +31,15 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "model/mechanism.py": {"linkwright.structure", NOTEBOOK},
     "kinematics/motion.py": {NOTEBOOK, PLOT},
     "kinetostatics/forces.py": {NOTEBOOK, PLOT},
+    "kinetostatics/balancing.py": {PLOT},
     "machine/running.py": {PLOT},
+    "machine/torque_curve.py": {PLOT},
+    "metrics/coupler_curve.py": {PLOT},
+    "metrics/table.py": {PLOT},
+    "study/compare.py": {PLOT},
+    "study/designs.py": {PLOT},
+    "study/sensitivity.py": {PLOT},
+    "study/study.py": {PLOT},
 }
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",

@@ -6,7 +6,7 @@ import argparse
 import csv
 import io
 
-from linkwright.cli.beneath import largest
+from linkwright.cli.beneath import closeness, largest
 from linkwright.cli.choice import leading, point_keys
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
@@ -40,6 +40,7 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
         "reached": motion.ok[solved.rows],
         "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
         "notes": list(solved.notes),
+        "warnings": closeness(motion, "en"),
         "findings": [finding_data(finding) for finding in solved.warnings],
     }
     if forces is not None:

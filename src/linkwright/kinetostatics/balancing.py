@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.mechanism import Link, Mechanism
+
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
 
 Radius = Mapping[str, float] | float
 
@@ -42,6 +46,12 @@ class Balancing:
             "shaking moment [N·m]": (_peak(self.before.shaking_moment), _peak(self.after.shaking_moment)),
             "input torque [N·m]": (_peak(self.before.input_torque), _peak(self.after.input_torque)),
         }
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Shaking force, shaking moment and input torque without and with counterweights; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def text(self) -> str:
         """Counterweights and their effect."""

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.errors import LinkwrightError
 from linkwright.machine.integral import Antiderivative, Floats, extremes
+
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
 
 TURN = 2 * np.pi
 
@@ -99,6 +103,12 @@ class TorqueCurve:
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
         return TorqueCurve(lambda theta: self(theta) - other(theta), long, self.start, tuple(knots))
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """The torque over the angle, with its mean; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(angle, torque) of the smallest and of the largest torque."""

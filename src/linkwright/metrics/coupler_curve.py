@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
 from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.plane import cross, crossings
 from linkwright.metrics.quantities import shown
+
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
@@ -30,13 +34,20 @@ Spot = tuple[float, float]
 @dataclass(frozen=True)
 class CouplerCurve:
     """Closed path of a point: ``length`` m, ``area`` m² (counter-clockwise positive, loops with their sign),
-    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there."""
+    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once."""
 
     point: str
     length: float
     area: float
     double_points: tuple[tuple[Spot, Spot], ...]
     cusps: tuple[tuple[Spot, float], ...]
+    path: Floats = field(repr=False, compare=False)
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """The path with its double points and cusps; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
 
 def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurve:
@@ -65,7 +76,7 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     area = 0.5 * float(np.mean(cross(position, velocity))) * period * float(sense)
     length = float(np.mean(speed)) * period
     doubles = tuple(_doubles(analysis, point, position, length)) if length > 0 else ()
-    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)))
+    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)), position)
 
 
 def _doubles(analysis: Analysis, point: str, path: Floats, length: float) -> Iterator[tuple[Spot, Spot]]:

@@ -15,6 +15,8 @@ from linkwright.words import say
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.plot import Diagram
+
 
 class MetricsTable(Sequence[MetricValue]):
     """Values of design numbers, in rows.
@@ -113,6 +115,12 @@ class MetricsTable(Sequence[MetricValue]):
                 "tables need pandas; install it: pip install linkwright[notebook]"
             ) from None
         return pandas.DataFrame(self.data())
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Values against their recommended limits, or ``of`` the metrics that are named; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"

@@ -18,6 +18,8 @@ from linkwright.study.overlay import Overlay, overlays
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.plot import Diagram
+
 #: Values of a criterion that differ by less than this share are equal.
 SAME = 1e-9
 
@@ -190,6 +192,12 @@ class Comparison:
         frame = dataframe(columns)
         frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
         return frame
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """The curves over each other, or the ``pivot_hodograph``; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         order = " > ".join(f"{rank.label} ({rank.score:.2f})" for rank in self.ranking)

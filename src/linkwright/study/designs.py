@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,8 @@ from linkwright.study.vary import design_values, refuse_moved_positions
 
 if TYPE_CHECKING:
     import pandas
+
+    from linkwright.plot import Diagram
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
@@ -90,6 +92,12 @@ class Sweep:
         from linkwright.kinematics.table import dataframe
 
         return dataframe({name: np.asarray(values) for name, values in self.columns().items()})
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Summaries over what varies, ``of`` some or all of them; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ from linkwright.study.vary import checked_addresses
 
 if TYPE_CHECKING:
     import pandas
+
+    from linkwright.plot import Diagram
 
 Floats = NDArray[np.float64]
 Way = Literal["auto", "forward", "reverse"]
@@ -85,6 +87,12 @@ class Sensitivity:
         frame = dataframe(table)
         frame.index = [summary.name for summary in self.gradients]
         return frame
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Relative sensitivities as bars, or ``sensitivity_curves`` over the input; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:

@@ -27,6 +27,8 @@ from linkwright.study.vary import checked_addresses
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.plot import Diagram
+
 Floats = NDArray[np.float64]
 Sampling = Literal["grid", "sobol"]
 Progress = Callable[[int, int], None]
@@ -126,7 +128,7 @@ class Study:
                 }
                 for name, values in self.metrics.items()
             },
-            "best": {name: self.best(name) for name in self.metrics if self._has_best(name)},
+            "best": {name: self.best(name) for name in self.metrics if self.has_best(name)},
             "failures": [
                 {
                     "group": f.group,
@@ -139,7 +141,8 @@ class Study:
             ],
         }
 
-    def _has_best(self, name: str) -> bool:
+    def has_best(self, name: str) -> bool:
+        """Whether one design is best in a metric."""
         return self.better[name] is not None and bool(np.isfinite(self.metrics[name]).any())
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -147,6 +150,12 @@ class Study:
         from linkwright.kinematics.table import dataframe
 
         return dataframe(self.columns())
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Metrics over what varies, ``of`` some or all of them; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         return (

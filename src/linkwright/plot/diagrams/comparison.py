@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.plot.diagrams.axes import equal, framed
+from linkwright.plot.diagrams.axes import equal, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
@@ -51,7 +51,9 @@ class ComparisonCurves(ResultKind):
         axis = _axis(result)
         panels = [panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)]
         figure, axes, legend = stacked(panels, axis, request)
-        _label(axes[-1], axis, request)
+        label_input(axes[-1], axis, request.say)
+        passed = say("compare.curve.input", request.language)
+        axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
         framed(figure, " – ".join(result.labels), request)
         figure.align_ylabels(axes)
         legend.put(figure)

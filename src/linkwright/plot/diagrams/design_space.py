@@ -1,0 +1,171 @@
+"""Metrics over what varies: curves over one dimension, maps over two, points else."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import Request
+from linkwright.plot.diagrams.design_table import DesignTable, Measure, Varied
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.units import significant
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FAILED = "#c0392b"
+#: From so many designs on, points would hide each other, and their number in cells is shown.
+CROWD = 5000
+#: Designs on a curve up to which each is a dot.
+DOTS = 61
+#: Places at which failed designs are marked along an axis, at most.
+RUG = 240
+
+
+def draw_designs(table: DesignTable, request: Request) -> Figure:
+    """The figure for designs: a curve, a map or clouds of points for every metric.
+
+    Raises LinkwrightError where nothing varies.
+    """
+    if not table.moving:
+        raise LinkwrightError("all designs are the same, so there is nothing to draw; vary a dimension")
+    legend = Legend()
+    if len(table.moving) == 1:
+        figure = _over_one(table, request, legend)
+    elif len(table.moving) == 2 and table.grid:
+        figure = _over_two(table, request, legend)
+    else:
+        figure = _clouds(table, request, legend)
+    framed(figure, table.title, request)
+    legend.put(figure)
+    return figure
+
+
+def _over_one(table: DesignTable, request: Request, legend: Legend) -> Figure:
+    """A panel for every metric, over the one dimension."""
+    (over,) = table.moving
+    count = len(table.measures)
+    figure = new_figure(request.size or (6.8, 1.2 + 1.9 * max(count, 1.45)))
+    axes = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
+    order = np.argsort(over.values, kind="stable")
+    x, ok = over.values[order], table.ok[order]
+    for one, measure in zip(axes, table.measures, strict=True):
+        y = measure.values[order]
+        one.plot(x, y, "-o" if len(x) <= DOTS else "-", color=COLOURS[0], markersize=3.2)
+        _ground(one, y, measure.label, "\n")
+        _failed(one, x[~ok], legend, request)
+        if request.marks and measure.best is not None:
+            _best(one, over.values[measure.best], measure, legend, request)
+    axes[-1].set_xlabel(over.label)
+    axes[-1].set_xlim(x[0] - 0.02 * (x[-1] - x[0]), x[-1] + 0.02 * (x[-1] - x[0]))
+    figure.align_ylabels(list(axes))
+    return figure
+
+
+def _ground(axes: Axes, values: Floats, label: str, between: str) -> None:
+    """Range and label of a metric's axis; values that differ by rounding alone lie on one line."""
+    good = values[np.isfinite(values)]
+    if len(good):
+        low, high = float(good.min()), float(good.max())
+        room = 0.14 * (high - low) if high - low > 1e-9 * max(abs(low), abs(high)) else max(0.1 * abs(high), 1.0)
+        axes.set_ylim(low - room, high + room)
+    axes.set_ylabel(label.replace(" (", f"{between}(") if label.endswith(")") else label)
+
+
+def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
+    """Crosses on the axis below for designs that cannot move; those too close to be told apart once."""
+    if not len(x):
+        return
+    if len(x) > RUG:
+        x = np.unique(np.round((x - x.min()) / (np.ptp(x) or 1.0) * RUG)) / RUG * np.ptp(x) + x.min()
+    (line,) = axes.plot(x, np.full(len(x), 0.02), "x", transform=axes.get_xaxis_transform(), color=FAILED,
+                        markersize=4.5, clip_on=False, zorder=4)  # fmt: skip
+    legend.add(request.say("cannot_move"), line)
+
+
+def _best(axes: Axes, x: float, measure: Measure, legend: Legend, request: Request) -> None:
+    assert measure.best is not None
+    y = float(measure.values[measure.best])
+    (line,) = axes.plot([x], [y], "o", color=COLOURS[1], markersize=8, fillstyle="none", zorder=5)
+    legend.add(request.say("best_design"), line)
+
+
+def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
+    """A map for every metric: colours with lines of equal value, crosses where a design cannot move."""
+    across, up = table.moving
+    count = len(table.measures)
+    columns = min(count, 2)
+    rows = -(-count // columns)
+    figure = new_figure(request.size or (5.0 * columns + 0.4, 0.8 + 3.7 * rows))
+    places = figure.subplots(rows, columns, squeeze=False).ravel()
+    order = np.lexsort((across.values, up.values))
+    shape = (len(up.steps), len(across.steps))
+    for one, measure in zip(places, table.measures, strict=False):
+        _map(one, across.steps, up.steps, measure.values[order].reshape(shape), measure)
+        failed = ~table.ok
+        if failed.any():
+            (line,) = one.plot(across.values[failed], up.values[failed], "x", color=FAILED, markersize=4.5)
+            legend.add(request.say("cannot_move"), line)
+        if request.marks and measure.best is not None:
+            place = (across.values[measure.best], up.values[measure.best])
+            (ring,) = one.plot(*[[each] for each in place], "o", color=COLOURS[1], markersize=8,
+                               fillstyle="none", markeredgewidth=1.8, zorder=5)  # fmt: skip
+            legend.add(request.say("best_design"), ring)
+        one.set_xlabel(across.label)
+        one.set_ylabel(up.label)
+    for spare in places[count:]:
+        spare.set_axis_off()
+    return figure
+
+
+def _map(axes: Axes, x: Floats, y: Floats, values: Floats, measure: Measure) -> None:
+    shown = np.ma.masked_invalid(values)
+    mesh: Any = axes.pcolormesh(x, y, shown, shading="nearest", cmap="viridis", linewidth=0, edgecolors="face")
+    axes.grid(False)
+    figure = axes.get_figure()
+    assert figure is not None
+    bar = figure.colorbar(mesh, ax=axes, label=measure.label, pad=0.02)
+    bar.outline.set_linewidth(0.5)  # type: ignore[operator]
+    good = shown.compressed()
+    if min(values.shape) < 4 or not len(good) or np.ptp(good) <= 1e-9 * np.abs(good).max():
+        return
+    levels = np.array([tick for tick in bar.get_ticks() if good.min() < tick < good.max()])
+    if len(levels) and np.isfinite(values[:-1, :-1] + values[1:, 1:]).any():
+        lines = axes.contour(x, y, shown, levels=levels, colors="white", linewidths=0.8)
+        axes.clabel(lines, fontsize=7, fmt=lambda level: significant(float(level)))
+
+
+def _clouds(table: DesignTable, request: Request, legend: Legend) -> Figure:
+    """A cloud of points for every metric over every dimension."""
+    rows, columns = len(table.measures), len(table.moving)
+    figure = new_figure(request.size or (max(6.0, 0.6 + 2.9 * columns), 0.9 + 2.3 * max(rows, 1.4)))
+    places = figure.subplots(rows, columns, sharex="col", sharey="row", squeeze=False)
+    for line, measure in zip(places, table.measures, strict=True):
+        for one, over in zip(line, table.moving, strict=True):
+            _cloud(one, over, measure)
+            _failed(one, over.values[~table.ok], legend, request)
+            if request.marks and measure.best is not None:
+                _best(one, float(over.values[measure.best]), measure, legend, request)
+        _ground(line[0], measure.values, measure.label, "\n")
+    for one, over in zip(places[-1], table.moving, strict=True):
+        one.set_xlabel(over.label)
+        room = 0.03 * float(np.ptp(over.values))
+        one.set_xlim(over.values.min() - room, over.values.max() + room)
+    figure.align_ylabels(list(places[:, 0]))
+    return figure
+
+
+def _cloud(axes: Axes, over: Varied, measure: Measure) -> None:
+    good = np.isfinite(measure.values)
+    x, y = over.values[good], measure.values[good]
+    if len(x) > CROWD:
+        axes.hexbin(x, y, gridsize=48, mincnt=1, bins="log", cmap="Blues", linewidths=0.1)
+    else:
+        axes.plot(x, y, "o", color=COLOURS[0], markersize=3.0 if len(x) < 400 else 1.6, alpha=0.75,
+                  markeredgewidth=0)  # fmt: skip

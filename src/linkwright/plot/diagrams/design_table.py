@@ -1,0 +1,105 @@
+"""What diagrams of many designs show: what varies, in its units, and what was measured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import units
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.registry import nearest
+from linkwright.study.ranges import dimension_of
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A dimension that varies: ``values`` (designs,) in the unit in which it is shown."""
+
+    name: str
+    values: Floats
+    unit: Unit
+
+    @property
+    def label(self) -> str:
+        """The label of its axis."""
+        return self.unit.label(self.name)
+
+    @property
+    def steps(self) -> Floats:
+        """The different values, rising."""
+        return np.unique(self.values)
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A metric: ``values`` (designs,) in the unit in which it is shown; ``best``: number of the best design."""
+
+    name: str
+    values: Floats
+    unit: Unit
+    best: int | None = None
+
+    @property
+    def label(self) -> str:
+        """The label of its axis."""
+        return self.unit.label(self.name)
+
+
+@dataclass(frozen=True)
+class DesignTable:
+    """Designs in rows: what varies, the metrics, and which designs pass the cycle; ``grid``: all combinations."""
+
+    title: str
+    varied: tuple[Varied, ...]
+    measures: tuple[Measure, ...]
+    ok: NDArray[np.bool_]
+
+    @property
+    def moving(self) -> tuple[Varied, ...]:
+        """The dimensions that have more than one value."""
+        return tuple(each for each in self.varied if len(each.steps) > 1)
+
+    @property
+    def grid(self) -> bool:
+        """Whether the designs are every combination of the values, each once."""
+        places = np.column_stack([each.values for each in self.moving])
+        return len(np.unique(places, axis=0)) == len(places) == np.prod([len(e.steps) for e in self.moving])
+
+
+def varied(mechanism: Mechanism, name: str, values: Floats, written: str = "") -> Varied:
+    """A dimension in the unit that the user wrote, else in the usual one of its kind."""
+    unit = _unit(mechanism, name, written)
+    return Varied(name, np.asarray(values * unit.factor), unit)
+
+
+def measure(name: str, values: Floats, dimension: str, best: int | None = None) -> Measure:
+    """A metric in the unit for its size."""
+    unit = unit_of(dimension, [values])
+    return Measure(name, np.asarray(values * unit.factor), unit, best)
+
+
+def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:
+    """The metrics that are asked for, all by default; raises LinkwrightError for one that is not there."""
+    for name in asked:
+        if name not in known:
+            offer = nearest(name, list(known))
+            hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(known)}"
+            raise LinkwrightError(f"there is no metric {name!r} here; {hint}")
+    return list(asked or known)
+
+
+def _unit(mechanism: Mechanism, name: str, written: str) -> Unit:
+    if written:
+        return Unit("°" if written == "deg" else written, 1.0 / units.unit(written)[0])
+    found = dimension_of(mechanism, name)
+    if found == units.DIMENSIONS["length"]:
+        return unit_of("length")
+    if found == units.DIMENSIONS["angle"]:
+        return unit_of("angle")
+    return Unit("SI" if found is None else units.si_symbol(found), 1.0)
