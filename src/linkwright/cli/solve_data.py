@@ -40,7 +40,7 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
         "reached": motion.ok[solved.rows],
         "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
         "notes": list(solved.notes),
-        "warnings": closeness(motion, "en"),
+        "warnings": [each.removeprefix("! ") for each in closeness(motion, "en")],
         "findings": [finding_data(finding) for finding in solved.warnings],
     }
     if forces is not None:
