@@ -14,6 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.export import export
 from linkwright.export.base import FORMATS
 from linkwright.export.export import chosen_format
+from linkwright.export.formats import xlsx
 from linkwright.export.formats.xlsx import number_format
 from linkwright.kinetostatics.forces import Forces
 
@@ -149,7 +150,7 @@ def test_a_sheet_that_would_not_hold_all_is_refused(
     forces: Forces, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("xlsxwriter")
-    monkeypatch.setattr("linkwright.export.formats.xlsx.MOST_ROWS", 23)
+    monkeypatch.setattr(xlsx, "MOST_ROWS", 23)
     with pytest.raises(LinkwrightError, match="fewer steps"):
         export(forces, tmp_path / "a.xlsx")
     assert list(tmp_path.iterdir()) == []

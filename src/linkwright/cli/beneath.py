@@ -77,7 +77,7 @@ def closeness(motion: Motion, language: str) -> list[str]:
     return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
 
 
-def failures(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
+def failures(solved: Solved, say: Say, language: str, *, degrees: bool) -> list[str]:
     """Stretches of positions that are not reached, each with the sentence of its first position."""
     ok = solved.motion.ok
     failed = np.flatnonzero(~ok)
@@ -88,7 +88,7 @@ def failures(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
         first, last = (input_text(solved, int(place), degrees=degrees) for place in (run[0], run[-1]))
         where = first if first == last else f"{first} … {last}"
-        lines.append(f"  {where}: {outcomes[int(run[0])].sentence}")
+        lines.append(f"  {where}: {outcomes[int(run[0])].say(language)}")
     return lines
 
 

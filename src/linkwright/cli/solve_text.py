@@ -12,6 +12,7 @@ from linkwright.cli.columns import Column, fitting, pick, table
 from linkwright.cli.session import Session
 from linkwright.cli.solving import Solved
 from linkwright.words import Say
+from linkwright.words.sentence import in_language
 
 
 def report(solved: Solved, options: argparse.Namespace, session: Session) -> list[str]:
@@ -23,8 +24,8 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         beneath.extremes(solved, say, degrees=degrees),
         beneath.checks(solved, say),
         beneath.closeness(solved.motion, session.language),
-        beneath.failures(solved, say, degrees=degrees),
-        [say("solve.note", text=note) for note in solved.notes],
+        beneath.failures(solved, say, session.language, degrees=degrees),
+        [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
         [str(finding) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []

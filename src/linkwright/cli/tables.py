@@ -1,4 +1,4 @@
-"""Tables of comparisons and studies in files."""
+"""Tables and diagrams of comparisons and studies in files."""
 
 from __future__ import annotations
 
@@ -13,6 +13,19 @@ from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison
+    from linkwright.study.study import Study
+
+
+PICTURES = (".svg", ".pdf", ".png")
+
+
+def write_diagram(name: str | None, found: Comparison | Study, session: Session, *, force: bool) -> None:
+    """Draws the usual diagram of a result and writes it, as the file's ending says."""
+    if name is None:
+        return
+    path = Path(name)
+    content = found.plot(language=session.language).content(path.suffix.lower())
+    write_whole(path, content, session.say, force=force)
 
 
 def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: bool) -> None:

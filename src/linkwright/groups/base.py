@@ -64,7 +64,7 @@ class Dyad(Protocol):
         ...
 
     def explain(self, facts: Mapping[str, float]) -> str:
-        """Why the group cannot be assembled, from the facts at that position."""
+        """Why the group cannot be assembled, from the facts at that position; a ``Sentence`` has other languages."""
         ...
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.engine.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
+from linkwright.words.sentence import Sentence
 
 
 @DYADS.register("PRP")
@@ -33,5 +34,5 @@ class PRP:
             facts={"sine": sine},
         )
 
-    def explain(self, facts: Mapping[str, float]) -> str:
-        return f"the two guides are parallel (sine of the angle between them {facts['sine']:.1e})"
+    def explain(self, facts: Mapping[str, float]) -> Sentence:
+        return Sentence("outcome.prp_parallel", sine=f"{facts['sine']:.1e}")

@@ -7,6 +7,7 @@ from math import sqrt as root_of
 
 from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
+from linkwright.words.sentence import Sentence
 
 
 @DYADS.register("RPR")
@@ -43,9 +44,11 @@ class RPR:
             facts={"distance²": dd, "offset": e},
         )
 
-    def explain(self, facts: Mapping[str, float]) -> str:
+    def explain(self, facts: Mapping[str, float]) -> Sentence:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
-        return (
-            f"the outer pins are {shown_length(distance)} apart, the guide holds them {shown_length(offset)} "
-            f"apart across its direction: {shown_length(offset - distance)} too close"
+        return Sentence(
+            "outcome.rpr_near",
+            distance=shown_length(distance),
+            offset=shown_length(offset),
+            missing=shown_length(offset - distance),
         )

@@ -7,6 +7,7 @@ from math import sqrt as root_of
 
 from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
+from linkwright.words.sentence import Sentence
 
 
 @DYADS.register("RRP")
@@ -39,9 +40,11 @@ class RRP:
             facts={"height": h, "length²": rr},
         )
 
-    def explain(self, facts: Mapping[str, float]) -> str:
+    def explain(self, facts: Mapping[str, float]) -> Sentence:
         height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
-        return (
-            f"the outer pin is {shown_length(height)} from the path of the slider's pin, the link reaches "
-            f"{shown_length(length)}: {shown_length(height - length)} missing"
+        return Sentence(
+            "outcome.rrp_far",
+            height=shown_length(height),
+            length=shown_length(length),
+            missing=shown_length(height - length),
         )

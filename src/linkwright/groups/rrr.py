@@ -7,6 +7,7 @@ from math import sqrt as root_of
 
 from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Rotor, Solved, shown_length
+from linkwright.words.sentence import Sentence
 
 
 @DYADS.register("RRR")
@@ -44,15 +45,15 @@ class RRR:
             facts={"distance²": dd, "first²": r1, "second²": r2},
         )
 
-    def explain(self, facts: Mapping[str, float]) -> str:
+    def explain(self, facts: Mapping[str, float]) -> Sentence:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
-        said = f"the outer pins are {shown_length(distance)} apart"
-        lengths = f"links of {shown_length(r1)} and {shown_length(r2)}"
-        if distance > r1 + r2:
-            return (
-                f"{said}, {lengths} reach {shown_length(r1 + r2)}: {shown_length(distance - r1 - r2)} missing"
-            )
-        near = abs(r1 - r2)
-        return (
-            f"{said}, {lengths} need at least {shown_length(near)}: {shown_length(near - distance)} too close"
+        far = distance > r1 + r2
+        reach = r1 + r2 if far else abs(r1 - r2)
+        return Sentence(
+            "outcome.rrr_far" if far else "outcome.rrr_near",
+            distance=shown_length(distance),
+            first=shown_length(r1),
+            second=shown_length(r2),
+            reach=shown_length(reach),
+            missing=shown_length(distance - reach if far else reach - distance),
         )

@@ -21,6 +21,7 @@ from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.groups import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.structure import Structure
+from linkwright.words.sentence import Sentence
 
 #: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
 #: it changes more than that from one position to the next.
@@ -331,32 +332,17 @@ def mark_singular(codes: Floats, passing: Sequence[Passage], structure: Structur
             codes[int(p.place) % len(codes)] = -numbers[p.group]
 
 
-def notes(passing: Sequence[Passage], positions: Positions) -> tuple[str, ...]:
+def notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, ...]:
     """What the user should know about change points and gaps between positions."""
     said = [_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
-        said.append(
-            "after one cycle the mechanism is in its other assembly mode: the motion repeats after two cycles"
-        )
+        said.append(Sentence("passage.two_cycles"))
     return tuple(dict.fromkeys(said))
 
 
-def _note(p: Passage, positions: Positions) -> str:
+def _note(p: Passage, positions: Positions) -> Sentence:
     name, (q, *_) = next(iter(positions.coordinates.items()))
     ahead = q[p.after] if p.after > p.before else 2 * q[p.before] - q[p.before - 1]
     place = float(q[p.before] + p.share * (ahead - q[p.before]))
     where = f"{name} = " + (f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m")
-    group = f"group ({p.group.replace('+', ', ')})"
-    if p.kind == "change":
-        return f"change point of {group} at {where}: the motion goes on smoothly"
-    if p.kind == "meeting":
-        return f"the outer pins of {group} meet at {where}, where it could turn freely: the motion goes on smoothly"
-    if p.kind == "pole":
-        return (
-            f"the guides of {group} become parallel at {where}: the mechanism cannot pass there, and positions "
-            "beyond it are not reached"
-        )
-    return (
-        f"{group} cannot be assembled in a short stretch at {where}, between two positions: the mechanism cannot "
-        "pass there, and positions beyond it are not reached"
-    )
+    return Sentence(f"passage.{p.kind}", links=tuple(p.group.split("+")), where=where)

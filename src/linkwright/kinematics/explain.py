@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
-
-FINE = Outcome(True)
+    from linkwright.structure.group import Group
 
 
 def explain(motion: Motion) -> list[Outcome]:
     """What became of every position of a motion."""
-    found = [FINE] * motion.steps
+    found = [Outcome(True)] * motion.steps
     failed = np.flatnonzero(~motion.ok)
     if not len(failed):
         return found
@@ -46,26 +46,21 @@ class _Facts:
     def outcome(self, place: int, index: int) -> Outcome:
         code = self.motion.outcome_codes[index]
         if code == 0 or not np.isfinite(code):
-            sentence = "the way from the first position to this one is barred by a position out of reach"
-            return Outcome(False, sentence, None, "barred")
+            return Outcome(False, Sentence("outcome.barred"), None, "barred")
         group = self.groups[int(abs(code)) - 1]
         placed = self.motion.solver.motion.placed[group.name]
-        who = f"group {group.signature} ({', '.join(group.links)})"
         if placed.dyad is None:
-            sentence = (
-                f"{who} cannot be followed to this position: it is out of reach or beyond a singular position"
-            )
-            return Outcome(False, sentence, group.name, "unreachable")
-        facts = {name: float(self.values[f"fact:{group.name}|{name}"][place]) for name in placed.facts}
+            return Outcome(False, _of("lost", group), group.name, "unreachable")
         if code < 0:
-            sentence = (
-                f"{who} is at a singular position (dead point or change point), where its motion is not "
-                "determined by the driver"
-            )
-            return Outcome(False, sentence, group.name, "singular")
-        return Outcome(
-            False, f"{who} cannot be assembled: {placed.dyad.explain(facts)}", group.name, "unreachable"
-        )
+            return Outcome(False, _of("singular", group), group.name, "singular")
+        facts = {name: float(self.values[f"fact:{group.name}|{name}"][place]) for name in placed.facts}
+        reason = placed.dyad.explain(facts)
+        return Outcome(False, _of("apart", group, reason=reason), group.name, "unreachable")
+
+
+def _of(key: str, group: Group, **values: object) -> Sentence:
+    """What is to be said of a group."""
+    return Sentence(f"outcome.{key}", signature=group.signature, links=group.links, **values)
 
 
 def refusal(motion: Motion) -> PositionError:

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 
 from linkwright.errors import LinkwrightError
+from linkwright.words.sentence import Sentence, in_language
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Of one position: whether it is solved, and if not, the group that fails and why."""
+    """Of one position: whether it is solved, and if not, the group that fails and why (in English)."""
 
     ok: bool
-    sentence: str = "assembled"
+    sentence: str = field(default_factory=partial(Sentence, "outcome.assembled"))
     group: str | None = None
     kind: str = "ok"
+
+    def say(self, language: str = "en") -> str:
+        """The sentence in a language."""
+        return in_language(self.sentence, language)
 
 
 class PositionError(LinkwrightError):

@@ -27,6 +27,7 @@ from linkwright.kinematics.names import canonical
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
+from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
 ZERO = 1e-9
@@ -54,7 +55,7 @@ class RankReport:
 
     ``redundant``: equations that others already demand, such as ``rotation at slot_2``; ``links``: links that
     could be taken out without changing the motion; ``special``: whether the rank is smaller here than in
-    neighbouring positions; ``grubler``: 3n - 2p; ``sentence``: all this in words.
+    neighbouring positions; ``grubler``: 3n - 2p; ``sentence``: all this in words, in English.
     """
 
     rank: int
@@ -64,12 +65,16 @@ class RankReport:
     redundant: tuple[str, ...]
     links: tuple[str, ...]
     special: bool
-    sentence: str
+    sentence: Sentence
 
     @property
     def mobility(self) -> int:
         """Number of independent (at a special position instantaneous) freedoms of the mechanism."""
         return self.freedoms - self.rank
+
+    def say(self, language: str = "en") -> str:
+        """The sentence in a language."""
+        return self.sentence.say(language)
 
 
 def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
@@ -92,7 +97,7 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     if system.freedoms - rank > motion.structure.mobility:
         special = not _moves(system, here, rank)
         links = () if special else _spare_links(mechanism, here, ZERO)
-    return _report(mechanism, system, rank, redundant, links, special, "", guides)
+    return _report(mechanism, system, rank, redundant, links, special, False, guides)
 
 
 def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
@@ -111,7 +116,7 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
         return _gaping(mechanism, system, rank, redundant, gap)
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
-    return _report(mechanism, system, rank, redundant, links, special, " in the drawing", ())
+    return _report(mechanism, system, rank, redundant, links, special, True, ())
 
 
 def analysed(mechanism: Mechanism) -> Structure:
@@ -129,7 +134,7 @@ def analysed(mechanism: Mechanism) -> Structure:
         raise StructureError(f"{error}. {report.sentence}") from None
 
 
-def rank_sentence(mechanism: Mechanism) -> str:
+def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
     """What the rank of the Jacobian at the start of the cycle says about the mobility; empty if it cannot be had."""
     from linkwright.kinematics.solve import solve_motion
 
@@ -138,7 +143,7 @@ def rank_sentence(mechanism: Mechanism) -> str:
     except LinkwrightError:
         return ""
     good = np.flatnonzero(motion.ok)
-    return jacobian_rank(motion, int(good[0])).sentence if len(good) else ""
+    return jacobian_rank(motion, int(good[0])).say(language) if len(good) else ""
 
 
 # equations ----------------------------------------------------------------------------------------
@@ -294,7 +299,7 @@ def mechanism_size(mechanism: Mechanism) -> float:
 
 
 # rank ---------------------------------------------------------------------------------------------
-def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[str, ...]]:
+def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[Sentence, ...]]:
     """Rank, and the equations that those before them imply (the last ones of each dependence)."""
     rows = system.rows(x)
     matrix = system.matrix(rows)
@@ -312,7 +317,7 @@ def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[
         if length > math.sqrt(zero) * float(np.linalg.norm(vector)) and len(independent) < rank:
             independent.append(left / length)
         else:
-            redundant.append(f"{row.holds} at {row.joint}")
+            redundant.append(Sentence(f"rank.{row.holds}", joint=row.joint))
     return rank, tuple(redundant)
 
 
@@ -390,42 +395,33 @@ def _report(
     redundant: tuple[str, ...],
     links: tuple[str, ...],
     special: bool,
-    where: str,
+    drawn: bool,
     guides: tuple[str, ...],
 ) -> RankReport:
     count = grubler(counts(mechanism))
     mobility = system.freedoms - rank
     equations = system.freedoms - count
     make = partial(RankReport, rank, system.freedoms, equations, count, redundant, links, special)
+    where = "_drawn" if drawn else ""
     if mobility == count:
-        return make(f"Grübler's mobility {count} is confirmed by the rank of the Jacobian{where}")
-    said = f"Grübler gives {count}, but the rank of the Jacobian{where} gives {mobility}"
-    return make(f"{said}: {_reason(redundant, links, special, guides)}")
+        return make(Sentence(f"rank.confirmed{where}", count=count))
+    reason = _reason(redundant, links, special, guides)
+    return make(Sentence(f"rank.differs{where}", count=count, mobility=mobility, reason=reason))
 
 
 def _reason(
     redundant: tuple[str, ...], links: tuple[str, ...], special: bool, guides: tuple[str, ...]
-) -> str:
-    listed = ", ".join(redundant)
+) -> Sentence:
     if special:
-        return (
-            f"this is a special position, where the joints' equations are dependent ({listed}); "
-            "the additional freedom is lost as soon as the mechanism leaves it"
-        )
+        return Sentence("rank.special", redundant=redundant)
     if links:
-        many = len(links) > 1
-        names = ", ".join(repr(name) for name in links)
-        return (
-            f"the link{'s' if many else ''} {names} {'are' if many else 'is'} redundant in this special geometry; "
-            f"remove {'them' if many else 'it'}"
-        )
+        named = tuple(Sentence("rank.named", name=name) for name in links)
+        return Sentence("rank.links" if len(links) > 1 else "rank.link", links=named)
     if guides:
-        many = len(guides) > 1
-        return (
-            f"the guide{'s' if many else ''} {', '.join(guides)} close{'' if many else 's'} a loop in which rotation "
-            f"is already prevented ({listed})"
+        return Sentence(
+            "rank.guides" if len(guides) > 1 else "rank.guide", guides=guides, redundant=redundant
         )
-    return f"passive constraints ({listed}) demand what other joints already demand, by the special lengths"
+    return Sentence("rank.passive", redundant=redundant)
 
 
 def _gaping(
@@ -434,8 +430,5 @@ def _gaping(
     from linkwright.units import format
 
     count = grubler(counts(mechanism))
-    said = (
-        f"Grübler gives {count}; the links do not fit together near the drawing: at best a gap of "
-        f"{format(gap * system.size, 'length')} is left, so no link is redundant there"
-    )
+    said = Sentence("rank.gaping", count=count, gap=format(gap * system.size, "length"))
     return RankReport(rank, system.freedoms, system.freedoms - count, count, redundant, (), False, said)

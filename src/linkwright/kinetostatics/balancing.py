@@ -48,7 +48,7 @@ class Balancing:
         }
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Shaking force, shaking moment and input torque without and with counterweights; options: ``linkwright.plot.plot``."""
+        """Shaking force and moment, input torque, without and with weights; options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)

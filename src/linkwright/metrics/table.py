@@ -117,7 +117,7 @@ class MetricsTable(Sequence[MetricValue]):
         return pandas.DataFrame(self.data())
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Values against their recommended limits, or ``of`` the metrics that are named; options: ``linkwright.plot.plot``."""
+        """Values against recommended limits, or ``of`` the metrics named; options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)

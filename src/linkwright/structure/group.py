@@ -131,11 +131,11 @@ class Structure:
         """The group in which a link is solved."""
         return next(group for group in self.groups if link in group.links)
 
-    def text(self) -> str:
-        """The structure analysis as a student would write it."""
+    def text(self, language: str = "en") -> str:
+        """The structure analysis as a student would write it, in English (``en``) or Chinese (``zh``)."""
         from linkwright.structure.text import describe
 
-        return describe(self)
+        return describe(self, language)
 
     def data(self) -> dict[str, object]:
         """The same as plain data."""

@@ -3,72 +3,79 @@
 from __future__ import annotations
 
 from linkwright.structure.group import Connection, Group, Structure
+from linkwright.words import Say, speaker
+from linkwright.words.width import cells, filled
 
-ROMAN = {1: "I", 2: "II", 3: "III", 4: "IV", 5: "V", 6: "VI", 7: "VII", 8: "VIII", 9: "IX", 10: "X"}
 
-
-def describe(structure: Structure) -> str:
+def describe(structure: Structure, language: str = "en") -> str:
     """Mobility, groups in solving order, class: as in the structure chapter of a design report."""
-    lines = [*_mobility(structure), "", "Assur groups in solving order:"]
-    rows = [_row(number, group) for number, group in enumerate(structure.groups, 1)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))] if rows else []
-    lines += [
-        "  " + "  ".join(f"{cell:<{w}}" for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows
-    ]
+    say = speaker(language)
     chain = " + ".join(f"{group.signature}({', '.join(group.links)})" for group in structure.groups)
-    lines += [
+    level = numeral(structure.mechanism_class, say)
+    lines = [
+        *_mobility(structure, say),
         "",
-        f"Mechanism = frame + {chain}",
-        f"It is a class {roman(structure.mechanism_class)} mechanism.",
+        say("structure_text.groups"),
+        *_table(structure, say),
+        "",
+        say("structure_text.chain", chain=chain),
+        say("structure_text.class", level=level),
     ]
     if len(structure.parts) > 1:
-        listed = " and ".join("{" + ", ".join(part) + "}" for part in structure.parts)
-        lines.append(
-            f"These are {len(structure.parts)} mechanisms that share nothing but the frame: {listed}."
-        )
+        parts = say("structure_text.and").join("{" + ", ".join(part) + "}" for part in structure.parts)
+        lines.append(say("structure_text.parts", count=len(structure.parts), parts=parts))
     if structure.drivers:
-        lines.append("Another choice of driver leads to other groups, and may change the class.")
+        lines.append(say("structure_text.other_driver"))
     return "\n".join(lines)
 
 
-def roman(number: int) -> str:
+def numeral(number: int, say: Say) -> str:
     """A class as it is written in the books."""
-    return ROMAN.get(number, str(number))
+    numerals = say("structure_text.numerals").split()
+    return numerals[number - 1] if number <= len(numerals) else str(number)
 
 
-def _mobility(structure: Structure) -> list[str]:
+def _mobility(structure: Structure, say: Say) -> list[str]:
     n, r, p, w = (structure.counts[key] for key in ("links", "revolute", "prismatic", "weld"))
-    welds = f" - 3·{w}" if w else ""
+    counts = "counts_welds" if w > 1 else "counts_weld" if w else "counts"
+    formula = "mobility_welded" if w else "mobility"
     lines = [
-        f"Moving links n = {n}; lower pairs p = {r + p}: {r} revolute, {p} prismatic"
-        + (f"; {w} weld{'s' if w > 1 else ''}" if w else ""),
-        f"Mobility F = 3n - 2p{welds and ' - 3w'} = 3·{n} - 2·{r + p}{welds} = {structure.grubler}",
+        say(f"structure_text.{counts}", links=n, pairs=r + p, revolute=r, prismatic=p, welds=w),
+        say(f"structure_text.{formula}", links=n, pairs=r + p, welds=w, mobility=structure.grubler),
     ]
     if structure.redundant:
-        lines.append(
-            f"The guides {', '.join(structure.redundant)} close a loop in which rotation is already prevented: "
-            f"each such demand is redundant, so the mobility is {structure.mobility}."
-        )
-    if structure.mobility == 0 and not structure.drivers:
-        lines.append("Mobility 0 and no driver: a structure at rest, which carries loads.")
-    elif structure.mobility == len(structure.drivers):
-        noun = "driver" if len(structure.drivers) == 1 else "drivers"
-        lines.append(
-            f"Mobility equals the number of {noun} ({len(structure.drivers)}): the motion is determined."
-        )
+        guides = ", ".join(structure.redundant)
+        lines.append(say("structure_text.redundant", guides=guides, mobility=structure.mobility))
+    drivers = len(structure.drivers)
+    if structure.mobility == 0 and not drivers:
+        lines.append(say("structure_text.at_rest"))
+    elif structure.mobility == drivers:
+        key = "determined" if drivers == 1 else "determined_several"
+        lines.append(say(f"structure_text.{key}", count=drivers))
     return lines
 
 
-def _row(number: int, group: Group) -> tuple[str, str, str, str, str]:
+def _table(structure: Structure, say: Say) -> list[str]:
+    """The groups, one in a line."""
+    rows = [_row(number, group, say) for number, group in enumerate(structure.groups, 1)]
+    widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))] if rows else []
+    return [
+        "  " + "  ".join(filled(cell, w) for cell, w in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
+
+
+def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
+    drivers = ", ".join(group.drivers)
     if group.assur_class == 1 and group.drivers:
-        what = f"driven by {', '.join(group.drivers)}"
+        what = say("structure_text.driven", drivers=drivers)
     else:
-        what = f"class {roman(group.assur_class)}, order {group.assur_order}"
-        if group.drivers:
-            what += f", with driver {', '.join(group.drivers)} inside"
+        key = "class_order_driven" if group.drivers else "class_order"
+        level = numeral(group.assur_class, say)
+        what = say(f"structure_text.{key}", level=level, order=group.assur_order, drivers=drivers)
     outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
     inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
-    joints = f"outer joints {outer}" + (f"; inner joints {inner}" if inner else "")
+    joints = say(f"structure_text.{'outer_inner' if inner else 'outer'}", outer=outer, inner=inner)
     return f"{number}.", group.signature, f"({', '.join(group.links)})", what, joints
 
 

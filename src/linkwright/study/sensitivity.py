@@ -89,10 +89,24 @@ class Sensitivity:
         return frame
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Relative sensitivities as bars, or ``sensitivity_curves`` over the input; options: ``linkwright.plot.plot``."""
+        """Bars of relative sensitivities, or ``sensitivity_curves``; options: ``linkwright.plot.plot``."""
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
+
+    def text(self) -> str:
+        """Every summary with its derivative by each dimension, and what has curves."""
+        lines = [f"Sensitivity of {self.mechanism.name!r} (SI units)"]
+        width = max(map(len, self.by), default=0)
+        for summary, row in self.gradients.items():
+            lines.append(f"  {summary.name} = {self.values[summary]:.6g}")
+            lines += [f"    by {by:<{width}}  {slope:>12.6g}" for by, slope in zip(self.by, row, strict=True)]
+        if self.curves:
+            lines.append(f"  curves: {', '.join(self.curves)}; by {', '.join(self.by)}")
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return self.text()
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:

@@ -30,6 +30,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     )
     parser.add_argument("--output", metavar="FILE", help=say("compare.output_help"))
     parser.add_argument("--curves", metavar="FILE", help=say("compare.curves_help"))
+    parser.add_argument("--plot", metavar="FILE", help=say("compare.plot_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
 
 
@@ -40,11 +41,12 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(f"linkwright compare: {say('compare.too_few')}")
     weights, fluctuation = _weights(options.weights or [], say), _fluctuation(options.fluctuation, say)
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import refuse_output
+    from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.study.compare import compare
 
     for path in (options.output, options.curves):
         refuse_output(path, ENDINGS, say, force=options.force)
+    refuse_output(options.plot, PICTURES, say, force=options.force)
     found = compare(
         [read_model(name)[0] for name in options.files],
         metrics=options.metrics,
@@ -90,7 +92,7 @@ def _fluctuation(text: str, say: Say) -> float:
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
     from linkwright.cli.data import json_text
-    from linkwright.cli.tables import csv_of, curve_columns, curve_data, write_table
+    from linkwright.cli.tables import csv_of, curve_columns, curve_data, write_diagram, write_table
 
     table: dict[str, Sequence[str] | Sequence[float]] = {
         "metric": [
@@ -103,10 +105,11 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
     write_table(
         curves, lambda: csv_of(curve_columns(found)), lambda: curve_data(found), session, force=options.force
     )
+    write_diagram(options.plot, found, session, force=options.force)
     if session.json:
         session.show(json_text(found.data()))
         return
     session.show(found.text(session.language))
-    for path in (options.output, options.curves):
+    for path in (options.output, options.curves, options.plot):
         if path is not None:
             session.show(session.say("cli.written", path=Path(path)))

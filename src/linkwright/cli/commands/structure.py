@@ -27,7 +27,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     mechanism = load(options.file)
     built = analysed(mechanism)
-    rank = rank_sentence(mechanism)
+    rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = _program(mechanism, options.forces) if options.program or options.forces else None
     if session.json:
         from linkwright.cli.data import json_text
@@ -39,9 +39,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
         return 0
     session.show(session.strong(mechanism.name))
     session.show()
-    session.show(built.text())
+    session.show(built.text(session.language))
     if rank:
-        session.show(f"{rank}.")
+        session.show(session.say("structure.rank", sentence=rank))
     if program is not None:
         session.show()
         session.show(_counts(program, session.say))

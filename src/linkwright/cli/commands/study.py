@@ -36,16 +36,18 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("study.steps_help"))
     parser.add_argument("--rows", type=whole_number, default=40, metavar="N", help=say("study.rows_help"))
     parser.add_argument("--output", metavar="FILE", help=say("study.output_help"))
+    parser.add_argument("--plot", metavar="FILE", help=say("study.plot_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import refuse_output
+    from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.study.study import study
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.plot, PICTURES, session.say, force=options.force)
     vary = _ranges(options.vary, session.say)
     mechanism, _ = read_model(options.file)
     found = study(
@@ -79,15 +81,18 @@ def _ranges(texts: list[str], say: Say) -> dict[str, str]:
 def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
     from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
+    from linkwright.cli.tables import write_diagram
 
     if options.output is not None:
         path = Path(options.output)
         text = found.csv() if path.suffix.lower() == ".csv" else json_text(found.data()) + "\n"
         write_whole(path, text, session.say, force=options.force)
+    write_diagram(options.plot, found, session, force=options.force)
     if session.json:
         session.show(json_text(found.data()))
         return
     session.show(found.text(session.language, max(2, options.rows)))
-    if options.output is not None:
-        session.show()
-        session.show(session.say("cli.written", path=options.output))
+    for written in (options.output, options.plot):
+        if written is not None:
+            session.show()
+            session.show(session.say("cli.written", path=written))

@@ -49,7 +49,9 @@ class ComparisonCurves(ResultKind):
 
     def draw(self, result: Comparison, request: Request) -> Figure:
         axis = _axis(result)
-        panels = [panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)]
+        panels = [
+            panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)
+        ]
         figure, axes, legend = stacked(panels, axis, request)
         label_input(axes[-1], axis, request.say)
         passed = say("compare.curve.input", request.language)
@@ -71,7 +73,9 @@ class PivotHodograph(ResultKind):
     def draw(self, result: Comparison, request: Request) -> Figure:
         overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
         if overlay is None:
-            raise LinkwrightError("the alternatives carry no loads or masses, so no pivot has a reaction; give some")
+            raise LinkwrightError(
+                "the alternatives carry no loads or masses, so no pivot has a reaction; give some"
+            )
         unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
         figure = new_figure(request.size or (6.4, 5.4))
         axes, legend = figure.subplots(), Legend()
@@ -94,7 +98,9 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     known = {each.name: each for each in result.curves if each.name != HODOGRAPH}
     for name in names:
         if name not in known:
-            raise LinkwrightError(f"there is no curve {name!r} of this comparison; there is {', '.join(known)}")
+            raise LinkwrightError(
+                f"there is no curve {name!r} of this comparison; there is {', '.join(known)}"
+            )
     return [known[name] for name in names or known]
 
 
@@ -107,7 +113,9 @@ def _axis(result: Comparison) -> InputAxis:
             "axis; draw the pivot_hodograph"
         )
     lines = [x for x, _ in result.curves[0].lines.values()]
-    return InputAxis("", "angle" if turning.pop() else "length", max(lines, key=lambda x: float(np.nanmax(x))))
+    return InputAxis(
+        "", "angle" if turning.pop() else "length", max(lines, key=lambda x: float(np.nanmax(x)))
+    )
 
 
 def _panels(result: Comparison, overlay: Overlay, request: Request) -> list[Panel]:
@@ -119,7 +127,9 @@ def _panels(result: Comparison, overlay: Overlay, request: Request) -> list[Pane
                        result.labels, colours)]  # fmt: skip
     found = []
     for kind, (word, symbol, dimension) in kinds.items():
-        labels = [each.label for each in result.alternatives if (each.output.kind == "angle") == (kind == "angle")]
+        labels = [
+            each.label for each in result.alternatives if (each.output.kind == "angle") == (kind == "angle")
+        ]
         if labels:
             found.append(_panel(overlay, f"{request.say(word)} {symbol}", dimension, labels, colours))
     return found

@@ -12,7 +12,7 @@ from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.design_table import DesignTable, Measure, Varied
 from linkwright.plot.diagrams.legend import Legend
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import significant
 
 if TYPE_CHECKING:
@@ -73,7 +73,9 @@ def _ground(axes: Axes, values: Floats, label: str, between: str) -> None:
     good = values[np.isfinite(values)]
     if len(good):
         low, high = float(good.min()), float(good.max())
-        room = 0.14 * (high - low) if high - low > 1e-9 * max(abs(low), abs(high)) else max(0.1 * abs(high), 1.0)
+        room = (
+            0.14 * (high - low) if high - low > 1e-9 * max(abs(low), abs(high)) else max(0.1 * abs(high), 1.0)
+        )
         axes.set_ylim(low - room, high + room)
     axes.set_ylabel(label.replace(" (", f"{between}(") if label.endswith(")") else label)
 
@@ -82,11 +84,12 @@ def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
     """Crosses on the axis below for designs that cannot move; those too close to be told apart once."""
     if not len(x):
         return
-    if len(x) > RUG:
+    many = len(x) > RUG
+    if many:
         x = np.unique(np.round((x - x.min()) / (np.ptp(x) or 1.0) * RUG)) / RUG * np.ptp(x) + x.min()
-    (line,) = axes.plot(x, np.full(len(x), 0.02), "x", transform=axes.get_xaxis_transform(), color=FAILED,
-                        markersize=4.5, clip_on=False, zorder=4)  # fmt: skip
-    legend.add(request.say("cannot_move"), line)
+    (line,) = axes.plot(x, np.full(len(x), 0.02), "|" if many else "x", color=FAILED, markersize=4.5,
+                        transform=axes.get_xaxis_transform(), clip_on=False, zorder=4)  # fmt: skip
+    legend.add(request.say("fails"), line)
 
 
 def _best(axes: Axes, x: float, measure: Measure, legend: Legend, request: Request) -> None:
@@ -102,7 +105,9 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
     count = len(table.measures)
     columns = min(count, 2)
     rows = -(-count // columns)
-    figure = new_figure(request.size or (5.0 * columns + 0.4, 0.8 + 3.7 * rows))
+    figure = new_figure(
+        request.size or ((6.4, 4.7) if count == 1 else (5.0 * columns + 0.4, 0.8 + 3.7 * rows))
+    )
     places = figure.subplots(rows, columns, squeeze=False).ravel()
     order = np.lexsort((across.values, up.values))
     shape = (len(up.steps), len(across.steps))
@@ -111,7 +116,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
         failed = ~table.ok
         if failed.any():
             (line,) = one.plot(across.values[failed], up.values[failed], "x", color=FAILED, markersize=4.5)
-            legend.add(request.say("cannot_move"), line)
+            legend.add(request.say("fails"), line)
         if request.marks and measure.best is not None:
             place = (across.values[measure.best], up.values[measure.best])
             (ring,) = one.plot(*[[each] for each in place], "o", color=COLOURS[1], markersize=8,
@@ -126,16 +131,20 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
 
 def _map(axes: Axes, x: Floats, y: Floats, values: Floats, measure: Measure) -> None:
     shown = np.ma.masked_invalid(values)
-    mesh: Any = axes.pcolormesh(x, y, shown, shading="nearest", cmap="viridis", linewidth=0, edgecolors="face")
+    mesh: Any = axes.pcolormesh(
+        x, y, shown, shading="nearest", cmap="viridis", linewidth=0.2, edgecolors="face"
+    )
     axes.grid(False)
     figure = axes.get_figure()
     assert figure is not None
-    bar = figure.colorbar(mesh, ax=axes, label=measure.label, pad=0.02)
-    bar.outline.set_linewidth(0.5)  # type: ignore[operator]
+    bar: Any = figure.colorbar(mesh, ax=axes, label=measure.label, pad=0.02)
+    bar.outline.set_linewidth(0.5)
+    bar.solids.set(rasterized=False, edgecolor="face")
     good = shown.compressed()
     if min(values.shape) < 4 or not len(good) or np.ptp(good) <= 1e-9 * np.abs(good).max():
         return
-    levels = np.array([tick for tick in bar.get_ticks() if good.min() < tick < good.max()])
+    low, high = np.quantile(good, (0.04, 0.96))
+    levels = np.array([tick for tick in bar.get_ticks() if low < tick < high])
     if len(levels) and np.isfinite(values[:-1, :-1] + values[1:, 1:]).any():
         lines = axes.contour(x, y, shown, levels=levels, colors="white", linewidths=0.8)
         axes.clabel(lines, fontsize=7, fmt=lambda level: significant(float(level)))
@@ -165,7 +174,7 @@ def _cloud(axes: Axes, over: Varied, measure: Measure) -> None:
     good = np.isfinite(measure.values)
     x, y = over.values[good], measure.values[good]
     if len(x) > CROWD:
-        axes.hexbin(x, y, gridsize=48, mincnt=1, bins="log", cmap="Blues", linewidths=0.1)
+        axes.hexbin(x, y, gridsize=48, mincnt=1, bins="log", vmin=0.2, cmap="Blues", linewidths=0.1)
     else:
         axes.plot(x, y, "o", color=COLOURS[0], markersize=3.0 if len(x) < 400 else 1.6, alpha=0.75,
                   markeredgewidth=0)  # fmt: skip

@@ -99,7 +99,9 @@ def plot(
         language=language,
     )
     with style(language):
-        drawn = RESULT_DIAGRAMS[name]().draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
+        drawn = (
+            RESULT_DIAGRAMS[name]().draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
+        )
     return Diagram(name, drawn, language)
 
 

@@ -16,4 +16,5 @@ linkwright structure crusher.yaml --json""",
     "per_design": "per design",
     "per_position": "per position",
     "total": "total",
+    "rank": "{sentence}.",
 }

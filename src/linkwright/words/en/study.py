@@ -22,6 +22,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "steps_help": "positions over the cycle (default 360)",
     "rows_help": "rows of the printed table (default 40)",
     "output_help": "write all designs to a .csv or .json file",
+    "plot_help": "draw the metrics over what varies in a .svg, .pdf or .png file",
     "bad_vary": '--vary: "{text}" says no range; write ADDRESS=FROM..TO UNIT:NUMBER, '
     'such as "crank.length=20..30 mm:11"',
     "twice": "--vary: {name} is given twice; give one range for it",

@@ -19,6 +19,7 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "steps_help": "一个循环内的位置数(默认 360)",
     "output_help": "把数值写入 .csv 或 .json 文件",
     "curves_help": "把可叠放的曲线数据写入 .csv 或 .json 文件",
+    "plot_help": "把叠放的曲线画成 .svg、.pdf 或 .png 文件",
     "bad_weight": '--weights:"{text}" 不是权重;请写作 名称=数值,例如 flywheel=2',
     "bad_fluctuation": '--fluctuation:"{text}" 不是系数;请给出大于零的数,例如 0.02',
     "too_few": "一个文件无法比较;请给出两个或多个",

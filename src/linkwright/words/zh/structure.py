@@ -15,4 +15,5 @@ linkwright structure crusher.yaml --json""",
     "per_design": "每个方案",
     "per_position": "每个位置",
     "total": "合计",
+    "rank": "{sentence}。",
 }

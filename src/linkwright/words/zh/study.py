@@ -21,6 +21,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "steps_help": "一个循环内的位置数(默认 360)",
     "rows_help": "表格显示的行数(默认 40)",
     "output_help": "把全部方案写入 .csv 或 .json 文件",
+    "plot_help": "把指标随参数的变化画成 .svg、.pdf 或 .png 文件",
     "bad_vary": '--vary:"{text}" 没有给出范围;请写作 地址=起..止 单位:个数,例如 "crank.length=20..30 mm:11"',
     "twice": "--vary:{name} 给出了两次;请只给一个范围",
     "counts": "{name}:共 {designs} 个方案,{movable} 个能够运动",

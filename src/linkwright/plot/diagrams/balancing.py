@@ -1,0 +1,82 @@
+"""What counterweights do: shaking force, shaking moment and input torque without and with them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.balancing import Balancing
+from linkwright.plot.diagrams.axes import equal, framed, label_input
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
+from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.units import size, unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: A shaking force of this share of the one before is zero but for rounding.
+VANISHED = 1e-9
+
+
+@RESULT_DIAGRAMS.register("balancing")
+class BalancingDiagram(ResultKind):
+    """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
+
+    name = "balancing"
+    takes = Balancing
+
+    def draw(self, result: Balancing, request: Request) -> Figure:
+        say = request.say
+        before, after = Source(result.before), Source(result.after)
+        names, legend = (say("without_weights"), say("with_weights")), Legend()
+        figure = new_figure(request.size or (9.6, 4.9))
+        places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])
+        loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
+        _hodograph(places["force"], loops, names, request, legend)
+        turning = next(iter(before.motion.positions.rotary.values()))
+        effort = ("input_torque", "T", "torque") if turning else ("input_force", "F", "force")
+        moments = [each.closed(each.forces.shaking_moment) for each in (before, after)]
+        torques = [each.closed(each.forces.input_torque) for each in (before, after)]
+        for place, (word, letter, dimension), values in (
+            ("moment", ("shaking_moment", "M", "torque"), moments),
+            ("torque", effort, torques),
+        ):
+            panel = Panel(f"{say(word)} {letter}", dimension, _curves(names, values))
+            draw_panel(places[place], panel, before.axis, request, legend)
+            label_input(places[place], before.axis, say)
+        places["moment"].set_xlabel("")
+        places["moment"].tick_params(labelbottom=False)
+        figure.align_ylabels([places["moment"], places["torque"]])
+        framed(figure, f"{before.label}: {say('kind.balancing')}", request)
+        legend.put(figure)
+        return figure
+
+
+def _curves(names: tuple[str, str], values: list[Floats]) -> tuple[Curve, ...]:
+    return tuple(
+        Curve(name, each, "", colour, dash)
+        for name, each, colour, dash in zip(names, values, COLOURS, DASHES, strict=False)
+    )
+
+
+def _hodograph(
+    axes: Axes, loops: list[Floats], names: tuple[str, str], request: Request, legend: Legend
+) -> None:
+    unit = unit_of("force", loops)
+    largest = max(size(loop) for loop in loops)
+    for name, loop, colour, dash in zip(names, loops, COLOURS, DASHES, strict=False):
+        x, y = loop.T * unit.factor
+        (line,) = axes.plot(x, y, color=colour, linestyle=dash)
+        legend.add(name, line)
+        if size(loop) <= VANISHED * largest:
+            axes.plot([0], [0], "o", color=colour, markersize=6, zorder=4)
+    axes.set_title(request.say("shaking_force"), color=INK)
+    axes.set_xlabel(unit.label("Fx"))
+    axes.set_ylabel(unit.label("Fy"))
+    equal(axes)
+    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=5)
+    axes.margins(0.13)

@@ -1,0 +1,50 @@
+"""A torque curve over the angle, with its mean."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.plot.diagrams.axes import framed, label_input
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.panels import Curve, Level, Panel, stacked
+from linkwright.plot.diagrams.source import InputAxis
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+STEPS = 720
+#: How far before a jump the curve is drawn, as a share of its period.
+BEFORE = 1e-9
+
+
+@RESULT_DIAGRAMS.register("torque_curve")
+class TorqueCurveDiagram(ResultKind):
+    """T(φ) over one period; jumps are drawn upright."""
+
+    name = "torque_curve"
+    takes = TorqueCurve
+
+    def draw(self, result: TorqueCurve, request: Request) -> Figure:
+        angle = _angles(result)
+        curve, mean = Curve("", result(angle)), result.mean
+        panel = Panel(f"{request.say('torque')} T", "torque", (curve,))
+        level = Level(request.say("mean", value=panel.unit.text(mean)), mean)
+        axis = InputAxis("", "angle", angle)
+        figure, axes, legend = stacked([Panel(panel.title, "torque", (curve,), (level,))], axis, request)
+        label_input(axes[-1], axis, request.say)
+        framed(figure, request.say("kind.torque_curve"), request)
+        legend.put(figure)
+        return figure
+
+
+def _angles(curve: TorqueCurve) -> Floats:
+    """Angles over one period, each kink or jump on both of its sides."""
+    end = curve.start + curve.period
+    knots = np.array(curve.knots)
+    near = np.concatenate([knots - BEFORE * curve.period, knots, [end - BEFORE * curve.period]])
+    within = near[(near >= curve.start) & (near <= end)]
+    return np.unique(np.concatenate([np.linspace(curve.start, end, STEPS + 1), within]))

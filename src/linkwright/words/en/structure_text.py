@@ -1,0 +1,28 @@
+"""The structure analysis."""
+
+WORDS = {
+    "counts": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic",
+    "counts_weld": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
+    "{welds} weld",
+    "counts_welds": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
+    "{welds} welds",
+    "mobility": "Mobility F = 3n - 2p = 3·{links} - 2·{pairs} = {mobility}",
+    "mobility_welded": "Mobility F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}",
+    "redundant": "The guides {guides} close a loop in which rotation is already prevented: each such demand is "
+    "redundant, so the mobility is {mobility}.",
+    "at_rest": "Mobility 0 and no driver: a structure at rest, which carries loads.",
+    "determined": "Mobility equals the number of driver ({count}): the motion is determined.",
+    "determined_several": "Mobility equals the number of drivers ({count}): the motion is determined.",
+    "groups": "Assur groups in solving order:",
+    "driven": "driven by {drivers}",
+    "class_order": "class {level}, order {order}",
+    "class_order_driven": "class {level}, order {order}, with driver {drivers} inside",
+    "outer": "outer joints {outer}",
+    "outer_inner": "outer joints {outer}; inner joints {inner}",
+    "chain": "Mechanism = frame + {chain}",
+    "class": "It is a class {level} mechanism.",
+    "parts": "These are {count} mechanisms that share nothing but the frame: {parts}.",
+    "and": " and ",
+    "other_driver": "Another choice of driver leads to other groups, and may change the class.",
+    "numerals": "I II III IV V VI VII VIII IX X",
+}
