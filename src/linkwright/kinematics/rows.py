@@ -26,10 +26,10 @@ class Rows:
         return found
 
     def pair(self, names: tuple[str, str], evaluate: Callable[[tuple[str, ...]], Floats]) -> Floats:
-        """The two components of a vector output, (n, 2)."""
+        """The two components of a vector output, (n, 2); a view of the stored rows where they lie together."""
         first = self.index.get(names[0])
         if first is not None and self.index.get(names[1]) == first + 1:
-            return self.values[first : first + 2].T.copy()
+            return self.values[first : first + 2].T
         return np.stack(self.fetch(names, evaluate), axis=1)
 
     def fetch(self, names: tuple[str, ...], evaluate: Callable[[tuple[str, ...]], Floats]) -> list[Floats]:
