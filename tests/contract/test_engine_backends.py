@@ -54,6 +54,10 @@ def less(a, b):  # type: ignore[no-untyped-def]
     return a < b
 
 
+def negated(truth):  # type: ignore[no-untyped-def]
+    return not truth if isinstance(truth, bool) else ~truth
+
+
 OPERATION: dict[str, Callable] = {  # type: ignore[type-arg]
     "add": lambda a, b, c, d: a + b,
     "sub": lambda a, b, c, d: a - b,
@@ -64,7 +68,7 @@ OPERATION: dict[str, Callable] = {  # type: ignore[type-arg]
     "sine": lambda a, b, c, d: sin(a) + cos(b),
     "constant": lambda a, b, c, d: 0.75 * a - 0.5,
     "select": lambda a, b, c, d: select(less(a, b), c, d),
-    "both": lambda a, b, c, d: select(less(a, b) & ~less(c, d) | (b <= d), a, d),
+    "both": lambda a, b, c, d: select(less(a, b) & negated(less(c, d)) | (b <= d), a, d),
 }
 OPERATIONS = list(OPERATION)
 
