@@ -1,0 +1,83 @@
+"""Coulomb friction against formulas of statics: wedges, a lever on its pin, self-locking.
+
+Wedge press with friction angle φ = atan μ on all three faces: the slope's resultant leans by α + φ from the
+vertical, R = W / (cos(α+φ) - μ sin(α+φ)), and the drive is P = R sin(α+φ) + μ (w + R cos(α+φ)) (Beer & Johnston,
+Statics, ch. 8: wedges).
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+WEDGE = """
+format: 1
+name: wedge press
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  lower: {points: [L], mass: 1 kg}
+  upper: {points: [U], mass: 5 kg}
+joints:
+  floor: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: lower, at: L, friction: MU}
+  slope: {kind: prismatic, guide: lower, through: L, direction: ANGLE deg, block: upper, at: U, friction: MU}
+  wall: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: upper, at: U, friction: MU}
+driver: {slide: floor, speed: -0.1 m/s, start: 0.05 m}
+cycle: {from: 0.05 m, to: 0.01 m}
+gravity: [0, -10 m/s²]
+"""
+
+LEVER = """
+format: 1
+name: lever on a rough pin
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  lever: {points: [O, A], length: 0.6 m, mass: 4 kg}
+joints: {O: {kind: revolute, pin_radius: 30 mm, friction: 0.2}}
+driver: {turn: lever, about: O, speed: SPEED rad/s}
+gravity: [0, -10 m/s²]
+"""
+
+
+def wedge(friction: float, angle: float) -> lw.Mechanism:
+    return lw.loads(WEDGE.replace("MU", str(friction)).replace("ANGLE", str(angle)))
+
+
+@pytest.mark.parametrize("angle", [15.0, 30.0])
+@pytest.mark.parametrize("friction", [0.0, 0.1, 0.3])
+def test_wedge_press(friction: float, angle: float) -> None:
+    forces = lw.solve_forces(wedge(friction, angle), steps=4)
+    lean = math.radians(angle) + math.atan(friction)
+    resultant = 50.0 / (math.cos(lean) - friction * math.sin(lean))
+    drive = resultant * math.sin(lean) + friction * (10.0 + resultant * math.cos(lean))
+    assert forces.driver_effort("driver") == pytest.approx(np.full(5, -drive), rel=1e-10)
+    slope = forces.reaction("slope", on="upper")
+    assert np.hypot(*slope.T) * math.sqrt(1 + friction**2) == pytest.approx(np.full(5, resultant), rel=1e-10)
+
+
+def test_a_wedge_too_steep_for_its_friction_locks_and_says_so() -> None:
+    with pytest.raises(lw.LinkwrightError, match=r"self-locking by friction .* joint 'slope'"):
+        lw.solve_forces(wedge(0.8, 30.0), steps=4)
+
+
+@pytest.mark.parametrize("speed", [2.0, -2.0])
+def test_friction_of_a_pin_resists_the_turning(speed: float) -> None:
+    mechanism = lw.loads(LEVER.replace("SPEED", str(speed)))
+    forces = lw.solve_forces(lw.solve_motion(mechanism, at=[0.0, 1.0, 2.5]), static=True)
+    weight = 40.0 * 0.3 * np.cos([0.0, 1.0, 2.5])
+    assert forces.input_torque == pytest.approx(weight + np.sign(speed) * 0.2 * 0.03 * 40.0, rel=1e-12)
+
+
+def test_the_power_of_friction_is_drawn_from_the_driver() -> None:
+    rough = lw.solve_forces(lw.loads(LEVER.replace("SPEED", "2")))
+    smooth = lw.solve_forces(lw.loads(LEVER.replace("SPEED", "2").replace("friction: 0.2", "friction: 0")))
+    assert rough.input_torque.mean() > smooth.input_torque.mean() + 0.1
+    assert np.abs(rough.power_residual).max() < 1e-12 * np.abs(rough.power).max()
+    assert rough.balance_residual.max() < 1e-12 * 40.0
+
+
+def test_friction_needs_the_radius_of_the_pin() -> None:
+    text = LEVER.replace("SPEED", "2").replace("pin_radius: 30 mm, ", "")
+    with pytest.raises(lw.LinkwrightError, match=r"joints\.O.*pin_radius: 20 mm"):
+        lw.solve_forces(lw.loads(text))
