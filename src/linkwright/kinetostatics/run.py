@@ -35,7 +35,18 @@ def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], st
     values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
-    return Forces(motion, solver, fields, static, Rows(values, {name: i for i, name in enumerate(names)}))
+    rows = Rows(values, {name: i for i, name in enumerate(names)})
+    return Forces(motion, solver, fields, static, rows, _indeterminate(motion))
+
+
+def _indeterminate(motion: Motion) -> tuple[str, ...]:
+    """Says which couples statics cannot tell, because a loop of guides prevents a rotation more than once."""
+    guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.kind == "prismatic"]
+    return tuple(
+        f"the couple of guide {name!r} is statically indeterminate, as other guides prevent the same rotation: "
+        "it is taken as zero, and the couples of those guides carry all"
+        for name in guides
+    )
 
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
