@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.cli import main
-from linkwright.cli.text_table import shown_width
+from linkwright.words.width import cells
 
 PRESS, CONVEYOR = "gallery:slider_crank_offset", "gallery:swing_conveyor"
 CRANK, ROD, OFFSET = 0.198, 0.7025, 0.0605
@@ -45,7 +45,7 @@ def test_the_table_shows_units_limits_and_remarks(capsys: pytest.CaptureFixture[
 def test_the_table_in_chinese_is_aligned(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["metrics", PRESS, "--names", "stroke", "limit_position", "--lang", "zh"]) == 0
     lines = capsys.readouterr().out.strip().splitlines()[2:]
-    starts = {shown_width(line[: line.index("guide")]) for line in lines[1:]}
+    starts = {cells(line[: line.index("guide")]) for line in lines[1:]}
     assert len(starts) == 1
 
 

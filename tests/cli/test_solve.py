@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from linkwright.cli import main
-from linkwright.cli.text_table import shown_width
+from linkwright.words.width import cells
 
 PUBLISHED = Path(__file__).parents[1] / "reference" / "published"
 CRUSHER = "gallery:jaw_crusher_sixbar"
@@ -52,7 +52,7 @@ def test_crusher_prints_the_published_jaw_motion_by_default(
     shown = capsys.readouterr().out
     head = shown.split("\n\n")[1].splitlines()[0]
     owners = head.replace("─", " ").split()
-    assert max(map(shown_width, shown.split("\n\n")[1].splitlines())) <= int(width)
+    assert max(map(cells, shown.split("\n\n")[1].splitlines())) <= int(width)
     rows = np.array(table_rows(shown))
     assert len(rows) == 25
     place = 1 + 3 * owners[1:].index("jaw")
@@ -186,7 +186,7 @@ def test_tables_keep_to_the_width_with_many_drivers(
     monkeypatch.setenv("COLUMNS", "90")
     assert main(["solve", "gallery:excavator", "--times", "0 s, 1 s"]) == 0
     shown = capsys.readouterr().out
-    assert max(map(shown_width, shown.split("\n\n")[1].splitlines())) <= 90
+    assert max(map(cells, shown.split("\n\n")[1].splitlines())) <= 90
     assert "Left out for width: boom_lift" in shown
 
 
@@ -196,7 +196,7 @@ def test_columns_are_aligned_by_the_width_of_characters(
 ) -> None:
     assert main(["solve", CRUSHER, "--lang", language]) == 0
     lines = capsys.readouterr().out.split("\n\n")[1].splitlines()
-    assert len({shown_width(line) for line in lines}) == 1
+    assert len({cells(line) for line in lines}) == 1
 
 
 def test_csv_holds_the_same_numbers_as_the_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

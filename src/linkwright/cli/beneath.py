@@ -8,7 +8,6 @@ import numpy as np
 
 from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved, reaction_pairs
-from linkwright.cli.text_table import aligned
 from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
@@ -16,6 +15,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.words import Say
+from linkwright.words.width import aligned
 
 
 def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:

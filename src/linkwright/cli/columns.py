@@ -11,10 +11,10 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.text_table import GAP, padded, shown_width
 from linkwright.kinematics.cycle import Floats
 from linkwright.registry import nearest
 from linkwright.words import Say
+from linkwright.words.width import GAP, cells, padded
 
 _VECTORS = frozenset({"position", "velocity", "acceleration"})
 #: Digits of a column's largest value.
@@ -123,8 +123,7 @@ def total_width(columns: Sequence[Column], say: Say) -> int:
 
 def _widths(columns: Sequence[Column], say: Say) -> list[int]:
     return [
-        max(shown_width(text) for text in [*column.cells(), label(column, say), column.unit])
-        for column in columns
+        max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns
     ]
 
 
@@ -160,11 +159,11 @@ def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
             end += 1
         owner = columns[start].owner
         span = sum(widths[start:end]) + len(GAP) * (end - start - 1)
-        lacking = shown_width(owner) - span
+        lacking = cells(owner) - span
         if lacking > 0:
             widths[start] += lacking
             span += lacking
-        wide = owner and end - start > 1 and span >= shown_width(owner) + 4
+        wide = owner and end - start > 1 and span >= cells(owner) + 4
         rule = f" {owner} " if wide else owner
         parts.append(_ruled(rule, span) if rule != owner else padded(owner, span, ">"))
         start = end
@@ -173,5 +172,5 @@ def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
 
 def _ruled(text: str, span: int) -> str:
     """A name with lines to both sides, over the columns that it heads."""
-    space = span - shown_width(text)
+    space = span - cells(text)
     return "─" * (space // 2) + text + "─" * (space - space // 2)

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 
 Vec = tuple[float, float]
@@ -100,8 +99,3 @@ def guide_angle(mechanism: Mechanism, joint: PrismaticJoint) -> float:
     points: Mapping[str, Vec] = mechanism.link(joint.guide).points
     (x0, y0), (x1, y1) = (points[name] for name in joint.direction_points)
     return math.atan2(y1 - y0, x1 - x0)
-
-
-def is_pin(mechanism: Mechanism, name: str) -> bool:
-    """Whether a joint of that name is a pin."""
-    return isinstance(mechanism.joints.get(name), RevoluteJoint)

@@ -7,9 +7,6 @@ from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
 
-RATES = ("position", "velocity", "acceleration")
-PREFIX = {"position": "p", "velocity": "v", "acceleration": "a"}
-
 
 def vector_names(prefix: str, key: str) -> tuple[str, str]:
     """Names of the two components of a vector output."""

@@ -35,7 +35,6 @@ class RateTracer:
         self.poses = poses
         self.states = states
         self.found: dict[TreeJoint, Scalar] = {}
-        self.seconds: dict[TreeJoint, Scalar] = {}
 
     def move(self, placed: Placed) -> None:
         """Velocities and accelerations of a group's links, found and stored."""
@@ -64,7 +63,6 @@ class RateTracer:
         for step in placed.group.tree:
             parent, child = self.states[step.parent], self.states[step.child]
             second = self._second(step, parent.alpha, seconds)
-            self.seconds[step] = second
             pair = pair_of(step, self.dimensions)
             self.states[step.child] = pair.accelerate(parent, child, self.found[step], second)
 

@@ -13,7 +13,7 @@ from linkwright.kinematics.inputs import DriverInput, driver_input
 from linkwright.kinematics.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.rates import RateTracer
 from linkwright.model.mechanism import Mechanism
-from linkwright.structure.group import Group, Structure, TreeJoint
+from linkwright.structure.group import Group, Structure
 
 
 @dataclass
@@ -32,8 +32,6 @@ class MotionTrace:
     poses: dict[str, Pose] = field(default_factory=lambda: {"frame": FRAME_POSE})
     states: dict[str, State] = field(default_factory=lambda: {"frame": FRAME_STATE})
     placed: dict[str, Placed] = field(default_factory=dict)
-    rates: dict[TreeJoint, Scalar] = field(default_factory=dict)
-    seconds: dict[TreeJoint, Scalar] = field(default_factory=dict)
     valid: Mask = True
     outcome: Scalar = 0.0
 
@@ -88,7 +86,6 @@ def _add_rates(motion: MotionTrace) -> None:
     mover = RateTracer(motion.dimensions, motion.drivers, motion.poses, motion.states)
     for placed in motion.placed.values():
         mover.move(placed)
-    motion.rates, motion.seconds = mover.found, mover.seconds
 
 
 def _judge(motion: MotionTrace) -> None:

@@ -50,7 +50,7 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
 
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
-    """Load magnitudes and angles that depend on the position."""
+    """Load magnitudes that depend on the position; friction starts from zero."""
     from linkwright.kinetostatics.signals import MotionSignals
     from linkwright.loads.magnitude import evaluate
 

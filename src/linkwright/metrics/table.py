@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
-from unicodedata import east_asian_width
 
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.registry import nearest
 from linkwright.words import say
+from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     import pandas
@@ -92,7 +92,7 @@ class MetricsTable(Sequence[MetricValue]):
             say(f"metrics.column.{name}", language) for name in ("metric", "subject", "value", "unit", "at")
         ]
         lines = [head, *(self._cells(row, language) for row in self.rows)]
-        text = _aligned(lines, "<<><>")
+        text = aligned(lines, "<<><>")
         warnings = [f"! {warning}" for warning in self.warnings_in(language)]
         return "\n".join([self.title, "", *text, *([""] if warnings else []), *warnings])
 
@@ -124,19 +124,3 @@ class MetricsTable(Sequence[MetricValue]):
 
     def __repr__(self) -> str:
         return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"
-
-
-def _aligned(rows: Sequence[Sequence[str]], align: str) -> list[str]:
-    widths = [max(_width(row[i]) for row in rows) for i in range(len(align))]
-    lines = []
-    for row in rows:
-        cells = []
-        for text, width, side in zip(row, widths, align, strict=True):
-            space = " " * (width - _width(text))
-            cells.append(space + text if side == ">" else text + space)
-        lines.append("  ".join(cells).rstrip())
-    return lines
-
-
-def _width(text: str) -> int:
-    return sum(2 if east_asian_width(character) in "WF" else 1 for character in text)

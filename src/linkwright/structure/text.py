@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.structure.group import Connection, Group, Structure
 from linkwright.words import Say, speaker
-from linkwright.words.width import cells, filled
+from linkwright.words.width import cells, padded
 
 
 def describe(structure: Structure, language: str = "en") -> str:
@@ -60,7 +60,7 @@ def _table(structure: Structure, say: Say) -> list[str]:
     rows = [_row(number, group, say) for number, group in enumerate(structure.groups, 1)]
     widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))] if rows else []
     return [
-        "  " + "  ".join(filled(cell, w) for cell, w in zip(row, widths, strict=True)).rstrip()
+        "  " + "  ".join(padded(cell, w) for cell, w in zip(row, widths, strict=True)).rstrip()
         for row in rows
     ]
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.study.criteria import OWN
-from linkwright.study.text_table import aligned
 from linkwright.words import Say, speaker
+from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison, Rank, Row

@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
-from linkwright.study.text_table import aligned
 from linkwright.words import Say, speaker
+from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     from linkwright.study.failures import Failure

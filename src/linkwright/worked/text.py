@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from unicodedata import combining, east_asian_width
+from unicodedata import east_asian_width
 
+from linkwright.words.width import cells
 from linkwright.worked.page import Equation, Note, Relation, Step
 
 WIDTH = 100
-
-
-def width(text: str) -> int:
-    """Columns that a text takes."""
-    return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)
 
 
 def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
@@ -21,12 +17,12 @@ def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
     lines = [title, *(line for text in legend for line in wrapped(text))]
     for step in steps:
         title = f"{step.number}  {step.title}"
-        lines += ["", title, ("=" if "." not in step.number else "-") * width(title), *_step(step)]
+        lines += ["", title, ("=" if "." not in step.number else "-") * cells(title), *_step(step)]
     return "\n".join(lines)
 
 
 def _step(step: Step) -> Iterator[str]:
-    names = [width(item.symbol) for item in step.equations if width(item.symbol) <= 14]
+    names = [cells(item.symbol) for item in step.equations if cells(item.symbol) <= 14]
     margin = max(names, default=0)
     previous_note = False
     for item in step.items:
@@ -42,16 +38,16 @@ def _step(step: Step) -> Iterator[str]:
 
 
 def _equation(item: Equation, margin: int) -> Iterator[str]:
-    gap = " " * max(margin - width(item.symbol), 0)
+    gap = " " * max(margin - cells(item.symbol), 0)
     start = f"    {item.symbol}{gap} = "
     unit = f" {item.unit}" if item.unit and item.unit != "°" else item.unit
     result = f"{item.result}{unit}"
     parts = [part for part in (item.formula, item.numbers) if part]
     whole = start + " = ".join([*parts, result])
-    if width(whole) <= WIDTH:
+    if cells(whole) <= WIDTH:
         yield whole
         return
-    indent = " " * (4 + max(margin, width(item.symbol)))
+    indent = " " * (4 + max(margin, cells(item.symbol)))
     yield from _long(start, parts[0] if parts else result, indent)
     for part in [*parts[1:], result] if parts else []:
         yield from _long(f"{indent} = ", part, indent)
@@ -61,7 +57,7 @@ def _long(start: str, text: str, indent: str) -> Iterator[str]:
     """A side of an equation, broken before a plus or a minus between its terms where it is too wide."""
     line = start
     for i, token in enumerate(_terms(text)):
-        if i and width(line) + width(token) + 1 > WIDTH:
+        if i and cells(line) + cells(token) + 1 > WIDTH:
             yield line
             line = f"{indent}     {token}"
         else:
@@ -85,7 +81,7 @@ def wrapped(text: str) -> Iterator[str]:
     """A sentence in lines; Chinese text may break anywhere."""
     line = "  "
     for word in _words(text):
-        if width(line) + width(word.rstrip()) > WIDTH and line.strip():
+        if cells(line) + cells(word.rstrip()) > WIDTH and line.strip():
             yield line.rstrip()
             line = "  "
         line += word

@@ -138,7 +138,7 @@ def _effects(found: Balancing) -> dict[str, tuple[str, float, float]]:
 
 
 def _report(found: Balancing, session: Session) -> list[str]:
-    from linkwright.cli.text_table import aligned
+    from linkwright.words.width import aligned
 
     say = session.say
     lines = [session.strong(found.mechanism.name), ""]

@@ -141,7 +141,7 @@ def _cycle(running: SteadyRunning) -> dict[str, Any]:
 
 
 def _show(title: str, blocks: list[list[Row]], remarks: list[str], session: Session) -> None:
-    from linkwright.cli.text_table import aligned
+    from linkwright.words.width import aligned
 
     say = session.say
     if session.json:

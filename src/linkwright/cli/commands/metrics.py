@@ -119,7 +119,7 @@ def _report(table: MetricsTable, session: Session) -> list[str]:
 
 def _lines(table: MetricsTable, session: Session) -> list[str]:
     """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
-    from linkwright.cli.text_table import aligned, shown_width
+    from linkwright.words.width import aligned, cells
 
     keys = ("metric", "subject", "value", "unit", "at", "limit", "remark")
     rows = [[session.say(f"metrics.column.{key}") for key in keys]]
@@ -127,7 +127,7 @@ def _lines(table: MetricsTable, session: Session) -> list[str]:
     kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
     align = "".join("<<><>><"[i] for i in kept)
     lines = aligned([[row[i] for i in kept] for row in rows], align)
-    if kept[-1] < 6 or max(map(shown_width, lines)) <= session.width:
+    if kept[-1] < 6 or max(map(cells, lines)) <= session.width:
         return lines
     lines = aligned([[row[i] for i in kept[:-1]] for row in rows], align[:-1])
     found = [lines[0]]
