@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from linkwright.words import say
+from linkwright.words.sentence import Sentence, in_language
+
 Severity = Literal["error", "warning", "note"]
 
 
@@ -14,7 +17,7 @@ class Finding:
     """One remark about a model: where it is, what is the matter, and what to do about it.
 
     ``where`` is ``file:line:column`` (lines and columns count from 1), ``key`` the place in the model
-    (``links.crank.length``), ``code`` a short stable word for programs and tests.
+    (``links.crank.length``), ``code`` a short stable word for programs and tests. ``str`` is English.
     """
 
     severity: Severity
@@ -25,14 +28,37 @@ class Finding:
     code: str = ""
 
     def __str__(self) -> str:
-        place = ": ".join(part for part in (self.where, self.key) if part)
-        mark = "" if self.severity == "error" else f"{self.severity}: "
-        body = f"{self.message}; {self.remedy}" if self.remedy else self.message
-        return f"{place}: {mark}{body}" if place else f"{mark}{body}"
+        return self.say()
+
+    def say(self, language: str = "en") -> str:
+        """Place and sentence in a language."""
+        place = "".join(f"{part}: " for part in (self.where, self.key) if part)
+        body = with_remedy(self.message, self.remedy)
+        return place + say(f"finding.{self.severity}", language, body=in_language(body, language))
+
+
+def with_remedy(message: str, remedy: str) -> str:
+    """What is the matter and what to do about it as one sentence."""
+    return Sentence("finding.with_remedy", message=message, remedy=remedy) if remedy else message
 
 
 class LinkwrightError(Exception):
-    """Base of every error that the user can do something about."""
+    """Base of every error that the user can do something about.
+
+    ``str(error)`` is English; ``error.say("zh")`` says the same in Chinese.
+    """
+
+    def __str__(self) -> str:
+        return self.say()
+
+    @property
+    def sentence(self) -> str:
+        """The message, a ``Sentence`` where it can be said in other languages."""
+        return self.args[0] if self.args and isinstance(self.args[0], str) else super().__str__()
+
+    def say(self, language: str = "en") -> str:
+        """The message in a language."""
+        return in_language(self.sentence, language)
 
 
 class ModelError(LinkwrightError):
@@ -41,6 +67,10 @@ class ModelError(LinkwrightError):
     def __init__(self, findings: Sequence[Finding]) -> None:
         self.findings: tuple[Finding, ...] = tuple(findings)
         super().__init__("\n".join(str(finding) for finding in self.findings))
+
+    def say(self, language: str = "en") -> str:
+        """All findings in a language, one a line."""
+        return "\n".join(finding.say(language) for finding in self.findings)
 
     def __reduce__(self) -> tuple[type[ModelError], tuple[tuple[Finding, ...]]]:
         return ModelError, (self.findings,)
@@ -54,4 +84,4 @@ class QuantityError(LinkwrightError):
 
     def __init__(self, message: str, remedy: str = "", *, column: int = 0, code: str = "quantity") -> None:
         self.message, self.remedy, self.column, self.code = message, remedy, column, code
-        super().__init__(f"{message}; {remedy}" if remedy else message)
+        super().__init__(with_remedy(message, remedy))

@@ -68,9 +68,6 @@ class Registry(Mapping[str, T], Generic[T]):
 class UnknownName(LinkwrightError, KeyError):
     """A name that no registered element has."""
 
-    def __str__(self) -> str:
-        return str(self.args[0])
-
 
 def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...]) -> str | None:
     """The candidate that looks most like ``name`` (capitals do not count), or None."""

@@ -123,7 +123,7 @@ def test_language_from_the_environment(
 ) -> None:
     monkeypatch.setenv("LINKWRIGHT_LANG", "zh")
     main(["gallery", "show", "kiet"])
-    assert capsys.readouterr().err == "错误: 机构库中没有“kiet”;是不是“kite”?\n"
+    assert capsys.readouterr().err == "错误：机构库中没有“kiet”；是不是“kite”？\n"
     main(["gallery", "show", "kiet", "--lang=en"])
     assert capsys.readouterr().err.startswith("error: ")
 

@@ -72,10 +72,10 @@ def test_structure_of_the_crusher_in_chinese() -> None:
         "转动副 7 个",
         "移动副 0 个",
         "自由度 F = 3n - 2p = 3·5 - 2·7 = 1",
-        "自由度等于原动件数(1)",
+        "自由度等于原动件数（1）",
         "基本杆组",
         "机构 = 机架 + R(crank) + RRR(pitman, rocker) + RRR(toggle, jaw)",
-        "机构级别:Ⅱ级机构",
+        "机构级别：Ⅱ级机构",
     ):
         assert part in text
     assert text.count("Ⅱ级组") == 2
@@ -138,7 +138,7 @@ def test_distance_that_is_missing_is_said_in_chinese() -> None:
     outcome = lw.solve_motion(mechanism, at=[radians(120)], failures="mark").outcomes[0]
     assert outcome.say("en") == outcome.sentence
     said = outcome.say("zh")
-    assert "RRR 杆组(coupler, rocker)无法装配" in said and "4.5 m" in said
+    assert "RRR 杆组（coupler、rocker）无法装配" in said and "4.5 m" in said
     assert f"{hypot(5.5, 1.5 * 3**0.5) - 4.5:.5f}" in said
     assert foreign(said, mechanism) == set()
 

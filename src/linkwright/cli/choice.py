@@ -13,6 +13,7 @@ from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure
+from linkwright.words.sentence import Sentence
 
 LINK = ("angle", "angular_velocity", "angular_acceleration")
 GUIDE = ("displacement", "velocity", "acceleration")
@@ -51,7 +52,7 @@ def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
     try:
         return [motion.point(name).name for name in names or ()]
     except LinkwrightError as error:
-        raise UsageError(f"--points: {error}") from None
+        raise UsageError(Sentence("cli.about", name="--points", cause=error)) from None
 
 
 def _output_guides(mechanism: Mechanism) -> list[str]:

@@ -17,6 +17,7 @@ from linkwright.machine.motor import motor
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.registry import nearest
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 #: Keys of --disk and --rim: dimension, and the argument that takes it.
 SHAPE_KEYS = {
@@ -76,7 +77,7 @@ def quantity(option: str, text: str, dimension: str, say: Say) -> float:
     try:
         value = units.parse(text, dimension)
     except QuantityError as error:
-        raise UsageError(f"{option}: {error}") from None
+        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
     if not value > 0:
         raise UsageError(say("machine.not_above_zero", option=option, text=text))
     return value
@@ -90,7 +91,7 @@ def curve(option: str, text: str, period: str | None, say: Say) -> TorqueCurve:
         with np.errstate(all="ignore"):
             values = found.function(np.linspace(0.0, length, TRIED))
     except QuantityError as error:
-        raise UsageError(f"{option}: {error}") from None
+        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
     if not np.isfinite(values).all():
         raise UsageError(say("machine.not_finite", option=option, text=text))
     return found
@@ -135,7 +136,7 @@ def _any_quantity(part: str, text: str, say: Say) -> tuple[float, units.Dimensio
     try:
         factor, dimension = units.unit(plain[number.end() :].strip())
     except QuantityError as error:
-        raise UsageError(f"--scale: {error}") from None
+        raise UsageError(Sentence("cli.about", name="--scale", cause=error)) from None
     return float(number.group()) * factor, dimension
 
 
@@ -192,4 +193,4 @@ def _checked(option: str, trial: Callable[[], object], given: object = True) -> 
     try:
         trial()
     except LinkwrightError as error:
-        raise UsageError(f"{option}: {error}") from None
+        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None

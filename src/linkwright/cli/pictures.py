@@ -13,6 +13,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 
 def source_arguments(parser: argparse.ArgumentParser, say: Say, *, steps: int) -> None:
@@ -70,7 +71,7 @@ def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[s
         try:
             find(name)
         except LinkwrightError as error:
-            raise UsageError(f"{option}: {error}") from None
+            raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
 
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:

@@ -11,6 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 #: More values than this are taken for a slip.
 MOST = 1_000_000
@@ -78,7 +79,7 @@ def _value(text: str, unit: str, dimension: str, option: str) -> float:
     try:
         return units.parse(own, dimension)
     except QuantityError as error:
-        raise UsageError(f"{option}: {error}") from None
+        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
 
 
 def _unit(text: str) -> str:

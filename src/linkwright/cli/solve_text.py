@@ -26,7 +26,7 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         beneath.closeness(solved.motion, session.language),
         beneath.failures(solved, say, session.language, degrees=degrees),
         [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
-        [str(finding) for finding in solved.warnings],
+        [finding.say(session.language) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []
     return lines

@@ -126,7 +126,8 @@ def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
 def _refused(error: LinkwrightError, session: Session) -> int:
     """Tells what is wrong; with ``--json`` as data as well."""
     missing = isinstance(error, ModelError) and all(found.code in _NO_FILE for found in error.findings)
-    session.tell(str(error) if isinstance(error, ModelError) else _headed(str(error), session))
+    said = error.say(session.language)
+    session.tell(said if isinstance(error, ModelError) else _headed(said, session))
     if session.json:
         from linkwright.cli.data import finding_data, json_text
 
@@ -147,7 +148,7 @@ def _unexpected(error: Exception, session: Session) -> int:
 
 
 def _headed(sentence: str, session: Session) -> str:
-    return f"{session.alarm(session.say('cli.error'))}: {sentence}"
+    return session.say("cli.headed", head=session.alarm(session.say("cli.error")), sentence=sentence)
 
 
 def _widen_streams() -> None:

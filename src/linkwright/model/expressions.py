@@ -52,8 +52,9 @@ class ExpressionError(QuantityError):
         self.text = text
         super().__init__(message, remedy, column=column, code=code)
 
-    def __str__(self) -> str:
-        return f"{super().__str__()}\n  {self.text}\n  {' ' * self.column}^"
+    def say(self, language: str = "en") -> str:
+        """The message in a language, the text, and a caret under the place."""
+        return f"{super().say(language)}\n  {self.text}\n  {' ' * self.column}^"
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Protocol, runtime_checkable
+
 from linkwright.words import say
+
+
+@runtime_checkable
+class SaidAnywhere(Protocol):
+    """What can be said in every language."""
+
+    def say(self, language: str = "en") -> str:
+        """The text in a language."""
 
 
 class Sentence(str):
     """The English text of a key with its values; ``say("zh")`` is the same in Chinese.
 
-    Values may be sentences themselves, or tuples, which are said with commas in between.
+    Values may be sentences themselves, anything else that has ``say(language)`` such as an error, or tuples of
+    these, which are said with commas in between.
     """
 
     key: str
@@ -39,5 +50,7 @@ def _said(key: str, language: str, values: dict[str, object]) -> str:
 
 def _value(value: object, language: str) -> object:
     if isinstance(value, tuple):
-        return ", ".join(str(_value(each, language)) for each in value)
-    return in_language(value, language) if isinstance(value, str) else value
+        return say("finding.comma", language).join(str(_value(each, language)) for each in value)
+    if isinstance(value, SaidAnywhere):
+        return value.say(language)
+    return value

@@ -12,6 +12,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import Balancing
@@ -105,7 +106,7 @@ def _length(text: str, say: Say) -> float:
     try:
         value = units.parse(text, "length")
     except QuantityError as error:
-        raise UsageError(f"--radius: {error}") from None
+        raise UsageError(Sentence("cli.about", name="--radius", cause=error)) from None
     if not value > 0:
         raise UsageError(say("balance.bad_radius", text=text))
     return value

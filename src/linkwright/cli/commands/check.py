@@ -52,18 +52,18 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         }
         motion = solve_motion(mechanism, steps=TRIED, failures="mark")
     except LinkwrightError as error:
-        return [*found, Finding("error", name, "", str(error), code="motion")], {}
+        return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
     if not motion.ok.all():
         from linkwright.kinematics.explain import refusal
 
-        found = [*found, Finding("error", name, "", str(refusal(motion)), code="position")]
+        found = [*found, Finding("error", name, "", refusal(motion).sentence, code="position")]
     notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
     return [*found, *notes], fact
 
 
 def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:
     for finding in found:
-        session.show(str(finding))
+        session.show(finding.say(session.language))
     errors = sum(finding.severity == "error" for finding in found)
     if errors:
         session.show(session.say("check.faulty", name=name, count=errors))

@@ -68,5 +68,5 @@ def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, An
         chosen = chosen_format(path, options.format)
         check_options(chosen, FORMATS[chosen], form)
     except LinkwrightError as error:
-        raise UsageError(str(error)) from None
+        raise UsageError(error.sentence) from None
     return chosen, form

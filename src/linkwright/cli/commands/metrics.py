@@ -9,6 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError
@@ -76,7 +77,7 @@ def _names(texts: list[str] | None, say: Say) -> list[str] | None:
         try:
             METRICS[name]
         except UnknownName as error:
-            raise UsageError(f"--names: {error}") from None
+            raise UsageError(Sentence("cli.about", name="--names", cause=error)) from None
     return names
 
 

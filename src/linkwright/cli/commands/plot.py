@@ -12,6 +12,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -65,7 +66,7 @@ def _require_kind(name: str) -> None:
     try:
         require_kind(name)
     except LinkwrightError as error:
-        raise UsageError(f"--kind: {error}") from None
+        raise UsageError(Sentence("cli.about", name="--kind", cause=error)) from None
 
 
 def _path(options: argparse.Namespace, say: Say) -> Path:

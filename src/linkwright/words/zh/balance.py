@@ -3,21 +3,21 @@
 WORDS = {
     "summary": "四杆机构或曲柄滑块机构的平衡配重及其效果",
     "description": """\
-为四杆机构或曲柄滑块机构设计配重,完全或部分平衡摆动力,
-并给出加配重前后摆动力、摆动力矩和输入力矩的峰值。--output 写出平衡后的模型。""",
+为四杆机构或曲柄滑块机构设计配重，完全或部分平衡振动力，
+并给出加配重前后振动力、振动力矩和平衡力矩的峰值。--output 写出平衡后的模型。""",
     "examples": """\
 linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
 linkwright balance press.yaml --radius 120mm --share 0.5
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
-    "radius_help": '配重到所在铰链的距离:一个值(80mm)或按构件给出("crank=80 mm, rod=40 mm")',
-    "share_help": "平衡的比例,0 到 1(默认 1:摆动力为零)",
-    "steps_help": "比较时一个循环内的位置数(默认 360)",
+    "radius_help": '配重到所在铰链的距离：一个值（80mm）或按构件给出（"crank=80 mm, rod=40 mm"）',
+    "share_help": "平衡的比例，0 到 1（默认 1：振动力为零）",
+    "steps_help": "比较时一个循环内的位置数（默认 360）",
     "output_help": "把平衡后的模型写入 .yaml 文件",
-    "bad_share": '--share:"{text}" 不是比例;请给出 0(不平衡)到 1(完全平衡)之间的数',
-    "bad_radius": '--radius:"{text}" 不是半径;请给出大于零的长度,例如 80mm',
-    "no_radius": "--radius:没有给出构件 {link} 上配重的半径;请在列表中加上 {link}=…,或给出一个共用的长度",
-    "no_link": '--radius:没有构件 "{link}"',
-    "none": "不需要配重:各构件没有质量,或质心已在所需位置。",
+    "bad_share": "--share：“{text}”不是比例；请给出 0（不平衡）到 1（完全平衡）之间的数",
+    "bad_radius": "--radius：“{text}”不是半径；请给出大于零的长度，例如 80mm",
+    "no_radius": "--radius：没有给出构件 {link} 上配重的半径；请在列表中加上 {link}=…，或给出一个共用的长度",
+    "no_link": '--radius：没有构件 "{link}"',
+    "none": "不需要配重：各构件没有质量，或质心已在所需位置。",
     "column.link": "配重所在构件",
     "column.mass": "质量 kg",
     "column.x": "x mm",
@@ -27,7 +27,7 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "column.without": "无配重",
     "column.with": "有配重",
     "column.share": "剩余",
-    "shaking_force": "摆动力",
-    "shaking_moment": "对原点的摆动力矩",
-    "input_torque": "输入力矩",
+    "shaking_force": "振动力",
+    "shaking_moment": "对原点的振动力矩",
+    "input_torque": "平衡力矩",
 }

@@ -3,15 +3,15 @@
 WORDS = {
     "summary": "找出模型文件中的全部问题",
     "description": """\
-读取模型文件,一次报告全部问题,每条都给出位置(文件:行:列)、原因和改法。
-读取无误的文件随后作结构分析并转过一个循环,
+读取模型文件，一次报告全部问题，每条都给出位置（文件:行:列）、原因和改法。
+读取无误的文件随后作结构分析并转过一个循环，
 因此不能运动、或到不了某个位置的机构也会被发现。""",
     "examples": """\
 linkwright check crusher.yaml
 linkwright check *.yaml --strict      警告按错误处理
 linkwright check crusher.yaml --json  供编辑器或脚本使用的结果""",
-    "files_help": "模型文件,或 gallery:NAME",
+    "files_help": "模型文件，或 gallery:NAME",
     "strict_help": "警告按错误处理",
-    "fine": "{name}:没有错误({links} 个活动构件,自由度 {mobility})",
-    "faulty": "{name}:错误 {count} 处",
+    "fine": "{name}：没有错误（{links} 个活动构件，自由度 {mobility}）",
+    "faulty": "{name}：错误 {count} 处",
 }
