@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import importlib
 import pkgutil
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Generic, TypeVar
 
@@ -23,13 +24,14 @@ class Registry(Mapping[str, T], Generic[T]):
         self.noun = noun
         self._package = package
         self._elements: dict[str, T] = {}
-        self._discovered = False
+        self._lock = threading.RLock()
+        self._discovered = self._discovering = False
 
     def register(self, name: str) -> Callable[[T], T]:
         """Decorator that files an element under ``name``; a name is used once."""
 
         def file_under(element: T) -> T:
-            if name in self._elements:
+            if name in self._elements and _home(self._elements[name]) != _home(element):
                 raise LinkwrightError(f'the {self.noun} "{name}" is registered twice; choose another name')
             self._elements[name] = element
             return element
@@ -57,12 +59,25 @@ class Registry(Mapping[str, T], Generic[T]):
         return len(self._elements)
 
     def _discover(self) -> None:
+        """Imports the package's modules once; other threads wait until all are there."""
         if self._discovered:
             return
-        self._discovered = True
-        package = importlib.import_module(self._package)
-        for module in pkgutil.iter_modules(package.__path__):
-            importlib.import_module(f"{self._package}.{module.name}")
+        with self._lock:
+            if self._discovered or self._discovering:
+                return
+            self._discovering = True
+            try:
+                package = importlib.import_module(self._package)
+                for module in pkgutil.iter_modules(package.__path__):
+                    importlib.import_module(f"{self._package}.{module.name}")
+                self._discovered = True
+            finally:
+                self._discovering = False
+
+
+def _home(element: object) -> tuple[str, str]:
+    """Where an element is defined; equal for one whose module was imported again after a failure."""
+    return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
 
 
 class UnknownName(LinkwrightError, KeyError):

@@ -1,3 +1,14 @@
 """Results as files for other programs: ``export(result, path)``."""
 
-from linkwright.export.export import export as export
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.export.export import export as export
+
+PUBLIC = {
+    "linkwright.export.export": ("export",),
+}
+
+offer(__name__, PUBLIC)

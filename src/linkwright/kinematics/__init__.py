@@ -1,7 +1,24 @@
 """Motion: positions, velocities and accelerations over a cycle."""
 
-from linkwright.kinematics.cycle import CycleError as CycleError
-from linkwright.kinematics.motion import Motion as Motion
-from linkwright.kinematics.outcome import Outcome as Outcome
-from linkwright.kinematics.outcome import PositionError as PositionError
-from linkwright.kinematics.solve import solve_motion as solve_motion
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.cycle import CycleError as CycleError
+    from linkwright.kinematics.motion import Motion as Motion
+    from linkwright.kinematics.outcome import Outcome as Outcome
+    from linkwright.kinematics.outcome import PositionError as PositionError
+    from linkwright.kinematics.solve import solve_motion as solve_motion
+
+PUBLIC = {
+    "linkwright.kinematics.cycle": ("CycleError",),
+    "linkwright.kinematics.motion": ("Motion",),
+    "linkwright.kinematics.outcome": (
+        "Outcome",
+        "PositionError",
+    ),
+    "linkwright.kinematics.solve": ("solve_motion",),
+}
+
+offer(__name__, PUBLIC)

@@ -1,6 +1,24 @@
 """Kinetostatics: joint reactions, driver effort, shaking force, and the checks that belong to them."""
 
-from linkwright.kinetostatics.balancing import Balancing as Balancing
-from linkwright.kinetostatics.balancing import balance as balance
-from linkwright.kinetostatics.forces import Forces as Forces
-from linkwright.kinetostatics.forces import solve_forces as solve_forces
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.balancing import Balancing as Balancing
+    from linkwright.kinetostatics.balancing import balance as balance
+    from linkwright.kinetostatics.forces import Forces as Forces
+    from linkwright.kinetostatics.forces import solve_forces as solve_forces
+
+PUBLIC = {
+    "linkwright.kinetostatics.balancing": (
+        "Balancing",
+        "balance",
+    ),
+    "linkwright.kinetostatics.forces": (
+        "Forces",
+        "solve_forces",
+    ),
+}
+
+offer(__name__, PUBLIC)

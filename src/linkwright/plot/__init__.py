@@ -1,4 +1,16 @@
 """Drawings, diagrams and animations of mechanisms and their results."""
 
-from linkwright.plot.diagrams.make import plot as plot
-from linkwright.plot.diagrams.picture import Diagram as Diagram
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.plot.diagrams.make import plot as plot
+    from linkwright.plot.diagrams.picture import Diagram as Diagram
+
+PUBLIC = {
+    "linkwright.plot.diagrams.make": ("plot",),
+    "linkwright.plot.diagrams.picture": ("Diagram",),
+}
+
+offer(__name__, PUBLIC)

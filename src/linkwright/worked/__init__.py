@@ -1,4 +1,18 @@
 """The worked solution of one position, in the order in which a textbook solves it."""
 
-from linkwright.worked.solution import Worked as Worked
-from linkwright.worked.solution import worked as worked
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.worked.solution import Worked as Worked
+    from linkwright.worked.solution import worked as worked
+
+PUBLIC = {
+    "linkwright.worked.solution": (
+        "Worked",
+        "worked",
+    ),
+}
+
+offer(__name__, PUBLIC)
