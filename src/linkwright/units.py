@@ -306,6 +306,15 @@ def parse(text: str, dimension: str) -> float:
     return value
 
 
+def unit_fits(text: str, dimension: str) -> bool:
+    """Whether a number with its unit is a quantity of ``dimension``."""
+    try:
+        parse(text, dimension)
+    except QuantityError:
+        return False
+    return True
+
+
 def _unit_of(text: str, column: int) -> tuple[float, Dimension]:
     try:
         return unit(text)

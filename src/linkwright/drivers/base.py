@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -34,6 +35,10 @@ class Law(ABC):
     def natural_duration(self) -> float | None:
         """Time in s after which the law repeats or ends; None where it has no such time."""
         return None
+
+    def span(self) -> tuple[float, float]:
+        """First and last time in s at which the law says the coordinate."""
+        return -math.inf, math.inf
 
     def dimensions(self) -> Mapping[str, float]:
         """Names of the law's dimensions within the driver (``speed``) with their SI values."""

@@ -33,10 +33,10 @@ class TableLaw(Law):
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         import numpy as np
 
-        first, last = self.times[0], self.times[-1]
-        slack = 1e-9 * (last - first)
         if self.interpolation == "periodic":
             return self._periodic(t)
+        first, last = self.span()
+        slack = 1e-9 * (last - first)
         if np.any(t < first - slack) or np.any(t > last + slack):
             raise LinkwrightError(
                 f"the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
@@ -72,6 +72,9 @@ class TableLaw(Law):
 
     def natural_duration(self) -> float | None:
         return self.times[-1] - self.times[0]
+
+    def span(self) -> tuple[float, float]:
+        return super().span() if self.interpolation == "periodic" else (self.times[0], self.times[-1])
 
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:

@@ -161,6 +161,8 @@ def _repeats(drivers: Iterable[Driver], known: Sequence[float]) -> bool:
     if len(known) < len(laws):
         return False
     longest = max(known)
+    if any(law.span()[0] > 0.0 or law.span()[1] < longest for law in laws):
+        return False
     for law, duration in zip(laws, known, strict=True):
         ends = law.coordinate(np.array([0.0, longest]))
         wrap = 2 * np.pi if isinstance(law, ConstantSpeed) else np.inf

@@ -19,6 +19,9 @@ from linkwright.model.reference_fields import LinkPoint
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import nearest
 
+#: A name with dots in a text; superscripts belong to units.
+_WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
+
 
 @dataclass
 class Names:
@@ -150,12 +153,24 @@ class Reader(PlainReader):
 
     def magnitude(self, node: Node, place: Place, dimension: str) -> float | Expression | None:
         """A quantity, or an expression of time, input and outputs."""
-        text = node.text if isinstance(node, Scalar) else ""
-        words = set(re.findall(r"[^\W\d][\w'-]*(?:\.[^\W\d][\w'-]*)*", text))
+        text = units.tidy(node.text) if isinstance(node, Scalar) else ""
+        variables = self.output_variables()
+        if self._follows(text, dimension, variables):
+            return self.formula(node, place, dimension, variables)
+        words = set(re.findall(_WORD, text))
         own = {*self.kinds, *units.UNITS, *expressions.CONSTANTS, *expressions.FUNCTIONS}
-        if words <= own or expressions.is_literal(units.tidy(text), self.kinds):
+        if words <= own or expressions.is_literal(text, self.kinds):
             return self.quantity(node, place, dimension)
-        return self.formula(node, place, dimension, self.output_variables())
+        return self.formula(node, place, dimension, variables)
+
+    def _follows(self, text: str, dimension: str, variables: Mapping[str, units.Dimension]) -> bool:
+        """Whether a text is an expression of variables; ``t`` behind a number is the unit of mass."""
+        try:
+            if expressions.is_literal(text, self.kinds) and units.unit_fits(text, dimension):
+                return False
+            return not variables.keys().isdisjoint(expressions.parse(text, {**self.kinds, **variables}).names)
+        except QuantityError:
+            return False
 
     def output_variables(self) -> dict[str, units.Dimension]:
         """The names that an expression over the cycle may use, with their dimensions."""
