@@ -48,8 +48,10 @@ def swings(traced: Traced, names: tuple[str, ...], columns: Mapping[str, Floats]
 
 
 def _simple(traced: Traced, load: Load) -> bool:
+    phase = getattr(load, "phase", None)
     if (
-        not isinstance(getattr(load, "phase", None), SwingPhase)
+        not isinstance(phase, SwingPhase)
+        or phase.part is not None
         or type(load).from_cycle is not Load.from_cycle
     ):
         return False
