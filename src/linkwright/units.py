@@ -40,6 +40,9 @@ DIMENSIONS: Mapping[str, Dimension] = {
     "torsional_stiffness": (2, 1, -2, -1),
     "torsional_damping": (2, 1, -1, -1),
     "second_moment_of_area": (4, 0, 0, 0),
+    "line_load": (0, 1, -2, 0),
+    "linear_density": (-1, 1, 0, 0),
+    "mass_moment": (1, 1, 0, 0),
 }
 SI_UNITS: Mapping[str, str] = {
     "dimensionless": "",
@@ -65,6 +68,9 @@ SI_UNITS: Mapping[str, str] = {
     "torsional_stiffness": "N·m/rad",
     "torsional_damping": "N·m·s/rad",
     "second_moment_of_area": "m⁴",
+    "line_load": "N/m",
+    "linear_density": "kg/m",
+    "mass_moment": "kg·m",
 }
 USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "angular_velocity": "rpm"}
 

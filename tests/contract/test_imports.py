@@ -19,7 +19,7 @@ STAGES = (
     ("kinematics",),
     ("kinetostatics",),
     ("metrics", "machine", "worked"),
-    ("study", "synthesis", "cams", "parts"),
+    ("study", "synthesis", "cams", "parts", "tolerance"),
     ("report", "plot", "export"),
     ("cli", "server"),
 )
@@ -36,6 +36,7 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "machine/torque_curve.py": {PLOT},
     "metrics/coupler_curve.py": {PLOT},
     "metrics/table.py": {PLOT},
+    "parts/base.py": {PLOT},
     "study/compare.py": {PLOT},
     "study/designs.py": {PLOT},
     "study/sensitivity.py": {PLOT},

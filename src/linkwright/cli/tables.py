@@ -51,7 +51,7 @@ def write_table(
     write_whole(path, text, session.say, force=force)
 
 
-def csv_of(columns: Mapping[str, Sequence[Any]]) -> str:
+def csv_of(columns: Mapping[str, Any]) -> str:
     """Columns as CSV; numbers to the last bit, nothing where there is no number."""
     import csv
     import io

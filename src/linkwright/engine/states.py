@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from linkwright.engine.program import Program
 
 
@@ -11,5 +13,5 @@ def states_as_fields(program: Program) -> Program:
     Positions are then independent of each other: for evaluating again, and differentiating,
     what an iteration from position to position has found.
     """
-    nodes = tuple(node._replace(op="field") if node.op == "state" else node for node in program.nodes)
+    nodes = tuple(replace(node, op="field") if node.op == "state" else node for node in program.nodes)
     return Program(nodes, program.outputs)

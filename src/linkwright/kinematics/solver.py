@@ -1,4 +1,4 @@
-"""A mechanism made ready to be solved: the programs of its shape, its numbers, its assembly."""
+"""A mechanism made ready to be solved many times: structure, assembly, traced programs."""
 
 from __future__ import annotations
 
@@ -8,56 +8,51 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
-from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure
 
 
 class MotionSolver:
-    """Evaluates the motion of one mechanism; ``manner``: how it is traced."""
+    """Programs of one mechanism, traced when first needed."""
 
-    def __init__(
-        self, mechanism: Mechanism, manner: Manner = AS_IT_IS, assembly: Assembly | None = None
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, free: frozenset[str] = frozenset()) -> None:
         self.mechanism = mechanism
-        self.manner = manner
-        self._assembly = assembly
+        self.free = free
+        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+        self.point_keys: dict[str, str] = {}
+        self.flipping: frozenset[str] = frozenset()
+        self.iterations = 1
 
     @cached_property
-    def programs(self) -> MotionPrograms:
-        """The programs of the mechanism's shape."""
-        return motion_programs(self.mechanism, self.manner)
-
-    @property
     def structure(self) -> Structure:
-        """Its Assur groups."""
-        return self.programs.structure
+        from linkwright.kinematics.rank import analysed
 
-    @property
-    def motion(self) -> MotionTrace:
-        """Every link's state as traced values."""
-        return self.programs.motion
-
-    @property
-    def outputs(self) -> MotionOutputs:
-        """The motion's outputs by name."""
-        return self.programs.outputs
-
-    @property
-    def point_keys(self) -> dict[str, str]:
-        """Names of points that were looked up, with their canonical ones."""
-        return self.programs.point_keys
+        return analysed(self.mechanism)
 
     @cached_property
     def assembly(self) -> Assembly:
-        """How its groups are put together."""
-        return self._assembly or assemble(self.mechanism, self.structure)
+        return assemble(self.mechanism, self.structure)
+
+    @cached_property
+    def motion(self) -> MotionTrace:
+        return trace_motion(
+            self.mechanism,
+            self.structure,
+            free=self.free,
+            modes_vary=self.flipping,
+            iterations=self.iterations,
+        )
+
+    @cached_property
+    def outputs(self) -> MotionOutputs:
+        return MotionOutputs(self.motion)
 
     @cached_property
     def nominal(self) -> Design:
@@ -65,28 +60,35 @@ class MotionSolver:
         return Design(self.mechanism, self.assembly.modes, {})
 
     def for_design(self, design: Design) -> MotionSolver:
-        """The same assembly for a design with its changes made."""
+        """The same structure and assembly for a design with its changes made."""
         if not design.changes:
-            return self.with_flips(())
-        return MotionSolver(design.mechanism, Manner(self.manner.free), self.assembly)
+            return self.with_flips(()) if self.flipping else self
+        other = MotionSolver(design.mechanism, self.free)
+        other.__dict__["structure"] = self.structure
+        other.__dict__["assembly"] = self.assembly
+        return other
 
     def with_flips(self, groups: Iterable[str]) -> MotionSolver:
         """The same mechanism, with assembly modes of some groups given per position."""
-        flipping = frozenset(groups)
-        if flipping == self.manner.flipping:
-            return self
-        return MotionSolver(self.mechanism, Manner(self.manner.free, flipping), self.assembly)
+        other = MotionSolver(self.mechanism, self.free)
+        other.flipping = frozenset(groups)
+        other.__dict__["structure"] = self.structure
+        other.__dict__["assembly"] = self.assembly
+        return other
 
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs."""
-        return self.programs.program(names)
+        if names not in self._programs:
+            values = {name: self.outputs.value(name) for name in names}
+            self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
+        return self._programs[names]
 
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
         if not self.motion.next_states:
             return {}
         parameters = (design or self.nominal).parameters
-        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.manner.free).follow(
+        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.free).follow(
             positions
         )
 

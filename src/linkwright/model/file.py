@@ -9,7 +9,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.model.compose import compose
 from linkwright.model.document import Document
 from linkwright.model.mechanism import Mechanism
-from linkwright.model.nodes import Scalar
+from linkwright.model.nodes import Node, Scalar
 from linkwright.model.read_model import read_model
 from linkwright.model.write import dump
 from linkwright.registry import nearest
@@ -57,6 +57,15 @@ def read_document(source: str | Path) -> Document:
 
 def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
     """The mechanism of a text, or None where there is an error, and all findings."""
+    root, findings = read_root(text, name)
+    if root is None:
+        return None, findings
+    mechanism, found = read_model(root, name)
+    return (None if findings else mechanism), findings + found
+
+
+def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
+    """The tree of a text, None where there is nothing to read, and what is wrong with the text itself."""
     root, remarks = compose(text.removeprefix("\ufeff"))
     findings = [
         Finding(
@@ -72,8 +81,7 @@ def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
     if root is None or (isinstance(root, Scalar) and root.empty):
         empty = Finding("error", f"{name}:1:1", "", "the file is empty", "begin with format: 1", "empty")
         return None, findings or [empty]
-    mechanism, found = read_model(root, name)
-    return (None if findings else mechanism), findings + found
+    return root, findings
 
 
 def gallery_names() -> list[str]:

@@ -69,7 +69,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     top = Place("", "")
     reader.unknown_keys(root, top, list(SECTIONS))
     _scan(reader, root)
-    parameters = _parameters(reader, root.get("parameters"))
+    parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
     frame = read_frame(reader, root.get("frame"))
     drawing = read_drawing(reader, root.get("drawing"), frame)
@@ -125,7 +125,8 @@ def _scan(reader: Reader, root: MappingNode) -> None:
     scan_input(reader, root)
 
 
-def _parameters(reader: Reader, node: Node | None) -> dict[str, float]:
+def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
+    """Values of the named quantities, in order; they are known to the reader afterwards."""
     mapping = None if node is None else reader.mapping(node, "parameters")
     entries = mapping.entries if mapping else []
     waiting = {entry.key.text for entry in entries}

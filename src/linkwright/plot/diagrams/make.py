@@ -20,13 +20,22 @@ if TYPE_CHECKING:
     from linkwright.machine.torque_curve import TorqueCurve
     from linkwright.metrics.coupler_curve import CouplerCurve
     from linkwright.metrics.table import MetricsTable
+    from linkwright.parts.base import Result as PartResult
     from linkwright.study.compare import Comparison
     from linkwright.study.designs import Sweep
     from linkwright.study.sensitivity import Sensitivity
     from linkwright.study.study import Study
 
     Single: TypeAlias = (
-        Comparison | Study | Sweep | Sensitivity | MetricsTable | TorqueCurve | Balancing | CouplerCurve
+        Comparison
+        | Study
+        | Sweep
+        | Sensitivity
+        | MetricsTable
+        | TorqueCurve
+        | Balancing
+        | CouplerCurve
+        | PartResult
     )
 
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]

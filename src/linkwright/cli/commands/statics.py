@@ -1,0 +1,28 @@
+"""``linkwright statics``: force systems, rigid bodies, belts, wedges, and pinned structures of model files."""
+
+from __future__ import annotations
+
+import argparse
+
+from linkwright.cli.part import kinds_of, part_arguments, refuse_outputs, run_part, show
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    part_arguments(parser, say)
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Solves the file's problem; a file without ``kind`` is a structure of links and joints."""
+    from linkwright.cli.source import read_model
+    from linkwright.parts.file import kind_of
+    from linkwright.parts.statics.structure import equilibrium
+
+    if kind_of(options.file) is not None:
+        return run_part(options, session, kinds_of("statics"))
+    refuse_outputs(options, session)
+    mechanism, _ = read_model(options.file)
+    show(equilibrium(mechanism), options, session)
+    return 0

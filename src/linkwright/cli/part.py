@@ -1,0 +1,92 @@
+"""What the commands for machine parts have in common: one file in, numbers, worked text, curves, a diagram."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.parts.base import Problem, Result
+
+ENDINGS = (".csv", ".json")
+
+
+def part_arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The options that all commands for machine parts have."""
+    parser.add_argument("file", metavar="FILE", help=say("part.file_help"))
+    parser.add_argument("--worked", action="store_true", help=say("part.worked_help"))
+    parser.add_argument("--plot", metavar="FILE", help=say("part.plot_help"))
+    parser.add_argument("--output", metavar="FILE", help=say("part.output_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run_part(options: argparse.Namespace, session: Session, kinds: Sequence[str]) -> int:
+    """Reads a file of one of the kinds, solves it, and shows or writes what came out."""
+    refuse_outputs(options, session)
+    show(read(options.file, kinds, session).solve(), options, session)
+    return 0
+
+
+def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
+    """Raises UsageError for files that could not be written, before any work is done."""
+    from linkwright.cli.tables import PICTURES, refuse_output
+
+    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.plot, PICTURES, session.say, force=options.force)
+
+
+def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
+    """The problem of a file; UsageError where its kind belongs to another command."""
+    from linkwright.parts.file import KINDS, kind_of, load
+
+    kind = kind_of(source)
+    if kind is not None and kind in KINDS and kind not in kinds:
+        say = session.say
+        raise UsageError(say("part.other_command", kind=kind, command=COMMANDS[kind], file=source))
+    return load(source)
+
+
+#: The command of each kind.
+COMMANDS = {
+    "forces": "statics",
+    "rigid_body": "statics",
+    "belt": "statics",
+    "wedge": "statics",
+}
+
+
+def kinds_of(command: str) -> tuple[str, ...]:
+    """The kinds of files that a command takes."""
+    return tuple(kind for kind, name in COMMANDS.items() if name == command)
+
+
+def show(result: Result, options: argparse.Namespace, session: Session) -> None:
+    """Prints the result; writes its curves and its diagram where asked."""
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+    from linkwright.cli.tables import csv_of
+
+    if options.output is not None:
+        path = Path(options.output)
+        table = path.suffix.lower() == ".csv"
+        if table and not result.columns():
+            raise UsageError(session.say("part.no_curves", path=path))
+        text = csv_of(result.columns()) if table else json_text(result.data()) + "\n"
+        write_whole(path, text, session.say, force=options.force)
+    if options.plot is not None:
+        path = Path(options.plot)
+        content = result.plot(language=session.language).content(path.suffix.lower())
+        write_whole(path, content, session.say, force=options.force)
+    if session.json:
+        session.show(json_text({"ok": True, **result.data()}))
+        return
+    session.show(result.worked(session.language) if options.worked else result.text(session.language))
+    for written in (options.output, options.plot):
+        if written is not None:
+            session.show(f"\n{session.say('cli.written', path=written)}")

@@ -1,0 +1,38 @@
+"""Machine-part calculations: statics, beams, vibration, trajectories, optimisation programs, statistics.
+
+Every calculation is a problem, from a small file (:func:`load`) or from its class, whose ``solve`` gives a result
+with ``text``, ``worked``, ``data``, ``columns`` and ``plot``.
+"""
+
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.parts.base import Problem as Problem
+    from linkwright.parts.base import Result as Result
+    from linkwright.parts.file import check as check
+    from linkwright.parts.file import gallery_names as gallery_names
+    from linkwright.parts.file import load as load
+    from linkwright.parts.file import loads as loads
+    from linkwright.parts.file import schema as schema
+    from linkwright.parts.statics.belt import Belt as Belt
+    from linkwright.parts.statics.body import RigidBody as RigidBody
+    from linkwright.parts.statics.body import Support as Support
+    from linkwright.parts.statics.forces import Force as Force
+    from linkwright.parts.statics.forces import ForceSystem as ForceSystem
+    from linkwright.parts.statics.structure import equilibrium as equilibrium
+    from linkwright.parts.statics.wedge import Wedge as Wedge
+
+offer(
+    __name__,
+    {
+        "linkwright.parts.base": ("Problem", "Result"),
+        "linkwright.parts.file": ("check", "gallery_names", "load", "loads", "schema"),
+        "linkwright.parts.statics.belt": ("Belt",),
+        "linkwright.parts.statics.body": ("RigidBody", "Support"),
+        "linkwright.parts.statics.forces": ("Force", "ForceSystem"),
+        "linkwright.parts.statics.structure": ("equilibrium",),
+        "linkwright.parts.statics.wedge": ("Wedge",),
+    },
+)

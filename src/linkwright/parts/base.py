@@ -1,0 +1,164 @@
+"""What every machine-part calculation has in common: a problem that is checked, and a result that speaks.
+
+A problem is a frozen dataclass: ``findings`` lists what is wrong with it, ``solve`` gives its result. A result has
+``text`` (the numbers), ``worked`` (the way to them), ``data`` (for programs), ``columns`` (curves) and ``plot``.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import Finding, ModelError
+from linkwright.parts.display import number, si_unit, unit
+from linkwright.words import Say, speaker
+from linkwright.words.sentence import Sentence
+from linkwright.words.width import aligned
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from linkwright.model.fields import Field
+    from linkwright.plot import Diagram
+    from linkwright.worked.page import Step
+
+Floats = NDArray[np.float64]
+
+
+def fault(code: str, key: str, **values: object) -> Finding:
+    """An error at a key of the problem; ``code`` is the key of its sentence, its remedy is ``CODE_remedy``.
+
+    Numbers among the values are said with six digits.
+    """
+    said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
+    message, remedy = Sentence(code, **said), Sentence(f"{code}_remedy", **said)
+    return Finding("error", "", key, message, remedy, code.partition(".")[2])
+
+
+class Problem(ABC):
+    """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
+
+    ``kind`` is its name in files, ``fields`` the keys of its file beside the heading.
+    """
+
+    kind: ClassVar[str]
+    fields: ClassVar[Mapping[str, Field]]
+    name: str
+    source: str
+
+    @classmethod
+    def of_file(cls, values: Mapping[str, Any], folder: Path) -> Self:
+        """The problem of a file's values; ``folder`` is where the file lies."""
+        return cls(**values)
+
+    @abstractmethod
+    def findings(self) -> list[Finding]:
+        """Everything that is wrong with the problem, keys as in a file."""
+
+    @abstractmethod
+    def solve(self) -> Result:
+        """The result. Raises ModelError with all findings."""
+
+    def require(self) -> None:
+        """Raises ModelError where anything is wrong."""
+        found = self.findings()
+        if found:
+            raise ModelError(found)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
+
+    A text in place of the number has no dimension.
+    """
+
+    key: str
+    value: float | str
+    dimension: str = ""
+    label: str = ""
+    note: str = ""
+
+    def cells(self, area: str, say: Say) -> list[str]:
+        """Label, number, unit and note."""
+        label = self.label or say(f"{area}.{self.key}")
+        if isinstance(self.value, str):
+            return [label, self.value, "", self.note]
+        return [label, number(self.value, self.dimension), unit(self.dimension), self.note]
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows under a title; ``key`` names them in data, ``remarks`` are sentences below."""
+
+    key: str
+    title: str
+    rows: Sequence[Row]
+    remarks: Sequence[str] = ()
+
+
+class Result(ABC):
+    """What was found: its numbers in blocks, the way to them in steps."""
+
+    area: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """Name of the problem."""
+
+    @abstractmethod
+    def blocks(self, say: Say) -> list[Block]:
+        """The numbers, with titles and remarks in a language."""
+
+    @abstractmethod
+    def steps(self, say: Say) -> list[Step]:
+        """The worked solution in a language."""
+
+    def columns(self) -> dict[str, Floats]:
+        """Curves by name with unit, SI; empty where there are none."""
+        return {}
+
+    def text(self, language: str = "en") -> str:
+        """The numbers as a table in words of the language (``en``, ``zh``)."""
+        say = speaker(language)
+        lines = [self.title]
+        for block in self.blocks(say):
+            lines += ["", *([block.title] if block.title else [])]
+            rows = [row.cells(self.area, say) for row in block.rows]
+            lines += [f"  {line}" for line in aligned(rows, "<><<")]
+            lines += [str(remark) for remark in block.remarks]
+        return "\n".join(lines)
+
+    def data(self) -> dict[str, Any]:
+        """The numbers by block and key, SI, each with its unit; remarks in English."""
+        found: dict[str, Any] = {"name": self.title}
+        for block in self.blocks(speaker("en")):
+            rows: dict[str, Any] = {}
+            for row in block.rows:
+                key = row.label or row.key
+                plain = isinstance(row.value, str)
+                rows[key] = row.value if plain else {"value": row.value, "unit": si_unit(row.dimension)}
+            found[block.key] = {**rows, "remarks": list(block.remarks)} if block.remarks else rows
+        return found
+
+    def worked(self, language: str = "en") -> str:
+        """The worked solution as plain text."""
+        from linkwright.worked.text import page
+
+        return page((self.title,), self.steps(speaker(language)))
+
+    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
+        """Its diagram; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, kind, **options)
+
+    def __repr__(self) -> str:
+        return self.text()

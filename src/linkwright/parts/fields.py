@@ -1,0 +1,250 @@
+"""Fields of machine-part files beyond those of mechanisms: tables in tables, lists of tables, samples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from linkwright import units
+from linkwright.errors import QuantityError
+from linkwright.model import expressions
+from linkwright.model.expressions import Expression
+from linkwright.model.fields import Field, Schema, table_schema
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node, Scalar, Sequence
+
+if TYPE_CHECKING:
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+Make = Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Table(Field):
+    """A mapping of known keys, made into an object by ``make``."""
+
+    fields: Mapping[str, Field]
+    make: Make = dict
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        before = reader.error_count
+        values = reader.table(node, place, self.fields)
+        if values is None or reader.error_count > before:
+            return None
+        return self.make(**values)
+
+    def shape(self) -> Schema:
+        return table_schema(self.fields)
+
+
+@dataclass(frozen=True)
+class Named(Field):
+    """A mapping of names that the user chose, each with a value of one field."""
+
+    item: Field
+    what: str = "name"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        found: dict[str, Any] = {}
+        for entry in mapping.entries:
+            child = place.child(entry.key.text)
+            if reader.name(entry.key, child, self.what) is not None:
+                found[entry.key.text] = self.item.read(reader, entry.value, child, given)
+        return found
+
+    def shape(self) -> Schema:
+        return {"type": "object", "additionalProperties": self.item.schema()}
+
+
+@dataclass(frozen=True)
+class ByAddress(Named):
+    """A mapping of any texts (addresses of dimensions, outputs), each with a value of one field."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        return {
+            entry.key.text: self.item.read(reader, entry.value, place.child(entry.key.text), given)
+            for entry in mapping.entries
+        }
+
+
+@dataclass(frozen=True)
+class Listed(Field):
+    """A list with items of one field."""
+
+    item: Field
+    form: str = "[…, …]"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        items = reader.items(node, place, None, self.form)
+        if items is None:
+            return None
+        return tuple(
+            self.item.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)
+        )
+
+    def shape(self) -> Schema:
+        return {"type": "array", "items": self.item.schema()}
+
+
+@dataclass(frozen=True)
+class Either(Field):
+    """A short form for a single value, or a table."""
+
+    short: Field
+    table: Table
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        chosen = self.table if isinstance(node, MappingNode) else self.short
+        return chosen.read(reader, node, place, given)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [self.short.shape(), self.table.shape()]}
+
+
+@dataclass(frozen=True)
+class Flag(Field):
+    """``true`` or ``false``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> bool | None:
+        word = reader.word(node, place, ("true", "false"))
+        return None if word is None else word == "true"
+
+    def shape(self) -> Schema:
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class Whole(Field):
+    """A whole number from ``least`` on."""
+
+    least: int = 0
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
+        text = reader.text(node, place)
+        if text is None:
+            return None
+        if text.strip().lstrip("+-").isdigit() and int(text) >= self.least:
+            return int(text)
+        reader.error(
+            node,
+            place,
+            f'"{text}" is not a whole number of {self.least} or more',
+            "write digits only",
+            "range",
+        )
+        return None
+
+    def shape(self) -> Schema:
+        return {"type": "integer", "minimum": self.least}
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Values (SI) of one dimension, with the unit in which they were given."""
+
+    values: tuple[float, ...]
+    dimension: units.Dimension = units.NONE
+    unit: str = ""
+    factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class Sample(Field):
+    """Values of any dimension: a list of quantities, or ``{unit: mm, values: [20.1, 19.9]}``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Numbers | None:
+        unit, factor, kind = "", 1.0, None
+        if isinstance(node, MappingNode):
+            reader.unknown_keys(node, place, ["unit", "values"])
+            named, node_values = node.get("unit"), node.get("values")
+            if isinstance(named, Scalar):
+                unit = named.text
+                try:
+                    factor, kind = units.unit(units.tidy(unit)) if unit.strip() else (1.0, units.NONE)
+                except QuantityError as error:
+                    reader.quantity_error(error, named, place.child("unit"), unit)
+                    return None
+            if node_values is None:
+                reader.error(
+                    node, place.child("values"), 'the key "values" is missing', "add it", "missing-key"
+                )
+                return None
+            node, place = node_values, place.child("values")
+        items = reader.items(node, place, None, "[20.1 mm, 19.9 mm]")
+        if items is None:
+            return None
+        read = [_any(reader, item, place.child(str(i)), factor, kind) for i, item in enumerate(items)]
+        if any(each is None for each in read):
+            return None
+        kinds = {each[1] for each in read if each is not None}
+        if len(kinds) > 1:
+            names = " and ".join(units.name_of(each) for each in sorted(kinds)[:2])
+            reader.error(node, place, f"the values differ in kind: {names}", "give all of one kind", "unit")
+            return None
+        shared = kinds.pop() if kinds else units.NONE
+        return Numbers(tuple(each[0] for each in read if each), shared, unit, factor)
+
+    def shape(self) -> Schema:
+        values = {"type": "array", "items": {"type": ["string", "number"]}}
+        table = {"type": "object", "properties": {"unit": {"type": "string"}, "values": values}}
+        return {"anyOf": [values, table]}
+
+
+def _any(
+    reader: Reader, node: Node, place: Place, factor: float, kind: units.Dimension | None
+) -> tuple[float, units.Dimension] | None:
+    """SI value and dimension of one value; a bare number takes the unit of the whole list."""
+    text = reader.quantity_text(node, place, "20.1 mm")
+    if text is None:
+        return None
+    try:
+        found = expressions.parse_any(text, reader.kinds)
+        reader.used |= found.names
+        value, own = float(found.evaluate(reader.values)), found.dimension(reader.kinds)
+    except QuantityError as error:
+        reader.quantity_error(error, node, place, text)
+        return None
+    return (value * factor, kind) if kind is not None and own == units.NONE else (value, own)
+
+
+@dataclass(frozen=True)
+class AnyQuantity(Field):
+    """One quantity of any dimension: its SI value and its dimension."""
+
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[float, units.Dimension] | None:
+        return _any(reader, node, place, 1.0, None)
+
+    def shape(self) -> Schema:
+        return {"type": ["string", "number"]}
+
+
+@dataclass(frozen=True)
+class FormulaOf(Field):
+    """An expression of the variable ``variable`` (dimension of ``across``), such as a law of u or a load of t."""
+
+    dimension: str
+    variable: str
+    across: str = "dimensionless"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Expression | None:
+        return reader.formula(node, place, self.dimension, {self.variable: units.DIMENSIONS[self.across]})
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-dimension": self.dimension, "x-variables": [self.variable]}
+
+
+def plain_items(node: Node) -> list[str]:
+    """Texts of the items of a list; nothing for anything else."""
+    return (
+        [item.text for item in node.items if isinstance(item, Scalar)] if isinstance(node, Sequence) else []
+    )

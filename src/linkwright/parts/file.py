@@ -1,0 +1,168 @@
+"""Files of machine-part calculations: read and checked with the findings of model files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from importlib import import_module, resources
+from pathlib import Path
+from typing import Any, cast
+
+from linkwright.errors import Finding, ModelError
+from linkwright.model.fields import Count, Field, Free, Text, Word, table_schema
+from linkwright.model.file import read_root, read_source
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node, Scalar
+from linkwright.model.nodes import Sequence as SequenceNode
+from linkwright.model.plain_reader import Place
+from linkwright.model.read_model import FORMAT, read_parameters
+from linkwright.model.reader import Reader
+from linkwright.parts.base import Problem
+
+#: Kinds of calculations: the class that holds the problem.
+KINDS: Mapping[str, str] = {
+    "forces": "linkwright.parts.statics.forces.ForceSystem",
+    "rigid_body": "linkwright.parts.statics.body.RigidBody",
+    "belt": "linkwright.parts.statics.belt.Belt",
+    "wedge": "linkwright.parts.statics.wedge.Wedge",
+}
+GALLERY = "gallery:"
+HEADING: Mapping[str, Field] = {
+    "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),
+    "kind": Word(tuple(KINDS), required=True, doc="say what is calculated, such as kind: beam"),
+    "name": Text(doc="name of the calculation"),
+    "purpose": Text(doc="what it is for, one sentence"),
+    "source": Text(doc="where it is taken from"),
+    "expected": Free(doc="numbers to compare results with; not interpreted"),
+    "parameters": Free(doc="named quantities for use in expressions"),
+}
+
+
+def load(source: str | Path) -> Problem:
+    """The problem in a file: a path, or ``gallery:NAME``.
+
+    Raises ModelError with all findings where the file cannot be used.
+    """
+    text, name, folder = _text(source)
+    return loads(text, name, folder)
+
+
+def loads(text: str, name: str = "<text>", folder: str | Path = ".") -> Problem:
+    """The problem in a text; ``folder`` is where files that it names are looked for."""
+    problem, findings = _read(text, name, Path(folder))
+    if problem is None:
+        raise ModelError(findings)
+    return problem
+
+
+def check(source: str | Path) -> list[Finding]:
+    """All findings about a file; never raises for bad content."""
+    try:
+        text, name, folder = _text(source)
+        return _read(text, name, folder)[1]
+    except ModelError as error:
+        return list(error.findings)
+
+
+def gallery_names() -> tuple[str, ...]:
+    """Names of the calculations that ship with the package."""
+    folder = resources.files("linkwright") / "gallery" / "parts"
+    names = (entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+    return tuple(sorted(name.removesuffix(".yaml") for name in names))
+
+
+def kind_of(source: str | Path) -> str | None:
+    """The kind that a file declares, None where it declares none; raises ModelError for no such file."""
+    text, name, _ = _text(source)
+    root, _ = read_root(text, name)
+    node = root.get("kind") if isinstance(root, MappingNode) else None
+    return node.text if isinstance(node, Scalar) else None
+
+
+def problem_class(kind: str) -> type[Problem]:
+    """The class of a kind."""
+    module, _, name = KINDS[kind].rpartition(".")
+    return cast("type[Problem]", getattr(import_module(module), name))
+
+
+def schema(kind: str) -> dict[str, Any]:
+    """JSON Schema of the files of a kind."""
+    shape = table_schema({**HEADING, **problem_class(kind).fields})
+    shape["properties"]["kind"] = {"const": kind, "description": HEADING["kind"].doc}
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": kind, **shape}
+
+
+def _text(source: str | Path) -> tuple[str, str, Path]:
+    if isinstance(source, str) and source.startswith(GALLERY):
+        name = source.removeprefix(GALLERY)
+        if name in gallery_names():
+            path = resources.files("linkwright") / "gallery" / "parts" / f"{name}.yaml"
+            return path.read_text(encoding="utf-8"), f"{name}.yaml", Path()
+    text, name = read_source(source)
+    return text, name, Path(source).parent
+
+
+def _read(text: str, name: str, folder: Path) -> tuple[Problem | None, list[Finding]]:
+    root, findings = read_root(text, name)
+    if findings or root is None:
+        return None, findings
+    reader = Reader(name)
+    mapping = reader.mapping(root, "")
+    kind = _kind(reader, mapping) if mapping is not None else None
+    if mapping is None or kind is None:
+        return None, reader.findings
+    owner = problem_class(kind)
+    read_parameters(reader, mapping.get("parameters"))
+    values = reader.table(mapping, Place("", ""), {**HEADING, **owner.fields})
+    if values is None or reader.error_count:
+        return None, reader.findings
+    return _built(owner, values, mapping, reader, folder)
+
+
+def _kind(reader: Reader, root: MappingNode) -> str | None:
+    node = root.get("kind")
+    if node is not None:
+        return reader.word(node, "kind", tuple(KINDS))
+    known = ", ".join(KINDS)
+    reader.error(
+        root, "kind", "the file does not say what is calculated", f"add kind: (one of {known})", "kind"
+    )
+    return None
+
+
+def _built(
+    owner: type[Problem], values: dict[str, Any], root: MappingNode, reader: Reader, folder: Path
+) -> tuple[Problem | None, list[Finding]]:
+    own = {key: value for key, value in values.items() if key not in HEADING}
+    own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
+    try:
+        problem = owner.of_file(own, folder)
+        found: Sequence[Finding] = problem.findings()
+    except ModelError as error:
+        problem, found = None, error.findings
+    placed = [*reader.findings, *(_placed(each, root, reader) for each in found)]
+    return (problem if not found else None), placed
+
+
+def _placed(finding: Finding, root: MappingNode, reader: Reader) -> Finding:
+    """The finding with the place of its key in the file; one about another file keeps its own."""
+    return finding if finding.where else replace(finding, where=reader.where(_node_at(root, finding.key)))
+
+
+def _node_at(root: Node, key: str) -> Node:
+    """The node that a key names, or the nearest one above it."""
+    node, rest = root, key
+    while rest:
+        below: Node | None = None
+        if isinstance(node, MappingNode):
+            names = [entry.key.text for entry in node.entries]
+            name = next((n for n in names if rest == n or rest.startswith(f"{n}.")), None)
+            below = None if name is None else node.get(name)
+            rest = "" if name is None else rest[len(name) + 1 :]
+        elif isinstance(node, SequenceNode):
+            head, _, rest = rest.partition(".")
+            below = node.items[int(head)] if head.isdigit() and int(head) < len(node.items) else None
+        if below is None:
+            return node
+        node = below
+    return node

@@ -1,0 +1,1 @@
+"""Forces in equilibrium: systems of forces, rigid bodies, pinned structures, belts and wedges."""

@@ -1,0 +1,142 @@
+"""A flat or V belt, a rope or a band brake about a drum: the two tensions at the limit of slipping."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding
+from linkwright.model.fields import Quantity
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+
+@dataclass(frozen=True)
+class Belt(Problem):
+    """``friction`` μ over the angle ``wrap`` (rad); ``groove`` the full angle of a V groove (rad).
+
+    One of: the ``tight`` side's tension (N), the ``slack`` side's (N), the ``torque`` (N·m) on the drum of
+    ``radius`` (m). With ``mass`` per length (kg/m) and ``speed`` (m/s) the centrifugal tension m v² is taken off.
+    """
+
+    kind: ClassVar[str] = "belt"
+    fields: ClassVar = {
+        "friction": Quantity("dimensionless", required=True, above=0.0, doc="coefficient of friction"),
+        "wrap": Quantity(
+            "angle", required=True, above=0.0, doc="angle of contact; several turns are allowed"
+        ),
+        "groove": Quantity("angle", above=0.0, doc="full angle of a V groove; a flat belt unless given"),
+        "tight": Quantity("force", above=0.0, doc="tension of the tight side"),
+        "slack": Quantity("force", above=0.0, doc="tension of the slack side"),
+        "torque": Quantity("torque", above=0.0, doc="torque on the drum"),
+        "radius": Quantity("length", above=0.0, doc="radius of the drum"),
+        "mass": Quantity("linear_density", minimum=0.0, doc="mass per length"),
+        "speed": Quantity("velocity", minimum=0.0, doc="belt speed"),
+    }
+    friction: float
+    wrap: float
+    groove: float | None = None
+    tight: float | None = None
+    slack: float | None = None
+    torque: float | None = None
+    radius: float | None = None
+    mass: float = 0.0
+    speed: float = 0.0
+    name: str = ""
+    source: str = ""
+
+    @property
+    def effective_friction(self) -> float:
+        """μ, in a V groove μ/sin(α/2)."""
+        return self.friction if self.groove is None else self.friction / math.sin(self.groove / 2)
+
+    @property
+    def ratio(self) -> float:
+        """Euler and Eytelwein: (T1 − m v²)/(T2 − m v²) = e^(μ θ)."""
+        return math.exp(self.effective_friction * self.wrap)
+
+    @property
+    def centrifugal(self) -> float:
+        """m v², N."""
+        return self.mass * self.speed**2
+
+    def findings(self) -> list[Finding]:
+        found = []
+        given = [name for name in ("tight", "slack", "torque") if getattr(self, name) is not None]
+        if len(given) != 1:
+            found.append(fault("statics.belt_choice", given[1] if given else "", count=len(given)))
+        if self.torque is not None and self.radius is None:
+            found.append(fault("statics.belt_radius", "radius"))
+        if self.groove is not None and self.groove >= math.pi:
+            found.append(fault("statics.groove", "groove"))
+        for side in ("tight", "slack"):
+            tension = getattr(self, side)
+            if tension is not None and tension <= self.centrifugal:
+                found.append(fault("statics.flung_off", side, tension=tension, flung=self.centrifugal))
+        return found
+
+    def solve(self) -> BeltTensions:
+        """The tensions. Raises ModelError with all findings."""
+        self.require()
+        flung, e = self.centrifugal, self.ratio
+        if self.tight is not None:
+            slack = (self.tight - flung) / e + flung
+            return BeltTensions(self, self.tight, slack)
+        if self.slack is not None:
+            return BeltTensions(self, (self.slack - flung) * e + flung, self.slack)
+        pull = (self.torque or 0.0) / (self.radius or 1.0)
+        return BeltTensions(self, pull * e / (e - 1) + flung, pull / (e - 1) + flung)
+
+
+@dataclass(frozen=True, repr=False)
+class BeltTensions(Result):
+    """Tensions ``tight`` T1 and ``slack`` T2, N, at the limit of slipping."""
+
+    area: ClassVar[str] = "statics"
+    belt: Belt
+    tight: float
+    slack: float
+
+    @property
+    def title(self) -> str:
+        return self.belt.name
+
+    @property
+    def pull(self) -> float:
+        """T1 − T2, the largest force that friction passes on, N."""
+        return self.tight - self.slack
+
+    def columns(self) -> dict[str, Floats]:
+        """Tension along the contact, from the slack side."""
+        angle = np.linspace(0.0, self.belt.wrap, 181)
+        flung = self.belt.centrifugal
+        tension = (self.slack - flung) * np.exp(self.belt.effective_friction * angle) + flung
+        return {"angle [rad]": angle, "tension [N]": tension}
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = [
+            Row("tight", self.tight, "force"), Row("slack", self.slack, "force"), Row("pull", self.pull, "force"),
+            Row("ratio", self.belt.ratio),
+        ]  # fmt: skip
+        if self.belt.radius:
+            rows.append(Row("torque", self.pull * self.belt.radius, "torque"))
+        if self.belt.speed:
+            rows.append(Row("power", self.pull * self.belt.speed, "power"))
+        return [Block("belt", "", rows)]
+
+    def steps(self, say: Say) -> list[Step]:
+        belt, step = self.belt, Step("1", say("statics.belt_step"))
+        if belt.groove is not None:
+            put(step, "μ'", "μ/sin(α/2)", belt.effective_friction)
+        put(step, "e^(μθ)", "", belt.ratio)
+        if belt.centrifugal:
+            put(step, "Tc", "m·v²", belt.centrifugal, "force")
+        put(step, "T1", "Tc + (T2 − Tc)·e^(μθ)" if belt.centrifugal else "T2·e^(μθ)", self.tight, "force")
+        put(step, "T2", "Tc + (T1 − Tc)/e^(μθ)" if belt.centrifugal else "T1/e^(μθ)", self.slack, "force")
+        put(step, "F", "T1 − T2", self.pull, "force")
+        return [step]

@@ -1,0 +1,245 @@
+"""A rigid body on supports, in the plane or in space: reactions, or how it can move."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding
+from linkwright.model.fields import Word
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.display import number
+from linkwright.parts.fields import Listed, Named, Table
+from linkwright.parts.statics.forces import COUPLES, FORCES, Components, Force, spatial
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.words.sentence import Sentence
+from linkwright.worked.page import Step
+
+#: Singular values below this share of the largest count as zero.
+ZERO = 1e-10
+HELD = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
+
+
+@dataclass(frozen=True)
+class Support:
+    """What holds a body ``at`` a point (2 or 3 components, m).
+
+    ``holds``: any of x, y, z, turn_x, turn_y, turn_z; ``along``: the direction of a rod, rope or roller.
+    """
+
+    at: tuple[float, ...]
+    holds: tuple[str, ...] = ()
+    along: tuple[float, ...] = ()
+
+    def columns(self, scale: float) -> list[tuple[str, Floats]]:
+        """Names of its reactions, each with the force and moment (6,) of a unit; moments over ``scale``."""
+        found = []
+        place = spatial(self.at) / scale
+        for word in self.holds:
+            axis = np.eye(3)["xyz".index(word[-1])]
+            pure = word.startswith("turn")
+            wrench = (np.zeros(3), axis) if pure else (axis, np.cross(place, axis))
+            found.append((f"M{word[-1]}" if pure else f"F{word}", np.concatenate(wrench)))
+        if self.along:
+            axis = spatial(self.along) / np.linalg.norm(spatial(self.along))
+            found.append(("S", np.concatenate([axis, np.cross(place, axis)])))
+        return found
+
+
+@dataclass(frozen=True)
+class RigidBody(Problem):
+    """A body under forces (N) and couples (N·m), held by supports."""
+
+    kind: ClassVar[str] = "rigid_body"
+    fields: ClassVar = {
+        "supports": Named(
+            Table(
+                {
+                    "at": Components("length", required=True, doc="where it holds the body"),
+                    "holds": Listed(
+                        Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"
+                    ),
+                    "along": Components("dimensionless", doc="direction of a rod, rope or roller"),
+                },
+                Support,
+            ),
+            "support",
+            required=True,
+            doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], along: [0, 1]}",
+        ),
+        "forces": FORCES,
+        "couples": COUPLES,
+    }
+    supports: Mapping[str, Support]
+    forces: Mapping[str, Force] = field(default_factory=dict)
+    couples: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    name: str = ""
+    source: str = ""
+
+    @property
+    def planar(self) -> bool:
+        """Whether everything lies in the plane z = 0, with couples about z."""
+        flat = all(not each.place[2] and not each.vector[2] for each in self.forces.values())
+        flat = flat and all(not any(each[:2]) for each in self.couples.values())
+        holds = {word for each in self.supports.values() for word in each.holds}
+        return (
+            flat
+            and holds <= {"x", "y", "turn_z"}
+            and all(
+                not spatial(each.at)[2] and not (each.along and spatial(each.along)[2])
+                for each in self.supports.values()
+            )
+        )
+
+    def findings(self) -> list[Finding]:
+        found = [each for name, one in self.forces.items() for each in one.findings(f"forces.{name}")]
+        for name, support in self.supports.items():
+            if not support.holds and not support.along:
+                found.append(fault("statics.holds_nothing", f"supports.{name}"))
+            if support.along and not any(support.along):
+                found.append(fault("statics.no_direction", f"supports.{name}.along"))
+        return found or self._freedoms()
+
+    def _freedoms(self) -> list[Finding]:
+        """How the body can move, or which reactions statics alone cannot tell."""
+        state = _Balance(self)
+        found = []
+        for motion in state.free:
+            pushed = abs(state.load @ motion) > ZERO * max(float(np.abs(state.load).max()), 1e-300)
+            code = "statics.can_move" if pushed else "statics.loose"
+            found.append(fault(code, "supports", how=describe(motion, state.scale, self.planar)))
+        if not found and len(state.names) > state.rank:
+            spare = ", ".join(state.names)
+            found.append(fault("statics.indeterminate", "supports", unknowns=len(state.names), equations=state.rank,
+                               names=spare))  # fmt: skip
+        return found
+
+    def solve(self) -> Reactions:
+        """The reactions. Raises ModelError where the body can move or is held more often than statics can tell."""
+        self.require()
+        return Reactions(self)
+
+
+class _Balance:
+    """Equations of equilibrium: reactions' columns, the load, and the motions that nothing hinders."""
+
+    def __init__(self, body: RigidBody) -> None:
+        places = [spatial(s.at) for s in body.supports.values()] + [f.place for f in body.forces.values()]
+        self.scale = max([float(np.abs(p).max()) for p in places] + [0.0]) or 1.0
+        pairs = [
+            (f"{name}.{part}", column)
+            for name, support in body.supports.items()
+            for part, column in support.columns(self.scale)
+        ]
+        self.names = [name for name, _ in pairs]
+        kept = [0, 1, 5] if body.planar else list(range(6))
+        self.columns = (
+            np.array([column for _, column in pairs]).T[kept] if pairs else np.zeros((len(kept), 0))
+        )
+        load = np.zeros(6)
+        for each in body.forces.values():
+            load += np.concatenate([each.vector, np.cross(each.place, each.vector) / self.scale])
+        for couple in body.couples.values():
+            load[3:] += spatial(couple) / self.scale
+        self.load = load[kept]
+        u, s, _ = np.linalg.svd(self.columns, full_matrices=True)
+        self.rank = int((s > ZERO * (s[0] if len(s) else 1.0)).sum())
+        self.free = _sorted_motions(u[:, self.rank :].T)
+
+
+def _sorted_motions(space: Floats) -> list[Floats]:
+    """A basis of motions with as many zeros as can be, by Gauss elimination."""
+    rows = space.copy()
+    done = 0
+    for column in range(rows.shape[1] - 1, -1, -1):
+        if done == len(rows):
+            break
+        pivot = done + int(np.abs(rows[done:, column]).argmax())
+        if abs(rows[pivot, column]) < 1e-8:
+            continue
+        rows[[done, pivot]] = rows[[pivot, done]]
+        rows[done] /= rows[done, column]
+        for other in range(len(rows)):
+            if other != done:
+                rows[other] -= rows[other, column] * rows[done]
+        done += 1
+    return [np.where(np.abs(row) < 1e-9, 0.0, row) for row in rows]
+
+
+def describe(motion: Floats, scale: float, planar: bool) -> Sentence:
+    """A small motion (velocities, then rotation times the scale) in words."""
+    velocity = spatial(motion[:2]) if planar else motion[:3]
+    turn = np.array([0.0, 0.0, motion[2]]) if planar else motion[3:]
+    size = float(np.linalg.norm(turn))
+    if size < 1e-9:
+        way = velocity / np.abs(velocity).max()
+        return Sentence("statics.slides", way=_vector(way[:2] if planar else way))
+    centre = np.cross(turn, velocity) / size**2 * scale
+    along = float(turn @ velocity) / size**2 * scale
+    if planar:
+        return Sentence("statics.turns_plane", place=_vector(centre[:2]))
+    axis = turn / np.abs(turn).max()
+    key = "statics.turns" if abs(along) < 1e-9 * scale else "statics.screws"
+    return Sentence(key, axis=_vector(axis), place=_vector(centre))
+
+
+def _vector(vector: Floats) -> str:
+    return f"({', '.join(number(float(c), digits=4) for c in vector)})"
+
+
+@dataclass(frozen=True, repr=False)
+class Reactions(Result):
+    """Reactions of a body's supports, N and N·m by name (``A.Fx``); ``S`` is the force along a rod or rope.
+
+    Σ F = 0 and Σ M = 0 (six equations in space, three in the plane) as one linear system.
+    """
+
+    area: ClassVar[str] = "statics"
+    body: RigidBody
+
+    @property
+    def title(self) -> str:
+        return self.body.name
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Reactions by name."""
+        state = _Balance(self.body)
+        found = np.linalg.lstsq(state.columns, -state.load, rcond=None)[0]
+        moments = [state.scale if ".M" in name else 1.0 for name in state.names]
+        largest = max(float(np.abs(found).max()), 1e-300)
+        tidy = np.where(np.abs(found) < 1e-14 * largest, 0.0, found) * moments
+        return dict(zip(state.names, tidy.tolist(), strict=True))
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
+        return [Block("reactions", say("statics.reactions"), rows)]
+
+    def steps(self, say: Say) -> list[Step]:
+        balance, found = Step("1", say("statics.equations")), Step("2", say("statics.reactions"))
+        state = _Balance(self.body)
+        names = ("ΣFx", "ΣFy", "ΣMz") if self.body.planar else ("ΣFx", "ΣFy", "ΣFz", "ΣMx", "ΣMy", "ΣMz")
+        for i, name in enumerate(names):
+            arm = state.scale if name[1] == "M" else 1.0
+            parts = [
+                (c * (arm if ".M" not in n else state.scale), n)
+                for c, n in zip(state.columns[i], state.names, strict=True)
+                if abs(c) > 1e-12
+            ]
+            sides = " ".join(f"{'+' if c > 0 else '−'} {number(abs(c), digits=6)}·{n}" for c, n in parts)
+            load = state.load[i] * arm
+            balance.say(
+                f"{name} = {sides.removeprefix('+ ')} {'+' if load >= 0 else '−'} {number(abs(load))} = 0"
+            )
+        for name, value in self.values.items():
+            put(found, name, "", value, _dimension(name))
+        return [balance, found]
+
+
+def _dimension(name: str) -> str:
+    return "torque" if ".M" in name else "force"

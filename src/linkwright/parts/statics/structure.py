@@ -1,0 +1,126 @@
+"""Pinned structures: the reactions of a model that cannot move, by the solver of mechanisms, or how it can move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding, ModelError
+from linkwright.kinematics.rank import ConstraintSystem
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.parts.base import Block, Floats, Result, Row, fault
+from linkwright.parts.statics.body import describe
+from linkwright.structure import StructureError, structure
+from linkwright.words import Say
+from linkwright.words.sentence import Sentence
+from linkwright.worked.page import Step
+
+#: Starts of the search for a position, and the gap below which the joints close.
+STARTS, CLOSED = 24, 1e-10
+
+
+def equilibrium(mechanism: Mechanism) -> StructureForces:
+    """Reactions of all joints of a structure at rest; with drivers, in the first position of the cycle.
+
+    Raises ModelError, with the motion in words, where a structure without driver can move; StructureError where it
+    is held more often than statics can tell.
+    """
+    if not mechanism.drivers:
+        findings = _freedoms(mechanism)
+        if findings:
+            raise ModelError(findings)
+    return StructureForces(solve_forces(solve_motion(mechanism, steps=1), static=True))
+
+
+def _freedoms(mechanism: Mechanism) -> list[Finding]:
+    """One finding for each way in which the structure can move; raises StructureError where counting refuses."""
+    try:
+        if structure(mechanism).mobility <= 0:
+            return []
+    except StructureError:
+        pass
+    system = ConstraintSystem(mechanism)
+    place = _closed(system)
+    if place is None:
+        structure(mechanism)
+        return []
+    _, values, rows = np.linalg.svd(system.jacobian(place))
+    rank = int((values > 1e-8 * values[0]).sum())
+    return [fault("statics.structure_moves", "links", how=_motion(system, row)) for row in rows[rank:]]
+
+
+def _closed(system: ConstraintSystem) -> Floats | None:
+    """Coordinates in which all joints close, found from several starts; None where none was found."""
+    from scipy.optimize import least_squares
+
+    generator = np.random.default_rng(1)
+    for _ in range(STARTS):
+        start = generator.uniform(-1.0, 1.0, system.freedoms)
+        found = least_squares(system.residual, start, jac=system.jacobian, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        if np.abs(found.fun).max() < CLOSED:
+            return np.asarray(found.x)
+    return None
+
+
+def _motion(system: ConstraintSystem, motion: Floats) -> tuple[Sentence, ...]:
+    """What every moving link does in a small motion."""
+    found = []
+    for i, link in enumerate(system.links):
+        part = motion[3 * i : 3 * i + 3]
+        if np.abs(part).max() > 1e-6:
+            how = describe(np.where(np.abs(part) < 1e-9, 0.0, part), system.size, planar=True)
+            kind = "statics.link_slides" if how.key == "statics.slides" else "statics.link_turns"
+            found.append(Sentence(kind, link=link))
+    return tuple(found)
+
+
+@dataclass(frozen=True, repr=False)
+class StructureForces(Result):
+    """Reactions at every joint of a structure; ``forces`` is the full result of the reaction solver."""
+
+    area: ClassVar[str] = "statics"
+    forces: Forces
+
+    @property
+    def title(self) -> str:
+        return self.forces.mechanism.name
+
+    def reaction(self, joint: str, on: str) -> Floats:
+        """Force (2,) N that a joint exerts on a link."""
+        return np.asarray(self.forces.reaction(joint, on=on)[0])
+
+    def pairs(self) -> list[tuple[str, str]]:
+        """Joints and links on which their reactions are listed: every moving link that they touch."""
+        joints = self.forces.mechanism.joints
+        return [(name, link) for name, joint in joints.items() for link in joint.joined if link != "frame"]
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = []
+        for joint, link in self.pairs():
+            x, y = self.reaction(joint, link)
+            label = say("statics.joint_on", joint=joint, link=link)
+            rows += [
+                Row("reaction", float(x), "force", f"{label} Fx"),
+                Row("reaction", float(y), "force", f"{label} Fy"),
+            ]
+            couple = float(self.forces.couple(joint, on=link)[0])
+            if abs(couple) > 1e-9:
+                rows.append(Row("couple", couple, "torque", f"{label} M"))
+        for driver in self.forces.mechanism.drivers:
+            rows.append(Row("effort", float(self.forces.driver_effort(driver)[0]), "torque", driver))
+        gap = float(self.forces.balance_residual.max())
+        return [Block("reactions", say("statics.reactions"), rows, (say("statics.gap", gap=f"{gap:.1e}"),))]
+
+    def steps(self, say: Say) -> list[Step]:
+        from linkwright.worked.solution import worked
+
+        return list(worked(self.forces, language=_language(say)).steps)
+
+
+def _language(say: Say) -> str:
+    """The language of a speaker."""
+    return str(getattr(say, "keywords", {}).get("language", "en"))

@@ -1,0 +1,136 @@
+"""A wedge under a guided load: the push that raises it, the pull or push that lowers it, self-locking."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding
+from linkwright.model.fields import Quantity
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+
+@dataclass(frozen=True)
+class Wedge(Problem):
+    """A wedge of ``angle`` (rad) pushed on a level floor lifts a ``load`` (N) that a vertical wall guides.
+
+    ``friction``: coefficient on the slope; ``floor`` and ``wall``: on the floor and on the wall, the same as on the
+    slope unless given.
+    """
+
+    kind: ClassVar[str] = "wedge"
+    fields: ClassVar = {
+        "load": Quantity("force", required=True, above=0.0, doc="load to be raised"),
+        "angle": Quantity("angle", required=True, above=0.0, doc="angle of the wedge"),
+        "friction": Quantity(
+            "dimensionless", required=True, minimum=0.0, doc="coefficient of friction on the slope"
+        ),
+        "floor": Quantity("dimensionless", minimum=0.0, doc="on the floor, as on the slope unless given"),
+        "wall": Quantity(
+            "dimensionless", minimum=0.0, doc="on the guiding wall, as on the slope unless given"
+        ),
+    }
+    load: float
+    angle: float
+    friction: float
+    floor: float | None = None
+    wall: float | None = None
+    name: str = ""
+    source: str = ""
+
+    @property
+    def friction_angles(self) -> tuple[float, float, float]:
+        """ρ on slope, floor and wall, rad."""
+        coefficients = (self.friction, self.floor, self.wall)
+        return tuple(math.atan(self.friction if c is None else c) for c in coefficients)  # type: ignore[return-value]
+
+    def push(self, sense: int = 1, load: float | None = None) -> float:
+        """Push on the wedge (N) while the load rises (``sense`` 1) or sinks (-1).
+
+        R = Q cos ρw/cos(α + ρ + ρw), P = R sin(α + ρ + ρf)/cos ρf; for sinking the friction angles are
+        negative.
+        """
+        slope, floor, wall = (sense * angle for angle in self.friction_angles)
+        between = (self.load if load is None else load) * math.cos(wall) / math.cos(self.angle + slope + wall)
+        return between * math.sin(self.angle + slope + floor) / math.cos(floor)
+
+    def findings(self) -> list[Finding]:
+        if self.angle >= math.pi / 2:
+            return [fault("statics.wedge_angle", "angle")]
+        slope, _, wall = self.friction_angles
+        if self.angle + slope + wall >= math.pi / 2:
+            return [fault("statics.wedge_stuck", "friction", sum=math.degrees(self.angle + slope + wall))]
+        return []
+
+    def solve(self) -> WedgeForces:
+        """The forces. Raises ModelError with all findings."""
+        self.require()
+        return WedgeForces(self)
+
+
+@dataclass(frozen=True, repr=False)
+class WedgeForces(Result):
+    """``raising`` and ``lowering`` push on the wedge, N; a negative one is a pull: the wedge locks itself."""
+
+    area: ClassVar[str] = "statics"
+    wedge: Wedge
+
+    @property
+    def title(self) -> str:
+        return self.wedge.name
+
+    @property
+    def raising(self) -> float:
+        """Push that raises the load, N."""
+        return self.wedge.push(1)
+
+    @property
+    def lowering(self) -> float:
+        """Push that just lets the load sink, N."""
+        return self.wedge.push(-1)
+
+    @property
+    def efficiency(self) -> float:
+        """Useful work over work of the push: Q tan α/P."""
+        return self.wedge.load * math.tan(self.wedge.angle) / self.raising
+
+    @property
+    def locks(self) -> bool:
+        """Whether the load cannot drive the wedge out: α ≤ ρ slope + ρ floor."""
+        return self.lowering <= 0.0
+
+    def columns(self) -> dict[str, Floats]:
+        """Push over the wedge's angle."""
+        slope, _, wall = self.wedge.friction_angles
+        angles = np.linspace(0.0, min(2 * self.wedge.angle, 0.98 * (math.pi / 2 - slope - wall)), 181)
+        wedges = [
+            Wedge(self.wedge.load, a, self.wedge.friction, self.wedge.floor, self.wedge.wall) for a in angles
+        ]
+        return {
+            "angle [rad]": angles,
+            "raising [N]": np.array([each.push(1) for each in wedges]),
+            "lowering [N]": np.array([each.push(-1) for each in wedges]),
+        }
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = [
+            Row("raising", self.raising, "force"), Row("lowering", self.lowering, "force"),
+            Row("efficiency", self.efficiency),
+        ]  # fmt: skip
+        return [Block("wedge", "", rows, (say("statics.locks" if self.locks else "statics.runs_back"),))]
+
+    def steps(self, say: Say) -> list[Step]:
+        step = Step("1", say("statics.wedge_step"))
+        for name, angle in zip(("ρ", "ρf", "ρw"), self.wedge.friction_angles, strict=True):
+            put(step, name, "arctan μ", angle, "angle")
+        put(step, "P↑", "Q·cos ρw/cos(α + ρ + ρw)·sin(α + ρ + ρf)/cos ρf", self.raising, "force")
+        put(step, "P↓", "Q·cos ρw/cos(α − ρ − ρw)·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
+        put(step, "η", "Q·tan α/P↑", self.efficiency)
+        step.say(say("statics.locks" if self.locks else "statics.runs_back"))
+        return [step]

@@ -1,0 +1,130 @@
+"""What the diagrams of machine parts have in common: curves over a quantity, arrows in a plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.parts.display import UNITS, unit
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import Request
+from linkwright.plot.diagrams.legend import Legend
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
+from linkwright.plot.diagrams.units import Unit, unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve: places and values, SI; ``label`` for the legend, ``marks`` indices that are named."""
+
+    x: Floats
+    y: Floats
+    label: str = ""
+    marks: tuple[int, ...] = ()
+    dash: str = "-"
+
+
+@dataclass(frozen=True)
+class Pane:
+    """A panel: its title, the dimension of its values, its curves; ``fill`` shades the first down to zero."""
+
+    title: str
+    dimension: str
+    lines: tuple[Line, ...]
+    fill: bool = False
+    log: bool = False
+
+
+def unit_for(dimension: str, lines: Sequence[Line] = ()) -> Unit:
+    """The unit of an axis."""
+    if dimension in ("", "dimensionless"):
+        return Unit("", 1.0)
+    if dimension in UNITS:
+        return Unit(*UNITS[dimension])
+    try:
+        return unit_of(dimension, [line.y for line in lines])
+    except KeyError:
+        return Unit(unit(dimension), 1.0)
+
+
+def panes(
+    title: str, across: tuple[str, str], given: Sequence[Pane], request: Request, *, logx: bool = False
+) -> Figure:
+    """Panels one below the other over one axis, which has a name and a dimension."""
+    figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(given), 1.45)))
+    axes = list(figure.subplots(len(given), 1, sharex=True, squeeze=False)[:, 0])
+    legend = Legend()
+    below = unit_for(across[1])
+    for one, pane in zip(axes, given, strict=True):
+        _pane(one, pane, below, legend)
+        if logx:
+            one.set_xscale("log")
+    axes[-1].set_xlabel(below.label(across[0]))
+    framed(figure, title, request)
+    figure.align_ylabels(axes)
+    legend.put(figure)
+    return figure
+
+
+def _pane(axes: Axes, pane: Pane, below: Unit, legend: Legend) -> None:
+    shown = unit_for(pane.dimension, pane.lines)
+    if not pane.log:
+        axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
+    for number, line in enumerate(pane.lines):
+        colour = COLOURS[number % len(COLOURS)]
+        x, y = line.x * below.factor, line.y * shown.factor
+        (drawn,) = axes.plot(x, y, color=colour, linestyle=line.dash)
+        if line.label:
+            legend.add(line.label, drawn)
+        if pane.fill and number == 0:
+            axes.fill_between(x, y, 0.0, color=colour, alpha=0.12, linewidth=0)
+        for index in line.marks:
+            axes.plot(x[index], y[index], "o", color=colour, markersize=3.5)
+            axes.annotate(shown.text(float(line.y[index])), (x[index], y[index]), (3, 4),
+                          textcoords="offset points", fontsize=7.5, color=INK)  # fmt: skip
+    if pane.log:
+        axes.set_yscale("log")
+    else:
+        axes.margins(y=0.16)
+    axes.set_ylabel(shown.label(pane.title, "\n"))
+
+
+def plane(title: str, request: Request, count: int = 1) -> tuple[Figure, list[Axes]]:
+    """Axes of equal scale side by side."""
+    figure = new_figure(request.size or (4.2 * count + 1.2, 4.6))
+    found = list(figure.subplots(1, count, squeeze=False)[0])
+    for axes in found:
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.margins(0.15)
+    framed(figure, title, request)
+    return figure, found
+
+
+def arrow(axes: Axes, start: Floats, vector: Floats, colour: str, label: str) -> None:
+    """An arrow from a place, named at its head; nothing for a vector that is zero."""
+    if not np.any(vector):
+        return
+    end = start + vector
+    axes.plot([start[0], end[0]], [start[1], end[1]], color=colour, linewidth=0.01)
+    look = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", tuple(end), tuple(start), zorder=3, arrowprops=look)
+    axes.annotate(label, tuple(end), (4, 4), textcoords="offset points", fontsize=7.5, color=colour)
+
+
+def point(axes: Axes, place: Floats, name: str) -> None:
+    """A named place."""
+    axes.plot(place[0], place[1], "o", color=INK, markersize=4, markerfacecolor="white")
+    axes.annotate(name, (place[0], place[1]), (-4, -11), textcoords="offset points", fontsize=8, color=INK)
+
+
+def line_of(axes: Axes, places: Floats) -> None:
+    """A member between places (n, 2)."""
+    axes.plot(places[:, 0], places[:, 1], color=FAINT, linewidth=3.0, solid_capstyle="round", zorder=1)

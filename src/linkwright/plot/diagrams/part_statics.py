@@ -1,0 +1,145 @@
+"""Diagrams of statics: force polygons, bodies and structures with their reactions, belts and wedges."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.parts.display import shown
+from linkwright.parts.statics.belt import BeltTensions
+from linkwright.parts.statics.body import HELD, Reactions
+from linkwright.parts.statics.forces import Resultant, spatial
+from linkwright.parts.statics.structure import StructureForces
+from linkwright.parts.statics.wedge import WedgeForces
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
+from linkwright.plot.diagrams.picture import COLOURS, INK
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Longest arrow as a share of the picture's size.
+LONGEST = 0.4
+
+
+@RESULT_DIAGRAMS.register("resultant")
+class ResultantDiagram(ResultKind):
+    """Forces head to tail with their resultant, in one plane or in two."""
+
+    name = "resultant"
+    takes = Resultant
+
+    def draw(self, result: Resultant, request: Request) -> Figure:
+        vectors = {name: each.vector for name, each in result.system.forces.items()}
+        spread = any(vector[2] for vector in vectors.values())
+        planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
+        figure, axes = plane(f"{result.title}: {request.say('kind.resultant')}", request, len(planes))
+        for one, (a, b) in zip(axes, planes, strict=True):
+            place = np.zeros(2)
+            for name, vector in vectors.items():
+                arrow(one, place, vector[[a, b]], COLOURS[0], name)
+                place = place + vector[[a, b]]
+            arrow(one, np.zeros(2), result.force[[a, b]], COLOURS[1], "R")
+            one.set_xlabel(f"F{'xyz'[a]} (N)")
+            one.set_ylabel(f"F{'xyz'[b]} (N)")
+        return figure
+
+
+@RESULT_DIAGRAMS.register("body_reactions")
+class BodyDiagram(ResultKind):
+    """A body's forces and reactions at their places, in the plane x, y."""
+
+    name = "body_reactions"
+    takes = Reactions
+
+    def draw(self, result: Reactions, request: Request) -> Figure:
+        body = result.body
+        figure, (axes,) = plane(f"{result.title}: {request.say('kind.body_reactions')}", request)
+        arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
+        for name, support in body.supports.items():
+            point(axes, spatial(support.at)[:2], name)
+            arrows.append((spatial(support.at)[:2], _reaction(result, name), COLOURS[0], name))
+        _arrows(axes, arrows)
+        return figure
+
+
+@RESULT_DIAGRAMS.register("structure_reactions")
+class StructureDiagram(ResultKind):
+    """A structure's links with the forces that joints exert on them."""
+
+    name = "structure_reactions"
+    takes = StructureForces
+
+    def draw(self, result: StructureForces, request: Request) -> Figure:
+        motion = result.forces.motion
+        figure, (axes,) = plane(f"{result.title}: {request.say('kind.structure_reactions')}", request)
+        for name, link in motion.mechanism.links.items():
+            places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
+            line_of(axes, places)
+            for p, place in zip(link.points, places, strict=True):
+                point(axes, place, p)
+        ground = [pair for pair in result.pairs() if "frame" in motion.mechanism.joints[pair[0]].joined]
+        arrows = []
+        for joint, on in ground:
+            at = getattr(motion.mechanism.joints[joint], "at", joint)
+            place = motion.point(f"{on}.{at}").position[0]
+            arrows.append((place, result.reaction(joint, on), COLOURS[0], joint))
+        _arrows(axes, arrows)
+        return figure
+
+
+@RESULT_DIAGRAMS.register("belt_tension")
+class BeltDiagram(ResultKind):
+    """Tension along the contact."""
+
+    name = "belt_tension"
+    takes = BeltTensions
+
+    def draw(self, result: BeltTensions, request: Request) -> Figure:
+        angle, tension = result.columns().values()
+        pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
+        title = f"{result.title}: {request.say('kind.belt_tension')}"
+        return panes(title, (request.say("wrap"), "angle"), [pane], request)
+
+
+@RESULT_DIAGRAMS.register("wedge_push")
+class WedgeDiagram(ResultKind):
+    """Push over the wedge's angle."""
+
+    name = "wedge_push"
+    takes = WedgeForces
+
+    def draw(self, result: WedgeForces, request: Request) -> Figure:
+        angle, up, down = result.columns().values()
+        lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
+        title = f"{result.title}: {request.say('kind.wedge_push')}"
+        return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+
+
+def _reaction(result: Reactions, support: str) -> Floats:
+    """Sum of a support's forces in the plane."""
+    total = np.zeros(3)
+    given = result.body.supports[support]
+    for word in given.holds:
+        if word in HELD[:3]:
+            total["xyz".index(word)] += result.values[f"{support}.F{word}"]
+    if given.along:
+        along = spatial(given.along)
+        total += result.values[f"{support}.S"] * along / np.linalg.norm(along)
+    return total[:2]
+
+
+def _arrows(axes: Axes, arrows: list[tuple[Floats, Floats, str, str]]) -> None:
+    """Arrows of one scale, each named with its size."""
+    places = np.array([place for place, *_ in arrows])
+    size = float(np.ptp(places, axis=0).max()) or 1.0
+    largest = max(float(np.hypot(*vector)) for _, vector, *_ in arrows) or 1.0
+    for place, vector, colour, name in arrows:
+        text = f"{name}: {shown(float(np.hypot(*vector)), 'force', 4)}"
+        arrow(axes, place, vector * LONGEST * size / largest, colour, text)
+    axes.plot(*places.T, ".", color=INK, markersize=2)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
