@@ -1,5 +1,7 @@
 """Diagrams: what is drawn, what is marked, words and fonts, files, refusals."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -195,3 +197,41 @@ def test_numbers_and_units() -> None:
     assert unit_of("force", [np.array([1.0, -25e3])]).text(-25e3) == "−25 kN"
     assert unit_of("torque", [np.array([1800.0])]).text(1797.25) == "1797 N·m"
     assert [round_up(v) for v in (0.011, 0.2, 3.0, 7.0)] == pytest.approx([0.02, 0.2, 5.0, 10.0])
+
+
+def test_all_outputs_that_are_asked_for_are_drawn() -> None:
+    shaper = lw.solve_motion(lw.load("gallery:shaper_quick_return"), steps=60)
+    diagram = plot(shaper, "sva", of=["lever", "ram", "crank"])
+    angles, lines = diagram.figure.axes[0], [axes.lines for axes in diagram.figure.axes]
+    drawn = [np.asarray(line.get_ydata())[:-1] for line in angles.lines if len(line.get_ydata()) > 2]
+    for link, values in zip(("lever", "crank"), drawn, strict=True):
+        assert values == pytest.approx(np.degrees(shaper.link(link).angle))
+    travel = [np.asarray(line.get_ydata()) for line in lines[3] if len(line.get_ydata()) > 2]
+    assert len(travel) == 1
+    assert travel[0][:-1] == pytest.approx(1e3 * shaper.joint("guide").displacement)
+    assert {"lever", "ram", "crank"} <= set(words_of(diagram))
+
+
+def test_an_option_without_use_is_refused_by_every_kind(forces: lw.Forces) -> None:
+    given = {"of": "jaw", "joint": "B", "on": "jaw", "axes": "jaw", "at": 1.0, "fluctuation": 0.1}
+    for kind in DIAGRAMS:
+        for option in set(given) - set(DIAGRAMS[kind]().options):
+            with pytest.raises(LinkwrightError, match=f'{kind} has no use for "{option}"'):
+                plot(forces, kind, **{option: given[option]})  # type: ignore[arg-type]
+
+
+def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
+    with pytest.raises(LinkwrightError, match="give 1 to 100 each"):
+        plot(forces, "torque", size=(7.0, 1e6))
+    with pytest.raises(LinkwrightError, match="dots per inch; give 1 to"):
+        plot(forces, "torque").png(dpi=1e5)
+
+
+def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
+    code = (
+        "import sys, linkwright as lw; from linkwright.plot import plot;"
+        "plot(lw.load('gallery:crank_rocker'), 'sva').svg();"
+        "print(*(set(sys.modules) & {'fontTools.subset', 'matplotlib.pyplot', 'scipy', 'ezdxf'}))"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.split() == []

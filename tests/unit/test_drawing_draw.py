@@ -207,7 +207,7 @@ def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
         ({"overlay": "faded:0"}, "faded:0"),
         ({"dimensions": ("jam",), "at": 0.1}, "jam"),
         ({"language": "de"}, '"de"'),
-        ({"size": -3}, "pixels above 0"),
+        ({"size": -3}, "pixels large; give 8 to 32000"),
         ({"dimensions": ("jam",)}, "jam"),
         ({"velocities": ("Z",)}, "Z"),
     ],
@@ -215,6 +215,16 @@ def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
 def test_what_is_refused(crusher: lw.Motion, options: dict[str, object], words: str) -> None:
     with pytest.raises(lw.LinkwrightError, match=re.escape(words)):
         draw(crusher, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("width", [0, 1_000_000, 7])
+def test_a_width_beyond_reason_is_refused_with_its_range(crusher: lw.Motion, width: int) -> None:
+    pytest.importorskip("resvg_py")
+    with pytest.raises(
+        lw.LinkwrightError, match=rf"cannot be {width} pixels wide; give a width from 8 to \d+$"
+    ):
+        draw(crusher).png(width=width)
+    assert draw(crusher).png(width=8).startswith(b"\x89PNG")
 
 
 def test_forces_of_another_motion_are_refused(crusher: lw.Motion) -> None:

@@ -38,6 +38,8 @@ Progress = Callable[[int, int], None]
 FILM_RATE = 25
 STEPS = 360
 LABEL_FRAMES = 12
+#: Smallest and largest width of GIF and MP4, pixels.
+WIDTHS = (16, 3840)
 
 
 def animate(
@@ -179,6 +181,10 @@ class Animation:
         missing package or font, a folder that cannot be written.
         """
         suffix = Path(path).suffix.lower()
+        if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
+            raise LinkwrightError(
+                f"a film cannot be {width:.12g} pixels wide; give a width from {WIDTHS[0]} to {WIDTHS[1]}"
+            )
         if suffix == ".svg":
             return write_whole(path, self.svg.encode())
         if suffix == ".gif":

@@ -37,7 +37,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     what.add_argument("--axes", metavar="LINK", help=say("plot.axes_help"))
     what.add_argument("--at", metavar="INPUT", help=say("plot.at_help"))
     what.add_argument("--steps", type=whole_number, default=STEPS, metavar="N", help=say("plot.steps_help"))
-    what.add_argument("--fluctuation", default="0.03", metavar="δ", help=say("plot.fluctuation_help"))
+    what.add_argument("--fluctuation", metavar="δ", help=say("plot.fluctuation_help"))
     what.add_argument("--static", action="store_true", help=say("plot.static_help"))
     form = parser.add_argument_group(say("plot.form_title"))
     form.add_argument("--no-marks", action="store_true", help=say("plot.no_marks_help"))
@@ -49,8 +49,10 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
-    _require_kind(options.kind)
-    fluctuation = _number(options.fluctuation, "fluctuation", 0.0, math.inf, session.say)
+    _require_kind(options)
+    fluctuation = options.fluctuation and _number(
+        options.fluctuation, "fluctuation", 0.0, math.inf, session.say
+    )
     dpi = _number(options.dpi, "dpi", 9.999, 2400.0, session.say)
     path = _path(options, session.say)
     motions = _solved(options, session)
@@ -59,14 +61,19 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(not all(motion.ok.all() for motion in motions.values()))
 
 
-def _require_kind(name: str) -> None:
+def _require_kind(options: argparse.Namespace) -> None:
     from linkwright.errors import LinkwrightError
-    from linkwright.plot.diagrams.make import require_kind
+    from linkwright.plot.diagrams.base import OPTIONS
+    from linkwright.plot.diagrams.make import require_kind, require_options
 
+    option = "kind"
     try:
-        require_kind(name)
+        require_kind(options.kind)
+        for option in OPTIONS:
+            if getattr(options, option):
+                require_options(options.kind, [option])
     except LinkwrightError as error:
-        raise UsageError(Sentence("cli.about", name="--kind", cause=error)) from None
+        raise UsageError(Sentence("cli.about", name=f"--{option}", cause=error)) from None
 
 
 def _path(options: argparse.Namespace, say: Say) -> Path:
@@ -104,7 +111,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
 
 
 def _drawn(
-    options: argparse.Namespace, session: Session, motions: dict[str, Motion], fluctuation: float
+    options: argparse.Namespace, session: Session, motions: dict[str, Motion], fluctuation: float | None
 ) -> Diagram:
     from linkwright.plot.diagrams.make import plot
 

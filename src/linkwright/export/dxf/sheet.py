@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -19,14 +18,15 @@ from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.parts import Part
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
+from linkwright.plot.svg.characters import one_line
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import PIN, Vec, points
 
-#: Layers with their colours (numbers of the AutoCAD colour index).
-LAYERS = {"frame": 8, "links": 5, "joints": 1, "paths": 3, "dimensions": 4, "text": 7}
+#: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a
+#: dark grey and a black sheet; 7 is white or black, as the sheet demands.
+LAYERS = {"frame": 8, "links": 150, "joints": 1, "paths": 92, "dimensions": 42, "text": 7}
 #: Layer of each layer of the drawing on paper.
 _OF_PART = {"ground": "frame", "bodies": "links", "blocks": "joints", "tops": "joints"}
-_CONTROL = re.compile(r"[\x00-\x1f]")
 STYLE = "LINKWRIGHT"
 
 
@@ -94,7 +94,7 @@ class Sheet:
             "height": height,
             "insert": self._units(points([paper]))[0],
         }
-        self.space.add_text(_CONTROL.sub(" ", text), dxfattribs=attributes)
+        self.space.add_text(one_line(text).replace("%%", "%%%%%%"), dxfattribs=attributes)
 
     def _units(self, paper: Floats) -> Floats:
         """Points of the paper in units of the drawing."""

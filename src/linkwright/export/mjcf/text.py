@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 
 import numpy as np
 
 from linkwright.kinematics.motion import Motion
-
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+from linkwright.plot.svg.characters import printable
 
 
 def numbers(values: Iterable[float]) -> str:
@@ -30,7 +28,7 @@ def written(root: ET.Element) -> bytes:
     ET.indent(root)
     for element in root.iter():
         for name, value in element.attrib.items():
-            element.attrib[name] = _CONTROL.sub("", value)
+            element.attrib[name] = printable(value)
     return (
         b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from linkwright.plot.svg.characters import one_line, printable
+
 
 def number(value: float) -> str:
     """A number with all its digits."""
@@ -12,8 +14,7 @@ def number(value: float) -> str:
 
 def quoted(text: str) -> str:
     """A text in quotes, on one line."""
-    plain = "".join(c if c >= " " else " " for c in text)
-    return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return '"' + one_line(text).replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 class Names:
@@ -41,6 +42,6 @@ class Names:
 
 def identifier(name: str) -> str:
     """A Modelica identifier that looks like the name."""
-    plain = "".join(c if c.isascii() else f"u{ord(c):04x}" for c in name)
+    plain = "".join(c if c.isascii() else f"u{ord(c):04x}" for c in printable(name))
     plain = re.sub(r"\W", "_", plain)
     return plain if plain[:1].isalpha() else f"n_{plain}"

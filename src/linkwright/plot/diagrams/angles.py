@@ -9,8 +9,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
-from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
-from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.source import TURN, Source
 
 
@@ -19,6 +18,7 @@ class Angles(OverInput):
     """Angle, angular velocity and angular acceleration of several links, each link a curve."""
 
     name = "angles"
+    options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:
         if len(request.of) == 1:
@@ -49,7 +49,7 @@ class Angles(OverInput):
 def _curves(links: list[str], values: list[Floats]) -> tuple[Curve, ...]:
     peak, found = "both" if len(links) == 1 else "", []
     for number, (name, each) in enumerate(zip(links, values, strict=True)):
-        colour, dash = COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
+        colour, dash = look(number)
         found.append(Curve(name, each, peak, colour, dash))
     return tuple(found)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.svg.characters import printable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,7 +45,7 @@ def input_label(axis: InputAxis, say: Say) -> str:
 
 def framed(figure: Figure, title: str, request: Request) -> None:
     """The title: the one asked for, or this one; none where an empty one is asked for."""
-    text = title if request.title is None else request.title
+    text = printable(title if request.title is None else request.title)
     if text:
         figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
 

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from linkwright.plot.diagrams.source import Source
 
 
+#: What may be asked of some kinds of diagrams only.
+OPTIONS = ("of", "joint", "on", "axes", "at", "fluctuation", "static")
+
+
 @dataclass(frozen=True)
 class Request:
     """What is asked of a diagram.
@@ -48,9 +52,10 @@ class Request:
 
 
 class Kind(ABC):
-    """A kind of diagram."""
+    """A kind of diagram; ``options``: those of OPTIONS that it has a use for."""
 
     name: ClassVar[str]
+    options: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
@@ -64,6 +69,7 @@ class ResultKind(ABC):
     """A kind of diagram of one result that has no single motion behind it: a comparison, a study, a balancing."""
 
     name: ClassVar[str]
+    options: ClassVar[tuple[str, ...]] = ()
     takes: ClassVar[type]
     usual: ClassVar[bool] = True
 

@@ -45,6 +45,7 @@ class ComparisonCurves(ResultKind):
     """
 
     name = "comparison"
+    options = ("of",)
     takes = Comparison
 
     def draw(self, result: Comparison, request: Request) -> Figure:

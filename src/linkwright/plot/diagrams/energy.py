@@ -22,6 +22,7 @@ class Energy(OverInput):
     """
 
     name = "energy"
+    options = ("static",)
 
     def axis(self, source: Source) -> InputAxis:
         reduced, found = _reduced(source)

@@ -54,6 +54,7 @@ class ForcePolygon(Kind):
     """
 
     name = "force_polygon"
+    options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:

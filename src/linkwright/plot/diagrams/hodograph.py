@@ -32,6 +32,7 @@ class Hodograph(Kind):
     """
 
     name = "hodograph"
+    options = ("joint", "on", "axes", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         require_forces(sources[0].forces)

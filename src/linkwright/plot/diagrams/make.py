@@ -11,6 +11,7 @@ from linkwright.machine.running import SteadyRunning
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
+from linkwright.plot.svg.characters import printable
 from linkwright.registry import nearest
 from linkwright.units import parse
 from linkwright.words import LANGUAGES
@@ -50,7 +51,7 @@ def plot(
     on: str | None = None,
     axes: str | None = None,
     at: float | str | None = None,
-    fluctuation: float = 0.03,
+    fluctuation: float | None = None,
     static: bool = False,
     marks: bool = True,
     title: str | None = None,
@@ -72,19 +73,19 @@ def plot(
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
         axes: ``"frame"``, or a link in whose axes forces are resolved.
         at: the input of a polygon: rad, m or s, or a text with its unit (``"30 deg"``).
-        fluctuation: required δ of the flywheel in ``speed``.
-        static: leave the inertia forces out where forces are solved here.
+        fluctuation: required δ of the flywheel in ``speed``, 0.03 unless given.
+        static: leave the inertia forces out; of forces that are solved here.
         marks: limit positions, peaks, phases and inputs along curves.
         title: a title of your own; ``""`` for none.
-        size: width and height in inches; polygons have their own, by their scale.
+        size: width and height in inches, 1 to 100; polygons have their own, by their scale.
         language: ``en`` or ``zh``.
 
     Returns:
         The diagram; ``save("x.svg")``, ``.pdf``, ``.png``.
 
     Raises:
-        LinkwrightError: an unknown kind or name, a diagram that makes no sense for the mechanism, no matplotlib,
-            or no font for Chinese.
+        LinkwrightError: an unknown kind or name, an option that the kind has no use for, a diagram that makes no
+            sense for the mechanism, no matplotlib, or no font for Chinese.
     """
     if language not in LANGUAGES:
         raise LinkwrightError(
@@ -95,15 +96,31 @@ def plot(
     name = own or kind or _usual(cast(_Solved, result))
     if not own:
         require_kind(name)
+    given = {
+        "of": of,
+        "joint": joint,
+        "on": on,
+        "axes": axes,
+        "at": at,
+        "fluctuation": fluctuation,
+        "static": static,
+    }
+    require_options(
+        name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
+    )
+    if size is not None and not all(1.0 <= each <= 100.0 for each in size):
+        raise LinkwrightError(
+            f"a diagram cannot be {size[0]:g} × {size[1]:g} inches large; give 1 to 100 each"
+        )
     request = Request(
         of=(of,) if isinstance(of, str) else tuple(of),
         joint=joint,
         on=on,
         axes=axes,
         at=_place(at, sources[0]) if sources else None,
-        fluctuation=fluctuation,
+        fluctuation=0.03 if fluctuation is None else fluctuation,
         marks=marks,
-        title=title,
+        title=None if title is None else printable(title).replace("\t", " "),
         size=size,
         language=language,
     )
@@ -126,6 +143,19 @@ def require_kind(name: str) -> None:
     offer = nearest(name, list(DIAGRAMS))
     hint = f'did you mean "{offer}"? ' if offer else ""
     raise LinkwrightError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
+
+
+def require_options(name: str, given: Sequence[str]) -> None:
+    """Raises LinkwrightError where a kind has no use for an option, with the kinds that have."""
+    kinds: dict[str, tuple[str, ...]] = {
+        each: family[each].options for family in (DIAGRAMS, RESULT_DIAGRAMS) for each in family
+    }
+    for option in given:
+        if option not in kinds[name]:
+            users = ", ".join(each for each in DIAGRAMS if option in kinds[each])
+            raise LinkwrightError(
+                f'a diagram of the kind {name} has no use for "{option}"; leave it out, or draw one of {users}'
+            )
 
 
 def _own_kind(result: object, kind: str | None) -> str | None:

@@ -33,6 +33,7 @@ class MetricsDiagram(ResultKind):
     """
 
     name = "metrics"
+    options = ("of",)
     takes = MetricsTable
 
     def draw(self, result: MetricsTable, request: Request) -> Figure:

@@ -115,6 +115,7 @@ class VelocityPolygon(MotionPolygons):
     """Velocities of all points from one pole p, and relative velocities between them."""
 
     name = "velocity_polygon"
+    options = ("at",)
     unit, letter = "m/s", "v"
 
     def polygon(self, motion: Motion) -> MotionPolygon:
@@ -126,6 +127,7 @@ class AccelerationPolygon(MotionPolygons):
     """Accelerations of all points from one pole p′; normal, tangential, Coriolis and sliding parts dashed."""
 
     name = "acceleration_polygon"
+    options = ("at",)
     unit, letter, prime = "m/s²", "a", "′"
 
     def polygon(self, motion: Motion) -> MotionPolygon:

@@ -68,6 +68,11 @@ class Panel:
         return unit_of(self.dimension, [curve.values for curve in self.curves])
 
 
+def look(number: int) -> tuple[str, str]:
+    """Colour and dash of one of many curves."""
+    return COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
+
+
 class OverInput(Kind):
     """A diagram of panels over the input."""
 

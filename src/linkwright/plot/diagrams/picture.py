@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import io
 import warnings
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.errors import LinkwrightError
 from linkwright.plot.diagrams.fonts import REMEDY, families
 from linkwright.plot.svg.files import write_whole
+from linkwright.plot.svg.render import MOST_PIXELS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,6 +83,12 @@ class Diagram:
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""
+        wide, tall = self.figure.get_size_inches()
+        if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
+            raise LinkwrightError(
+                f"a diagram of {wide:.3g} × {tall:.3g} inches cannot have {dpi:.12g} dots per inch; give 1 to "
+                f"{int((MOST_PIXELS / (wide * tall)) ** 0.5)}"
+            )
         if ending not in ENDINGS:
             raise LinkwrightError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
         return self._bytes(ending[1:], dpi)
@@ -91,19 +99,14 @@ class Diagram:
 
     def png(self, *, dpi: float = 200.0) -> bytes:
         """The diagram in pixels."""
-        return self._bytes("png", dpi)
+        return self.content(".png", dpi=dpi)
 
     def pdf(self) -> bytes:
         """The diagram as one page of vector PDF."""
         return self._bytes("pdf", 72.0)
 
     def _bytes(self, form: str, dpi: float) -> bytes:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.backends.backend_pdf import FigureCanvasPdf
-        from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-        canvases = {"svg": FigureCanvasSVG, "pdf": FigureCanvasPdf, "png": FigureCanvasAgg}
-        canvas: Any = canvases[form](self.figure)
+        canvas: Any = _canvas(form)(self.figure)
         stream = io.BytesIO()
         date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": "Linkwright"}}[form]
         with style(self.language), _no_boxes():
@@ -116,6 +119,16 @@ class Diagram:
     def __repr__(self) -> str:
         width, height = self.figure.get_size_inches()
         return f"Diagram({self.kind!r}: {width:g} × {height:g} inches)"
+
+
+def _canvas(form: str) -> Any:
+    """The canvas of one form; the others, and the packages that they need, are not imported."""
+    module, name = {
+        "svg": ("svg", "FigureCanvasSVG"),
+        "pdf": ("pdf", "FigureCanvasPdf"),
+        "png": ("agg", "FigureCanvasAgg"),
+    }[form]
+    return getattr(importlib.import_module(f"matplotlib.backends.backend_{module}"), name)
 
 
 @contextmanager

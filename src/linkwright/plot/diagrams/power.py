@@ -15,6 +15,7 @@ class Power(OverInput):
     """Power that all drivers supply together, from the powers of all forces."""
 
     name = "power"
+    options = ("static",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:
         return main_output(source.motion)

@@ -11,7 +11,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output, reaction_pairs
-from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
+from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import size
@@ -22,6 +22,7 @@ class Reactions(OverInput):
     """Sizes of the forces in all joints; or of one joint: size, and components in the frame's or a link's axes."""
 
     name = "reactions"
+    options = ("joint", "on", "axes", "static")
 
     def output(self, source: Source, request: Request) -> Output | str | None:
         return main_output(source.motion)
@@ -57,7 +58,7 @@ def _of_all(source: Source, request: Request) -> Panel:
     largest = max(sizes, key=lambda label: size(sizes[label]))
     curves = []
     for number, (label, values) in enumerate(sizes.items()):
-        colour, dash = COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
+        colour, dash = look(number)
         curves.append(Curve(label, values, "max" if label == largest else "", colour, dash))
     return Panel(f"{request.say('joint_force')} F", "force", tuple(curves))
 

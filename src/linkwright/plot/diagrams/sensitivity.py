@@ -36,6 +36,7 @@ class RelativeSensitivity(ResultKind):
     """
 
     name = "sensitivity"
+    options = ("of",)
     takes = Sensitivity
 
     def suits(self, result: object) -> bool:
@@ -75,6 +76,7 @@ class SensitivityCurves(ResultKind):
     """
 
     name = "sensitivity_curves"
+    options = ("of",)
     takes = Sensitivity
 
     def suits(self, result: object) -> bool:

@@ -16,6 +16,7 @@ class Shaking(OverInput):
     """What the inertia of the moving links does to the frame: force with its components, moment about the origin."""
 
     name = "shaking"
+    options = ("static",)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         say, forces = request.say, source.forces

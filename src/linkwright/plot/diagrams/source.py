@@ -19,6 +19,7 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.plot.svg.characters import one_line
 from linkwright.words import Say
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
@@ -53,6 +54,8 @@ class Source:
     """
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
+        if static and isinstance(result, Forces) and not result.static:
+            raise LinkwrightError("these forces hold inertia forces; give the motion instead")
         self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static
@@ -63,7 +66,7 @@ class Source:
     @property
     def label(self) -> str:
         """Its name in the legend."""
-        return self._label or (self.mechanism.name if self.result_running is None else "")
+        return one_line(self._label or (self.mechanism.name if self.result_running is None else ""))
 
     @property
     def mechanism(self) -> Mechanism:

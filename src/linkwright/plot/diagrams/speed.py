@@ -20,6 +20,7 @@ class Speed(OverInput):
     """ω(φ) of steady running under a constant motor torque: with the flywheel for a required δ, and without any."""
 
     name = "speed"
+    options = ("fluctuation", "static")
 
     def axis(self, source: Source) -> InputAxis:
         if source.result_running is None:

@@ -22,6 +22,7 @@ class StudyDiagram(ResultKind):
     """
 
     name = "study"
+    options = ("of",)
     takes = Study
 
     def draw(self, result: Study, request: Request) -> Figure:

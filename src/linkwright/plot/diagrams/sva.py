@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from linkwright.metrics.outputs import rate, second, value
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
-from linkwright.plot.diagrams.panels import Curve, OverInput, Panel
+from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
@@ -31,19 +32,46 @@ class Sva(OverInput):
     """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point."""
 
     name = "sva"
+    options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:
-        return output_named(source.mechanism, request.of[0]) if request.of else main_output(source.motion)
+        asked = _asked(source, request)
+        return asked[0] if len(asked) == 1 else None
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
-        return request.say("motion_of", output=str(self.output(sources[0], request)))
+        return request.say("motion_of", output=", ".join(map(str, _asked(sources[0], request))))
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
-        output = self.output(source, request)
-        if isinstance(output, Output):
-            return _of_output(source, output, request.say)
-        assert output is not None
-        return _of_point(source, output, request.say)
+        asked = _asked(source, request)
+        parts = [
+            _of_output(source, each, request.say)
+            if isinstance(each, Output)
+            else _of_point(source, each, request.say)
+            for each in asked
+        ]
+        if len(asked) == 1:
+            return parts[0]
+        return _together([(str(each), panels) for each, panels in zip(asked, parts, strict=True)])
+
+
+def _asked(source: Source, request: Request) -> list[Output | str]:
+    """The outputs and points that are named, each once; else the main output."""
+    named = (output_named(source.mechanism, name) for name in request.of)
+    return list(dict.fromkeys(named)) or [main_output(source.motion)]
+
+
+def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
+    """Panels of several outputs, each in its colour: those of one quantity hold the curves of all that have it."""
+    found: dict[str, Panel] = {}
+    for number, (name, panels) in enumerate(parts):
+        for panel in panels:
+            curves = list(found[panel.title].curves) if panel.title in found else []
+            for which, curve in enumerate(panel.curves):
+                label = " ".join(filter(None, (name, curve.label)))
+                colour, dash = COLOURS[number % len(COLOURS)], DASHES[which % len(DASHES)]
+                curves.append(replace(curve, label=label, peak="", colour=colour, dash=dash))
+            found[panel.title] = replace(panel, curves=tuple(curves))
+    return list(found.values())
 
 
 def course(motion: Motion, output: Output) -> tuple[Floats, Floats, Floats]:

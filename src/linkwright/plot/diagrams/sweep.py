@@ -22,6 +22,7 @@ class SweepDiagram(ResultKind):
     """
 
     name = "sweep"
+    options = ("of",)
     takes = Sweep
 
     def draw(self, result: Sweep, request: Request) -> Figure:

@@ -14,6 +14,8 @@ from linkwright.plot.svg.element import Element, Floats, element, number
 from linkwright.plot.svg.render import png, save_picture
 
 MARGIN = 12.0
+#: Smallest and largest longer side of a drawing, pixels.
+SIZES = (8, 32_000)
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,8 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
 
 def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
     """A whole SVG document over a box; ``size`` is its longer side in pixels."""
-    if size is not None and not (np.isfinite(size) and size > 0):
-        raise LinkwrightError(f"the size of a drawing is {size}; give pixels above 0")
+    if size is not None and not SIZES[0] <= size <= SIZES[1]:
+        raise LinkwrightError(f"a drawing cannot be {size:.12g} pixels large; give {SIZES[0]} to {SIZES[1]}")
     left, top = box[0] - MARGIN, box[1] - MARGIN
     width, height = box[2] - left + MARGIN, box[3] - top + MARGIN
     factor = 1.0 if size is None else size / max(width, height)

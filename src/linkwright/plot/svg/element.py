@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.plot.svg.characters import printable
+
 Floats = NDArray[np.float64]
 Attribute = str | float
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
@@ -20,8 +22,8 @@ def number(value: float) -> str:
 
 
 def escape(text: str) -> str:
-    """Text that XML can carry: markup characters escaped, control characters left out."""
-    return "".join(c for c in text if c >= " " or c in "\t\n").translate(_ESCAPES)
+    """Text that XML can carry: markup characters escaped, what XML cannot hold left out."""
+    return printable(text).translate(_ESCAPES)
 
 
 @dataclass(frozen=True)

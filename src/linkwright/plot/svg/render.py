@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -12,13 +14,16 @@ from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.fonts import check_fonts
 
 Paths = Sequence[str | Path]
+#: Most pixels of one picture, and smallest width.
+MOST_PIXELS, LEAST_WIDTH = 100_000_000, 8
 
 
 def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths = ()) -> bytes:
     """The picture in pixels: ``width`` of them across, or ``zoom`` for each unit of the SVG.
 
-    ``fonts`` are files used beside the system's. Raises LinkwrightError where resvg-py is not installed, or
-    where the text has Chinese characters and no font for them is found.
+    ``fonts`` are files used beside the system's. Raises LinkwrightError where resvg-py is not installed, for a width
+    below 8 or with more than a hundred million pixels, or where the text has Chinese characters and no font for
+    them is found.
     """
     try:
         import resvg_py
@@ -28,6 +33,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
+    check_width(width, *_natural_size(svg), zoom)
     size: dict[str, Any] = {"width": int(width)} if width is not None else {"zoom": float(zoom)}
     try:
         return bytes(
@@ -40,6 +46,23 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         )
     except ValueError as problem:
         raise LinkwrightError(f"the picture cannot be made: {problem}; give a smaller size") from None
+
+
+def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) -> None:
+    """Raises LinkwrightError for a picture, ``wide`` × ``tall`` by nature, that is drawn too small or too large."""
+    across = zoom * wide if width is None else float(width)
+    most = math.floor(math.sqrt(MOST_PIXELS * wide / tall))
+    if not LEAST_WIDTH <= across <= most:
+        raise LinkwrightError(
+            f"a picture cannot be {across:.12g} pixels wide; give a width from {LEAST_WIDTH} to {most}"
+        )
+
+
+def _natural_size(svg: str) -> tuple[float, float]:
+    """Width and height that an SVG's first element gives itself."""
+    head = svg[: svg.index(">")]
+    found = {name: float(value) for name, value in re.findall(r'\b(width|height)="([\d.]+)"', head)}
+    return max(found["width"], 1e-3), max(found["height"], 1e-3)
 
 
 def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
