@@ -17,7 +17,24 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import KINDS, Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.sweep import sweep
-from linkwright.engine.trace import Trace, absolute, cos, select, sin, sqrt
+from linkwright.engine.trace import (
+    Trace,
+    absolute,
+    acos,
+    angle,
+    asin,
+    atan,
+    cos,
+    exp,
+    floor,
+    log,
+    power,
+    select,
+    sign,
+    sin,
+    sqrt,
+    tan,
+)
 
 PARAMETERS = ("a", "b", "c")
 POSITIONS = ("x", "y")
@@ -66,6 +83,9 @@ OPERATION: dict[str, Callable] = {  # type: ignore[type-arg]
     "neg": lambda a, b, c, d: -a,
     "root": lambda a, b, c, d: sqrt(1.0 + a * a),
     "sine": lambda a, b, c, d: sin(a) + cos(b),
+    "arcs": lambda a, b, c, d: angle(a, 2.0 + b * b) + atan(c) + asin(sin(a) * 0.9) * acos(cos(d) * 0.9),
+    "powers": lambda a, b, c, d: power(1.0 + a * a, sin(b)) + exp(-c * c) + log(2.0 + absolute(d)),
+    "steps": lambda a, b, c, d: a - 0.5 * floor(a * 2.0) + sign(b) + tan(0.5 * sin(c)),
     "constant": lambda a, b, c, d: 0.75 * a - 0.5,
     "select": lambda a, b, c, d: select(less(a, b), c, d),
     "both": lambda a, b, c, d: select(less(a, b) & negated(less(c, d)) | (b <= d), a, d),

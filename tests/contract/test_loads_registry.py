@@ -105,7 +105,9 @@ def examples() -> Iterator[tuple[str, dict[str, Any]]]:
             once = all(sum(name in group for name in set(chosen)) == 1 for group in cls.exactly_one)
             if once and set(chosen) <= set(all_keys):
                 kept = {k: v for k, v in all_keys.items() if k in chosen or k not in alternatives}
-                yield kind, kept
+                yield kind, {k: v for k, v in kept.items() if k != "opposes" or k in chosen}
+                if "opposes" in kept and "opposes" not in chosen:
+                    yield kind, kept
 
 
 EXAMPLES = [pytest.param(kind, keys, id=f"{kind}-{n}") for n, (kind, keys) in enumerate(examples())]
@@ -248,7 +250,7 @@ def mirrored_load(load: Load) -> Load:
         given, dimension = getattr(load, name), getattr(field, "dimension", "")
         if given is None or load.kind == Magnet.kind:
             continue
-        if dimension in ("angle", "torque"):
+        if dimension in ("angle", "torque") and getattr(load, "opposes", None) is None:
             changes[name] = -given
         elif name == "normal_to":
             changes[name] = given[::-1]
@@ -316,8 +318,8 @@ def test_every_kind_has_an_energy_or_dissipates() -> None:
 
 
 def has_energy(kind: str, keys: dict[str, Any]) -> bool:
-    """Whether a load has a potential: no damper, no force that turns with its link."""
-    return kind in ENERGIES and not {"in_link", "normal_to", "along"} & set(keys)
+    """Whether a load has a potential: no damper, nothing that turns with its link or opposes its velocity."""
+    return kind in ENERGIES and not {"in_link", "normal_to", "along", "opposes"} & set(keys)
 
 
 @pytest.mark.parametrize(("kind", "keys"), [each for each in EXAMPLES if has_energy(*each.values)])
@@ -345,6 +347,16 @@ def test_dampers_take_power(kind: str, keys: dict[str, Any], loss: str) -> None:
     sites = [FreeSite(mechanism, load, {n: b.moved(t) for n, b in BODIES.items()}) for t in (-h, h)]
     rate = (length(sites[1]) - length(sites[0])) / (2 * h) if loss == "length" else -2.1 - 1.3
     assert site.power() == pytest.approx(-3.0 * rate**2, rel=1e-8)
+
+
+@pytest.mark.parametrize(("kind", "keys"), [each for each in EXAMPLES if "opposes" in each.values[1]])
+def test_what_opposes_a_velocity_takes_its_power(kind: str, keys: dict[str, Any]) -> None:
+    """Magnitude times speed, whatever the direction."""
+    mechanism, load = built(kind, keys)
+    site = FreeSite(mechanism, load, BODIES)
+    speed = math.sqrt(site.velocity("arm", "D").square) if kind == "force" else abs(1.3 - -2.1)
+    assert speed > 0.1
+    assert site.power() == pytest.approx(-load.magnitude * speed, rel=1e-12)
 
 
 @each_load

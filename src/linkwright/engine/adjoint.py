@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.engine.replay import Replay, operations
-from linkwright.engine.tangent import slope
+from linkwright.engine.tangent import slope_of
 from linkwright.engine.trace import Mask, Node, Scalar, Value
 
 
@@ -75,8 +75,11 @@ class Adjoints:
             if args[1] in self._active:
                 self.add(args[1], t.neg(self._product(share, values[index], mask)), mask)
         else:
-            factor = slope(t, node.op, values[args[0]], values[index])
-            self.add(args[0], self._product(g, factor, mask), mask)
+            given = [values[a] for a in args]
+            for place, arg in enumerate(args):
+                if arg in self._active:
+                    factor = slope_of(t, node, given, values[index], place)
+                    self.add(arg, self._product(g, factor, mask), mask)
 
     def _pass_on_choice(self, args: tuple[int, ...], g: Scalar, mask: Mask | None) -> None:
         t = self._trace

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.lines import Lines
 from linkwright.engine.registers import NUMBER, ROW, TRUTH, Registers
+from linkwright.engine.table import Table
 
 Call = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -19,16 +21,12 @@ UFUNCS: dict[str, Callable[..., Any]] = {
     "mul": np.multiply,
     "div": np.divide,
     "neg": np.negative,
-    "sqrt": np.sqrt,
-    "abs": np.absolute,
-    "sin": np.sin,
-    "cos": np.cos,
     "less": np.less,
     "less_equal": np.less_equal,
     "and": np.logical_and,
     "or": np.logical_or,
     "not": np.logical_not,
-}
+} | {op: getattr(np, function.ufunc) for op, function in FUNCTIONS.items()}
 _ZERO = np.zeros(())
 
 
@@ -36,8 +34,8 @@ class BoundPlan:
     """Buffers and calls for ``designs`` designs (None: one, without an axis) and ``positions`` positions.
 
     Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the
-    boundary through :meth:`set_design`), call :meth:`run`, read ``outputs`` of shape
-    (outputs, designs, positions) or (outputs, positions) and ``carried``.
+    boundary through :meth:`set_design`) and ``tables`` in the program's order, call :meth:`run`,
+    read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions).
     """
 
     def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
@@ -51,6 +49,7 @@ class BoundPlan:
             "state": self._full,
         }
         self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *self._full))
+        self.tables: list[Table] = []
         self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in self._shapes}
         self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
@@ -102,6 +101,8 @@ class BoundPlan:
                 if out is not args[2]:
                     calls.append((np.copyto, (out, args[2])))
                 calls.append((np.copyto, (out, args[1], "same_kind", args[0])))
+            elif line.op == "lookup":
+                calls.append((_look_up, (self.tables, line.place, int(line.constant), args[0], out)))
             elif line.op == "number":
                 calls.append((np.copyto, (out, args[0])))
             elif line.op == "truth":
@@ -132,3 +133,9 @@ class BoundPlan:
         following = [np.array(self._arrays[i]) for i in self._lines.carried]
         for array, value in zip(self.inputs["state"], following, strict=True):
             array[...] = value
+
+
+def _look_up(
+    tables: list[Table], place: int, order: int, x: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    out[...] = tables[place](x, order)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.engine.ir_kernel import Block
 from linkwright.engine.program import Program
+from linkwright.engine.table import Table, Tables, given_tables
 
 Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
@@ -38,10 +39,18 @@ class Inputs:
     """
 
     def __init__(
-        self, program: Program, width: int, positions: Arrays, fields: Arrays, *, length: int | None = None
+        self,
+        program: Program,
+        width: int,
+        positions: Arrays,
+        fields: Arrays,
+        *,
+        length: int | None = None,
+        tables: list[Table] | None = None,
     ) -> None:
         self.positions = _taken("position", program.positions, positions)
         self.fields = _taken("field", program.fields, fields)
+        self._tables = [table.numbers for table in tables or []]
         lengths = {array.shape[-1] for array in (*self.positions, *self.fields)}
         if length is not None:
             lengths.add(length)
@@ -51,6 +60,7 @@ class Inputs:
             raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
         self.length = lengths.pop()
         self.width = width
+        self._inputs = len(self.positions) + len(self.fields) + len(self._tables)
         self.stride = self.length
         if 0 < self.length < width and not program.next_states:
             self.stride = width
@@ -66,7 +76,7 @@ class Inputs:
             tail = (self.length - self.width, self.width - rest, self.width) if rest else (-1, 0, 0)
         else:
             tail = (0, 0, rest)
-        block = np.zeros(Block.INPUTS + len(self.positions) + len(self.fields), dtype=np.int64)
+        block = np.zeros(Block.INPUTS + self._inputs, dtype=np.int64)
         block[Block.DESIGNS], block[Block.LENGTH] = designs, self.stride
         block[Block.FULL_END] = full * self.width
         block[Block.TAIL_START], block[Block.TAIL_LOW], block[Block.TAIL_HIGH] = tail
@@ -74,6 +84,7 @@ class Inputs:
         block[Block.PARAMETERS], block[Block.OUT], block[Block.STARTS] = parameters, out, starts
         sources = [address_of(a) for a in self.positions]
         sources += [address_of(a) + 8 * first * self.stride for a in self.fields]
+        sources += [address_of(numbers) for numbers in self._tables]
         block[Block.INPUTS :] = sources
         return block
 
@@ -102,8 +113,18 @@ def _is_plain(array: object, shape: tuple[int, ...]) -> TypeGuard[Floats]:
 class SingleCall:
     """A call for one design on arrays that stay where they are."""
 
-    def __init__(self, program: Program, width: int, positions: Arrays, fields: Arrays) -> None:
-        self.inputs = Inputs(program, width, positions, fields)
+    def __init__(
+        self,
+        program: Program,
+        width: int,
+        positions: Arrays,
+        fields: Arrays,
+        *,
+        length: int | None = None,
+        tables: Tables | None = None,
+    ) -> None:
+        self._names, self._tables = program.tables, given_tables(program.tables, tables)
+        self.inputs = Inputs(program, width, positions, fields, length=length, tables=self._tables)
         self._own: Floats = np.empty(len(program.parameters))
         self._seen: object = None
         self._bound: object = None
@@ -111,15 +132,21 @@ class SingleCall:
         self._fields = [(name, fields[name]) for name in program.fields]
         given = [array for _, array in (*self._positions, *self._fields)]
         used = [*self.inputs.positions, *self.inputs.fields]
-        self._kept = all(own is array for own, array in zip(used, given, strict=True))
+        self._kept = bool(given) and all(own is array for own, array in zip(used, given, strict=True))
         self._out: Floats | None = None
         self._block = self.inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
         self.shape = (len(program.outputs), self.inputs.length)
 
-    def fits(self, positions: Arrays, fields: Arrays) -> bool:
-        """Whether the same arrays are given again."""
-        if not self._kept:
+    def fits(
+        self, positions: Arrays, fields: Arrays, length: int | None = None, tables: Tables | None = None
+    ) -> bool:
+        """Whether the same arrays and tables are given again."""
+        if not self._kept or (length is not None and length != self.inputs.length):
+            return False
+        if self._tables and any(
+            (tables or {}).get(name) is not own for name, own in zip(self._names, self._tables, strict=True)
+        ):
             return False
         for name, array in self._positions:
             if positions.get(name) is not array:

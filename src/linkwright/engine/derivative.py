@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from linkwright.engine.adjoint import Adjoints
 from linkwright.engine.gradient import VALUE, ExtremePart, GradientProgram, Part, SummedPart, derivative_name
@@ -103,7 +102,7 @@ def _extreme(program: Program, term: Term, wrt: tuple[str, ...], valid: str | No
     judged = valid if valid in program.output_names else None
     kept = [term.output] if judged is None or judged == term.output else [term.output, judged]
     needed = program.only(kept)
-    nodes = tuple(replace(node, op="field") if node.op == "position" else node for node in needed.nodes)
+    nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in needed.nodes)
     group = Group(0, (Term(term.output, "sum", term.weight),), "sum")
     there = Program(nodes, needed.outputs).only([term.output])
     own = tuple(name for name in wrt if name in there.parameters)

@@ -8,13 +8,14 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Accumulation
 
 
-def following_lines(accumulation: Accumulation, after: Program) -> list[str]:
+def following_lines(accumulation: Accumulation, after: Program, width: int) -> list[str]:
     """Instructions that evaluate ``after`` from ``%p.row`` and ``%r{k}``, and store its outputs.
 
     They go to ``%out.row``, behind the accumulators.
     """
     lines = Lines.of(after)
-    writer = LineWriter(lines, 1, wide=False)
+    writer = LineWriter(lines, width, wide=False)
+    writer.tables = [accumulation.tables.index(name) for name in after.tables]
     code: list[str] = []
     for index, line in enumerate(lines.lines):
         writer.names[index] = f"%g{index}"

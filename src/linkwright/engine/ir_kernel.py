@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after import following_lines
 from linkwright.engine.ir_lines import LineWriter
+from linkwright.engine.ir_lookup import lookup_functions
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
 
@@ -30,15 +32,17 @@ class Shape:
     fields: int
     states: int
     outputs: int
+    tables: int
 
     @classmethod
-    def of(cls, lines: Lines) -> Shape:
-        """Counted from the lines."""
+    def of(cls, lines: Lines, accumulation: Accumulation | None) -> Shape:
+        """Counted from the lines, and what follows them."""
         kinds = [line.op for line in lines.lines]
         parameters, positions, fields, states = (
             kinds.count(kind) for kind in ("parameter", "position", "field", "state")
         )
-        return cls(parameters, positions, fields, states, len(lines.outputs))
+        tables = lines.tables if accumulation is None else len(accumulation.tables)
+        return cls(parameters, positions, fields, states, len(lines.outputs), tables)
 
 
 def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None) -> str:
@@ -55,7 +59,7 @@ class PositionKernel:
 
     def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
         self.lines = lines
-        self.shape = Shape.of(lines)
+        self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
         self.writer = LineWriter(lines, width, wide=False)
@@ -220,7 +224,7 @@ class PositionKernel:
             for k in sorted(range(len(steps)), key=lambda k: steps[k][0].startswith("arg")):
                 code += self.sums.finish_lanes(k, f"%z{k}")
         if self.accumulation is not None and self.accumulation.after is not None:
-            code += following_lines(self.accumulation, self.accumulation.after)
+            code += following_lines(self.accumulation, self.accumulation.after, self.width)
         return [
             *code,
             "%d.next = add i64 %d, 1",
@@ -247,7 +251,8 @@ def load_block(shape: Shape) -> list[str]:
         ("tail.low", Block.TAIL_LOW),
         ("tail.high", Block.TAIL_HIGH),
     ]
-    names = [f"position{k}" for k in range(shape.positions)] + [f"field{k}" for k in range(shape.fields)]
+    inputs = (("position", shape.positions), ("field", shape.fields), ("table", shape.tables))
+    names = [f"{kind}{k}" for kind, count in inputs for k in range(count)]
     pointers = [("parameters", Block.PARAMETERS), ("out", Block.OUT), ("starts", Block.STARTS)]
     pointers += [(name, Block.INPUTS + k) for k, name in enumerate(names)]
     code = []
@@ -262,15 +267,20 @@ def module_text(body: list[str], width: int) -> str:
     """The function with the declarations that it may need."""
     vector, integers = f"<{width} x double>", f"<{width} x i64>"
     suffix, pointers, mask = f"v{width}f64", f"<{width} x ptr>", f"<{width} x i1>"
+    exact = [f.exact for f in FUNCTIONS.values() if f.exact]
     declarations = [
-        *(f"declare {vector} @llvm.{name}.{suffix}({vector})" for name in ("sqrt", "fabs")),
-        *(f"declare double @llvm.{name}.f64(double)" for name in ("sqrt", "fabs")),
+        *(f"declare {vector} @llvm.{name}.{suffix}({vector})" for name in exact),
+        *(f"declare double @llvm.{name}.f64(double)" for name in exact),
         *(f"declare double @llvm.vector.reduce.{name}.{suffix}({vector})" for name in ("fmin", "fmax")),
         f"declare double @llvm.vector.reduce.fadd.{suffix}(double, {vector})",
         *(f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})" for name in ("add", "smin")),
         f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, {mask}, {vector})",
         f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, {mask})",
-        "declare double @linkwright_sin(double) nounwind willreturn readnone",
-        "declare double @linkwright_cos(double) nounwind willreturn readnone",
+        *(
+            f"declare double @linkwright_{f.library}({', '.join(['double'] * len(f.slopes))}) "
+            "nounwind willreturn readnone"
+            for f in FUNCTIONS.values()
+            if f.library
+        ),
     ]
-    return "\n".join([*declarations, *body, ""])
+    return "\n".join([*declarations, *body, *lookup_functions(body, width), ""])

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 
+from linkwright.engine.functions import FUNCTIONS, Function
+from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.lines import Line, Lines
 
 #: What the compiler may assume: signs of zero, reciprocals, fused and regrouped operations.
@@ -13,7 +15,6 @@ FAST = "nsz arcp contract reassoc"
 _ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 _COMPARISON = {"less": "olt", "less_equal": "ole"}
 _LOGIC = {"and": "and", "or": "or"}
-_LIBRARY = {"sin": "linkwright_sin", "cos": "linkwright_cos"}
 
 
 def number(value: float) -> str:
@@ -24,7 +25,9 @@ def number(value: float) -> str:
 class LineWriter:
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
-    ``wide``: whether the lines per design are vectors too (the lanes are designs).
+    ``wide``: whether the lines per design are vectors too (the lanes are designs). ``names`` and
+    ``tables`` may be changed where lines are written beside others: the names of values, and where
+    the tables stand.
     """
 
     def __init__(self, lines: Lines, width: int, wide: bool) -> None:
@@ -35,6 +38,7 @@ class LineWriter:
         self.vector = f"<{width} x double>"
         self.mask = f"<{width} x i1>"
         self.names: dict[int, str] = {}
+        self.tables = list(range(lines.tables))
         self.preamble: list[str] = []
         self.body: list[str] = []
         self._splats: set[int] = set()
@@ -109,28 +113,44 @@ class LineWriter:
             return [f"{value} = fcmp {_COMPARISON[line.op]} {operands} {args[0]}, {args[1]}"]
         if line.op in _LOGIC:
             return [f"{value} = {_LOGIC[line.op]} {kind} {args[0]}, {args[1]}"]
-        if line.op in _LIBRARY:
-            return self._library_call(_LIBRARY[line.op], value, args[0], vector)
+        if line.op in FUNCTIONS:
+            return self._function(FUNCTIONS[line.op], value, kind, args, vector)
+        if line.op == "lookup":
+            return self._look_up(line, value, args[0], vector)
         return _OTHER[line.op](self, line, value, kind, args, vector)
 
-    def _library_call(self, function: str, value: str, argument: str, vector: bool) -> list[str]:
+    def _function(
+        self, function: Function, value: str, kind: str, args: list[str], vector: bool
+    ) -> list[str]:
+        """An intrinsic, or a call of the C library, lane by lane."""
+        if function.exact:
+            suffix = f"v{self.width}f64" if vector else "f64"
+            return [f"{value} = call {FAST} {kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
+        name = f"@linkwright_{function.library}"
         if not vector:
-            return [f"{value} = call double @{function}(double {argument})"]
+            return [f"{value} = call double {name}({', '.join(f'double {a}' for a in args)})"]
         lines, last = [], "poison"
         for lane in range(self.width):
-            name = value if lane == self.width - 1 else f"{value}.i{lane}"
+            given = [f"{value}.x{lane}.{place}" for place in range(len(args))]
             lines += [
-                f"{value}.x{lane} = extractelement {self.vector} {argument}, i32 {lane}",
-                f"{value}.y{lane} = call double @{function}(double {value}.x{lane})",
-                f"{name} = insertelement {self.vector} {last}, double {value}.y{lane}, i32 {lane}",
+                f"{at} = extractelement {self.vector} {argument}, i32 {lane}"
+                for at, argument in zip(given, args, strict=True)
             ]
-            last = name
+            lines.append(f"{value}.y{lane} = call double {name}({', '.join(f'double {a}' for a in given)})")
+            into = value if lane == self.width - 1 else f"{value}.i{lane}"
+            lines.append(f"{into} = insertelement {self.vector} {last}, double {value}.y{lane}, i32 {lane}")
+            last = into
         return lines
 
-    def intrinsic(self, name: str, value: str, kind: str, argument: str, vector: bool) -> str:
-        """A call of a floating-point intrinsic with one argument."""
-        suffix = f"v{self.width}f64" if vector else "f64"
-        return f"{value} = call {FAST} {kind} @llvm.{name}.{suffix}({kind} {argument})"
+    def _look_up(self, line: Line, value: str, x: str, vector: bool) -> list[str]:
+        call = f"call {self.vector} @{LOOKUP}{line.constant:.0f}(ptr %table{self.tables[line.place]}, {self.vector}"
+        if vector:
+            return [f"{value} = {call} {x})"]
+        return [
+            *self.spread(x, f"{value}.all", "double"),
+            f"{value}.found = {call} {value}.all)",
+            f"{value} = extractelement {self.vector} {value}.found, i32 0",
+        ]
 
 
 _Writer = Callable[[LineWriter, Line, str, str, list[str], bool], list[str]]
@@ -138,14 +158,6 @@ _Writer = Callable[[LineWriter, Line, str, str, list[str], bool], list[str]]
 
 def _negation(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
     return [f"{value} = fneg {FAST} {kind} {args[0]}"]
-
-
-def _root(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
-    return [w.intrinsic("sqrt", value, kind, args[0], vector)]
-
-
-def _magnitude(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
-    return [w.intrinsic("fabs", value, kind, args[0], vector)]
 
 
 def _inverse(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
@@ -169,8 +181,6 @@ def _to_truth(w: LineWriter, line: Line, value: str, kind: str, args: list[str],
 
 _OTHER: dict[str, _Writer] = {
     "neg": _negation,
-    "sqrt": _root,
-    "abs": _magnitude,
     "not": _inverse,
     "select": _choice,
     "number": _to_number,

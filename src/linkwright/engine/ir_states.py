@@ -14,7 +14,7 @@ class StateKernel:
 
     def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
         self.lines = lines
-        self.shape = Shape.of(lines)
+        self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.integers = f"<{width} x i64>"
         self.pointers = f"<{width} x ptr>"

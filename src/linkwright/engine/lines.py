@@ -17,7 +17,8 @@ class Line:
 
     ``op``: an operation of :class:`~linkwright.engine.trace.Node`, or ``number`` (a truth value
     as 1.0 or 0.0), or ``truth`` (whether a number is not zero). ``place``: for an input, its
-    place among the inputs of its kind. ``truth``: whether the line holds a truth value.
+    place among the inputs of its kind; for a ``lookup``, the table's place, ``constant`` the order of
+    the derivative. ``truth``: whether the line holds a truth value.
     """
 
     op: str
@@ -42,12 +43,13 @@ class Line:
 class Lines:
     """Lines in the order of evaluation; ``outputs`` and ``carried`` by line number.
 
-    ``carried[k]`` gives the next value of the state at place ``k``.
+    ``tables``: how many are looked up. ``carried[k]`` gives the next value of the state at place ``k``.
     """
 
     lines: tuple[Line, ...]
     outputs: tuple[int, ...]
     carried: tuple[int, ...]
+    tables: int = 0
 
     @classmethod
     def of(cls, program: Program) -> Lines:
@@ -61,6 +63,9 @@ class Lines:
                 places[node.op] += 1
             elif node.op == "constant":
                 where.append(builder.add(Line("constant", (), False, constant=node.constant)))
+            elif node.op == "lookup":
+                args, table = (builder.number(where[node.args[0]]),), program.tables.index(node.name)
+                where.append(builder.add(Line("lookup", args, node.varies, False, node.constant, table)))
             elif node.op == "stop":
                 where.append(where[node.args[0]])
             else:
@@ -73,6 +78,7 @@ class Lines:
             tuple(builder.lines),
             tuple(where[i] for _, i in program.outputs),
             tuple(builder.number(where[carried[name]]) for name in program.states if carried),
+            len(program.tables),
         )
 
     def design_lines(self) -> list[int]:

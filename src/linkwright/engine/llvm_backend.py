@@ -17,6 +17,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import Accumulation, Reduction
+from linkwright.engine.table import Tables, given_tables
 from linkwright.engine.threads import spread_over
 
 __all__ = ["CompiledProgram", "available", "compile_program"]
@@ -92,18 +93,29 @@ class CompiledProgram:
         out: Floats | None = None,
         *,
         start: ArrayLike | None = None,
+        length: int | None = None,
+        tables: Tables | None = None,
     ) -> Floats:
         """Outputs of one design, (outputs, n), in ``out`` where given (C-contiguous).
 
-        ``parameters``: (parameters,); ``positions``, ``fields``: (n,) per name; ``start``: (states,).
-        The same mappings of the same arrays given again cost nothing but the call. Raises
-        ValueError for missing inputs, unequal lengths and an ``out`` of another shape.
+        ``parameters``: (parameters,); ``positions``, ``fields``: (n,) per name; ``start``: (states,);
+        ``length``: n where no input is an array; ``tables``: those that the program looks up. The
+        same mappings of the same arrays given again cost nothing but the call. Raises ValueError for
+        missing inputs, unequal lengths and an ``out`` of another shape.
         """
         call: SingleCall | None = getattr(self._own, "call", None)
-        if call is None or not call.fits(positions, fields):
-            call = self._own.call = SingleCall(self.program, self.width, positions, fields)
+        if call is None or not call.fits(positions, fields, length, tables):
+            call = self._own.call = SingleCall(
+                self.program, self.width, positions, fields, length=length, tables=tables
+            )
         if self.program.next_states or call.inputs.stride != call.inputs.length:
-            return self._run_by_store(parameters, positions, fields, out, start)
+            table = np.asarray(parameters, dtype=np.float64)[None, :]
+            rows = {name: np.asarray(fields[name])[None, :] for name in self.program.fields}
+            stored: Floats = self.store(table, positions, rows, start=start, length=length, tables=tables)[0]
+            if out is None:
+                return stored
+            out[...] = stored
+            return out
         call.set_parameters(parameters)
         if out is None:
             out = call.new_out()
@@ -113,7 +125,13 @@ class CompiledProgram:
         return out
 
     def bound(
-        self, parameters: Floats, positions: Arrays, out: Floats, fields: Arrays = _NONE
+        self,
+        parameters: Floats,
+        positions: Arrays,
+        out: Floats,
+        fields: Arrays = _NONE,
+        *,
+        tables: Tables | None = None,
     ) -> Callable[[], None]:
         """A call of one design on arrays that are read and written where they lie, without a further look.
 
@@ -121,10 +139,10 @@ class CompiledProgram:
         ValueError for arrays that are not contiguous floats of these shapes, for fewer positions than
         numbers in a vector, and for programs that carry states.
         """
-        call = SingleCall(self.program, self.width, positions, fields)
+        call = SingleCall(self.program, self.width, positions, fields, tables=tables)
         if self.program.next_states or call.inputs.stride != call.inputs.length:
             raise ValueError(f"only programs without states are bound, to {self.width} or more positions")
-        if not call.fits(positions, fields) or not (
+        if not call.fits(positions, fields, tables=tables) or not (
             parameters.flags.c_contiguous and parameters.dtype == float
         ):
             raise ValueError("give parameters, positions and fields as contiguous arrays of floats")
@@ -138,22 +156,6 @@ class CompiledProgram:
 
         return run
 
-    def _run_by_store(
-        self,
-        parameters: ArrayLike,
-        positions: Arrays,
-        fields: Arrays,
-        out: Floats | None,
-        start: ArrayLike | None,
-    ) -> Floats:
-        table = np.asarray(parameters, dtype=np.float64)[None, :]
-        rows = {name: np.asarray(fields[name])[None, :] for name in self.program.fields}
-        stored: Floats = self.store(table, positions, rows, start=start)[0]
-        if out is None:
-            return stored
-        out[...] = stored
-        return out
-
     def store(
         self,
         parameters: ArrayLike,
@@ -163,14 +165,17 @@ class CompiledProgram:
         start: ArrayLike | None = None,
         threads: int = 1,
         length: int | None = None,
+        tables: Tables | None = None,
     ) -> Floats:
         """Outputs of many designs, shape (designs, outputs, n).
 
         ``parameters``: (designs, parameters); ``fields``: (designs, n) per name; ``start``:
         (designs, states), the states before the first position; ``length``: n where no input
-        is an array.
+        is an array; ``tables``: those that the program looks up.
         """
-        inputs = Inputs(self.program, self.width, positions, fields, length=length)
+        names = self.program.tables if self.accumulation is None else self.accumulation.tables
+        found = given_tables(names, tables)
+        inputs = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
         table, starts = self._tables(parameters, start)
         out = aligned((len(table), len(self.program.outputs), inputs.stride))
         self._call(inputs, table, starts, out, threads)
@@ -186,6 +191,7 @@ class CompiledProgram:
         start: ArrayLike | None = None,
         threads: int = 1,
         length: int | None = None,
+        tables: Tables | None = None,
     ) -> Results:
         """Reductions of many designs: ``output.kind`` and ``valid.count`` to (designs,) arrays.
 
@@ -193,7 +199,9 @@ class CompiledProgram:
         """
         if self.accumulation is None:
             raise ValueError("this program was compiled without reductions: compile it with them to sweep")
-        inputs = Inputs(self.program, self.width, positions, fields, length=length)
+        names = self.program.tables if self.accumulation is None else self.accumulation.tables
+        found = given_tables(names, tables)
+        inputs = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
         table, starts = self._tables(parameters, start)
         sums = np.empty((len(table), self.accumulation.width))
         self._call(inputs, table, starts, sums, threads)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from linkwright.engine.functions import FUNCTIONS
+
 _LOCK = threading.RLock()
 _DESCRIPTION = "cpu {cpu} features {features} llvm {version} llvmlite {binding}"
 
@@ -65,9 +67,10 @@ def _binding() -> Any:
     binding.initialize_native_asmprinter()
     binding.parse_assembly("declare void @probe(ptr)")  # LLVM before 17 may not know opaque pointers
     library = ctypes.CDLL("ucrtbase") if sys.platform == "win32" else ctypes.CDLL(None)
-    for name in ("sin", "cos"):
-        address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
-        binding.add_symbol(f"linkwright_{name}", address)
+    for function in FUNCTIONS.values():
+        if function.library:
+            address = ctypes.cast(getattr(library, function.library), ctypes.c_void_p).value
+            binding.add_symbol(f"linkwright_{function.library}", address)
     return binding
 
 

@@ -15,6 +15,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.registers import Registers
 from linkwright.engine.scalar_backend import LineRunner, ScalarProgram, start_values
+from linkwright.engine.table import Table, Tables, given_tables
 
 Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
@@ -51,6 +52,7 @@ class NumpyProgram:
         *,
         start: ArrayLike | None = None,
         length: int | None = None,
+        tables: Tables | None = None,
     ) -> Floats:
         """Outputs of one design, shape (outputs, n).
 
@@ -58,15 +60,17 @@ class NumpyProgram:
         ``fields``: one (n,) array per name; names that the program does not need are ignored.
         A program with states takes either ``states``, an (n,) array per name, or ``start``, the
         (states,) values before the first position, carried on from there. ``length``: n, where
-        no input is an array. Raises ValueError for missing inputs and unequal lengths.
+        no input is an array. ``tables``: those that the program looks up, by name.
+        Raises ValueError for missing inputs and unequal lengths.
         """
         fields, states = fields or {}, states or {}
         given = {name: fields[name] for name in self.program.fields if name in fields}
         if self.program.states and not states:
-            return self._continued(parameters, positions, given, start, length)
+            return self._continued(parameters, positions, given, start, length, tables)
         n = self._length(positions, {**given, **states}, length)
         plan = self._plan(None, n)
-        values = list(self._start)
+        plan.tables[:] = given_tables(self.program.tables, tables)
+        values = [*self._start, *plan.tables]
         for index, value in zip(self._parameter_lines, _numbers(parameters), strict=True):
             values[index] = value
         self._design.run(values)
@@ -87,6 +91,7 @@ class NumpyProgram:
         *,
         start: ArrayLike | None = None,
         length: int | None = None,
+        tables: Tables | None = None,
     ) -> Floats:
         """Outputs of many designs, shape (designs, outputs, n).
 
@@ -96,7 +101,8 @@ class NumpyProgram:
         table = self._table(parameters)
         n = self._length(positions, {**(fields or {}), **(states or {})}, length)
         result = np.empty((len(table), len(self.program.outputs), n))
-        for designs, columns, outputs in self.blocks(table, positions, fields, states, start=start, length=n):
+        blocks = self.blocks(table, positions, fields, states, start=start, length=n, tables=tables)
+        for designs, columns, outputs in blocks:
             result[designs, :, columns] = outputs.transpose(1, 0, 2)
         return result
 
@@ -109,6 +115,7 @@ class NumpyProgram:
         *,
         start: ArrayLike | None = None,
         length: int | None = None,
+        tables: Tables | None = None,
     ) -> Iterator[tuple[slice, slice, Floats]]:
         """Outputs block by block: (designs, positions, outputs (outputs, designs, positions)).
 
@@ -118,16 +125,23 @@ class NumpyProgram:
         n = self._length(positions, {**fields, **states}, length)
         continued = bool(self.program.states) and not states
         starts = self._starts(start, len(table)) if continued else None
+        found = given_tables(self.program.tables, tables)
         size, width = self.block(n, continued)
         for first in range(0, len(table), size):
             part = slice(first, min(first + size, len(table)))
             sources = self._sources(positions, _cut(fields, part), _cut(states, part))
             own = None if starts is None else starts[part]
-            for columns, outputs in self._columns(table[part], sources, own, n, width):
+            for columns, outputs in self._columns(table[part], sources, own, found, n, width):
                 yield part, columns, outputs
 
     def _columns(
-        self, table: Floats, sources: list[Source], starts: Floats | None, n: int, width: int
+        self,
+        table: Floats,
+        sources: list[Source],
+        starts: Floats | None,
+        tables: list[Table],
+        n: int,
+        width: int,
     ) -> Iterator[tuple[slice, Floats]]:
         """Some designs, ``width`` positions at a time."""
         plan: BoundPlan | None = None
@@ -136,6 +150,7 @@ class NumpyProgram:
             previous, plan = plan, self._plan(len(table), columns.stop - first)
             with np.errstate(all="ignore"):
                 if plan is not previous:
+                    plan.tables[:] = tables
                     _start_designs(plan, table, starts)
                 for kind, names, arrays in sources:
                     for buffer, name in zip(plan.inputs[kind], names, strict=True):
@@ -161,9 +176,10 @@ class NumpyProgram:
         fields: Arrays,
         start: ArrayLike | None,
         length: int | None,
+        tables: Tables | None,
     ) -> Floats:
         n = self._length(positions, fields, length)
-        scalar = ScalarProgram(self.program)
+        scalar = ScalarProgram(self.program, tables)
         numbers, state = _numbers(parameters), self._starts(start, 1)[0].tolist()
         along = _rows(positions, self.program.positions, n)
         across = _rows(fields, self.program.fields, n)

@@ -66,7 +66,7 @@ class Group:
             return total, 1.0
         if self.kind == "mean":
             return t.div(total, count), t.div(1.0, count)
-        root = t.unary("sqrt", t.div(total, count))
+        root = t.function("sqrt", t.div(total, count))
         weight = self.terms[0].weight
         return t.mul(weight, root), t.div(weight, t.mul(count, root))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,7 +27,7 @@ class Program:
     """Lines in the order of evaluation; outputs and next states by line number.
 
     ``parameters``: one number per design; ``positions``: one per position; ``fields``: one per
-    design and position; ``states``: carried from a position to the next.
+    design and position; ``states``: carried from a position to the next; ``tables``: data of a call.
     """
 
     nodes: tuple[Node, ...]
@@ -44,9 +44,9 @@ class Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}
         carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
-        needed = _needed(trace.nodes, [*wanted.values(), *carried.values()])
-        number = {old: new for new, old in enumerate(needed)}
-        nodes = tuple(_renumbered(trace.nodes[old], number) for old in needed)
+        kept = needed(trace.nodes, [*wanted.values(), *carried.values()])
+        number = {old: new for new, old in enumerate(kept)}
+        nodes = tuple(_renumbered(trace.nodes[old], number) for old in kept)
         return cls(
             nodes,
             tuple((name, number[old]) for name, old in wanted.items()),
@@ -55,14 +55,11 @@ class Program:
 
     def only(self, names: list[str]) -> Program:
         """The same program for some of its outputs."""
-        trace = Trace(nodes=list(self.nodes))
-        needed = _needed(
-            trace.nodes, [i for name, i in self.outputs if name in names] + [i for _, i in self.next_states]
-        )
-        number = {old: new for new, old in enumerate(needed)}
         by_name = dict(self.outputs)
+        kept = needed(self.nodes, [*(by_name[name] for name in names), *(i for _, i in self.next_states)])
+        number = {old: new for new, old in enumerate(kept)}
         return Program(
-            tuple(_renumbered(self.nodes[old], number) for old in needed),
+            tuple(_renumbered(self.nodes[old], number) for old in kept),
             tuple((name, number[by_name[name]]) for name in names),
             tuple((name, number[i]) for name, i in self.next_states),
         )
@@ -86,6 +83,11 @@ class Program:
     @cached_property
     def states(self) -> tuple[str, ...]:
         return self._inputs("state")
+
+    @cached_property
+    def tables(self) -> tuple[str, ...]:
+        """The tables that are looked up, each once."""
+        return tuple(dict.fromkeys(self._inputs("lookup")))
 
     def _inputs(self, op: str) -> tuple[str, ...]:
         return tuple(node.name for node in self.nodes if node.op == op)
@@ -121,23 +123,27 @@ def _spelled(node: Node) -> str:
     if not node.args:
         return f"{node.op} {node.name}"
     names = [f"v{i}" for i in node.args]
+    if node.op == "lookup":
+        return f"lookup[{node.name}, {node.constant:.0f}]({names[0]})"
     if node.op in SYMBOLS:
         return f"{names[0]} {SYMBOLS[node.op]} {names[1]}"
     return f"{node.op}({', '.join(names)})"
 
 
-def _needed(nodes: list[Node], wanted: list[int]) -> list[int]:
+def needed(nodes: Sequence[Node], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
+    """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out."""
     seen: set[int] = set()
     stack = list(wanted)
     while stack:
         index = stack.pop()
         if index not in seen:
             seen.add(index)
-            stack.extend(nodes[index].args)
+            if index not in stop:
+                stack.extend(nodes[index].args)
     return sorted(seen)
 
 
 def _renumbered(node: Node, number: Mapping[int, int]) -> Node:
     if not node.args:
         return node
-    return Node(node.op, tuple(number[i] for i in node.args), varies=node.varies)
+    return node._replace(args=tuple(number[i] for i in node.args))

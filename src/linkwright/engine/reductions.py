@@ -97,6 +97,12 @@ class Accumulation:
         return tuple(dict.fromkeys([*self.needed.parameters, *own]))
 
     @cached_property
+    def tables(self) -> tuple[str, ...]:
+        """The tables that are looked up along the positions and after them."""
+        following = self.after.tables if self.after is not None else ()
+        return tuple(dict.fromkeys([*self.needed.tables, *following]))
+
+    @cached_property
     def column(self) -> dict[tuple[str, str], int]:
         """Where the accumulators stand in a row of the table."""
         return {step: place for place, step in enumerate(self.steps)}

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 
+from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Node, Scalar, Trace, Value
+from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace, Value
 
+#: Operations through which no derivative passes.
+WITHOUT_SLOPE = COMPARISONS | {"stop", "floor"}
 _BINARY = {"add", "sub", "mul", "div"}
-_UNARY = {"sqrt", "abs", "sin", "cos", "stop"}
 
 
 class Replay:
@@ -29,8 +31,12 @@ class Replay:
             return node.constant
         if node.op in _BINARY:
             return _arithmetic(t, node.op, args[0], args[1])
-        if node.op in _UNARY:
-            return t.unary(node.op, args[0])
+        if node.op in FUNCTIONS:
+            return t.power(*args) if node.op == "pow" else t.function(node.op, *args)
+        if node.op == "lookup":
+            return t.lookup(node.name, args[0], int(node.constant))
+        if node.op == "stop":
+            return t.stop(args[0])
         if node.op == "neg":
             return t.neg(args[0])
         if node.op in ("less", "less_equal"):
@@ -63,10 +69,10 @@ def depending(program: Program, names: Iterable[str]) -> set[int]:
     """The lines with numbers that change, smoothly, with the named inputs."""
     wanted, found = set(names), set()
     for index, node in enumerate(program.nodes):
-        if node.op in ("stop", "less", "less_equal", "and", "or", "not"):
+        if node.op in WITHOUT_SLOPE:
             continue
         args = node.args[1:] if node.op == "select" else node.args
-        if node.name in wanted or any(a in found for a in args):
+        if (not args and node.name in wanted) or any(a in found for a in args):
             found.add(index)
     return found
 

@@ -7,8 +7,10 @@ import operator
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.lines import Line, Lines
 from linkwright.engine.program import Program
+from linkwright.engine.table import Tables, given_tables
 
 #: (function, line to fill, first argument, second argument); one form for all, as a loop likes it.
 Step = tuple[Callable[[Any, Any], Any], int, int, int]
@@ -20,18 +22,6 @@ def _divide(a: float, b: float) -> float:
     if a == 0.0 or a != a:
         return math.nan
     return math.copysign(math.inf, a) * math.copysign(1.0, b)
-
-
-def _root(x: float) -> float:
-    return math.nan if x < 0.0 else math.sqrt(x)
-
-
-def _sine(x: float) -> float:
-    return math.nan if math.isinf(x) else math.sin(x)
-
-
-def _cosine(x: float) -> float:
-    return math.nan if math.isinf(x) else math.cos(x)
 
 
 def _both(a: bool, b: bool) -> bool:
@@ -54,36 +44,40 @@ def _of_one(function: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:
     return lambda x, _: function(x)
 
 
-_BINARY: dict[str, Callable[[Any, Any], Any]] = {
+def _lookup(order: int) -> Callable[[Any, Any], Any]:
+    return lambda x, table: float(table(x, order))
+
+
+_PLAIN: dict[str, Callable[[Any, Any], Any]] = {
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
-    "div": operator.truediv,
     "less": operator.lt,
     "less_equal": operator.le,
     "and": _both,
     "or": _either,
+    "not": _of_one(operator.not_),
+    "number": _of_one(float),
+    "truth": _of_one(bool),
 }
-_UNARY: dict[str, Callable[[Any], Any]] = {
-    "sqrt": math.sqrt,
-    "abs": abs,
-    "sin": math.sin,
-    "cos": math.cos,
-    "not": operator.not_,
-    "number": float,
-    "truth": bool,
+_CAREFUL = _PLAIN | {
+    op: _of_one(function.value) if len(function.slopes) == 1 else function.value
+    for op, function in FUNCTIONS.items()
 }
-_QUICK = _BINARY | {op: _of_one(function) for op, function in _UNARY.items()}
-_CAREFUL = _QUICK | {
-    "div": _divide,
-    "sqrt": _of_one(_root),
-    "sin": _of_one(_sine),
-    "cos": _of_one(_cosine),
+_QUICK = _CAREFUL | {
+    "div": operator.truediv,
+    "sqrt": _of_one(math.sqrt),
+    "sin": _of_one(math.sin),
+    "cos": _of_one(math.cos),
 }
+_CAREFUL["div"] = _divide
 
 
 def start_values(lines: Sequence[Line]) -> list[Any]:
-    """Room for the values of the lines, constants filled in, and two places of :class:`LineRunner`."""
+    """Room for the values of the lines, constants filled in, and two places of :class:`LineRunner`.
+
+    The tables that are looked up, in their order, come behind.
+    """
     return [*(line.constant for line in lines), -1.0, None]
 
 
@@ -118,6 +112,8 @@ def _steps(
         if line.op == "select":
             steps.append((_pair, pair, line.args[1], line.args[2]))
             steps.append((_pick, index, line.args[0], pair))
+        elif line.op == "lookup":
+            steps.append((_lookup(int(line.constant)), index, line.args[0], pair + 1 + line.place))
         elif line.op == "neg":
             steps.append((operator.mul, index, line.args[0], minus_one))
         else:
@@ -129,14 +125,14 @@ class ScalarProgram:
     """A program for one design and one position at a time, as an iteration needs it.
 
     The lines that differ from design to design only are evaluated again only when the
-    parameters change.
+    parameters change. ``tables``: those that the program looks up. Raises ValueError for missing ones.
     """
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, tables: Tables | None = None) -> None:
         self.program = program
         self.lines = Lines.of(program)
         lines = self.lines.lines
-        self._start = start_values(lines)
+        self._start = [*start_values(lines), *given_tables(program.tables, tables)]
         self._design = LineRunner(lines, self.lines.design_lines())
         self._position = LineRunner(lines, [i for i, x in enumerate(lines) if x.varies and x.is_operation])
         self._inputs = {

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from linkwright.engine.program import Program
 
 
@@ -13,5 +11,5 @@ def states_as_fields(program: Program) -> Program:
     Positions are then independent of each other: for evaluating again, and differentiating,
     what an iteration from position to position has found.
     """
-    nodes = tuple(replace(node, op="field") if node.op == "state" else node for node in program.nodes)
+    nodes = tuple(node._replace(op="field") if node.op == "state" else node for node in program.nodes)
     return Program(nodes, program.outputs)

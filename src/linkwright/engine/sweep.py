@@ -12,6 +12,7 @@ from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import VALID_COUNT, Accumulation, Kind, Reduction, accumulate
+from linkwright.engine.table import Tables
 from linkwright.engine.threads import chunks, cores, spread_over
 
 Backend = Literal["auto", "numpy", "llvm"]
@@ -37,6 +38,8 @@ def sweep(
     *,
     fields: Arrays | None = None,
     start: ArrayLike | None = None,
+    length: int | None = None,
+    tables: Tables | None = None,
     valid: str | None = "valid",
     after: Program | None = None,
     threads: int | None = None,
@@ -47,7 +50,8 @@ def sweep(
 
     ``parameters``: (designs, parameters) in the order of ``program.parameters``. ``positions``:
     (n,) per name; ``fields``: (designs, n) per name; ``start``: (designs, states), where the
-    program carries states. ``valid``: the truth output that says which positions enter; without
+    program carries states; ``length``: n, where no input is an array; ``tables``: those that the program
+    looks up. ``valid``: the truth output that says which positions enter; without
     an output of this name all do. ``after``: a program per design, evaluated once its positions
     are through (see :class:`~linkwright.engine.reductions.Accumulation`). ``threads``: None for
     all cores; results do not depend on it. ``progress(done, designs)`` is called now and then;
@@ -66,14 +70,16 @@ def sweep(
         program, (wanted, judged, id(after)), lambda: Accumulation(program, wanted, judged, after)
     )
     given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
-    n = _length(positions, given)
+    n = _length(positions, given, length)
     run = _runner(accumulation, backend, len(table) * n)
     count = cores() if threads is None else threads
     parts: list[Results] = []
     for first, end in chunks(len(table), max(1, _REPORT // max(n, 1))):
         rows = {name: array[first:end] for name, array in given.items()}
         begin = None if start is None else _rows(start, len(table))[first:end]
-        parts.append(run(_for_needed(accumulation, table[first:end]), positions, rows, begin, count))
+        parts.append(
+            run(_for_needed(accumulation, table[first:end]), positions, rows, begin, count, n, tables)
+        )
         if progress is not None:
             progress(end, len(table))
     if not parts:
@@ -88,6 +94,8 @@ def sweep_numpy(
     fields: Arrays,
     start: ArrayLike | None = None,
     threads: int = 1,
+    length: int | None = None,
+    tables: Tables | None = None,
 ) -> Results:
     """The same as a compiled program's ``sweep``, by NumPy in blocks that fit the cache.
 
@@ -96,7 +104,7 @@ def sweep_numpy(
     evaluator = numpy_program(accumulation.needed)
     names = accumulation.needed.output_names
     sums = accumulation.start(len(table))
-    n = _length(positions, fields)
+    n = _length(positions, fields, length)
     begin = None if start is None else _rows(start, len(table))
     count = len(accumulation.needed.parameters)
 
@@ -104,17 +112,20 @@ def sweep_numpy(
         rows = {name: np.asarray(array)[first:end] for name, array in fields.items()}
         own = None if begin is None else begin[first:end]
         part, numbers = sums[first:end], table[first:end, :count]
-        for designs, columns, outputs in evaluator.blocks(numbers, positions, rows, start=own, length=n):
+        blocks = evaluator.blocks(numbers, positions, rows, start=own, length=n, tables=tables)
+        for designs, columns, outputs in blocks:
             with np.errstate(all="ignore"):
                 accumulate(accumulation, part[designs], outputs, names, columns.start)
 
     spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), threads, work)
     if accumulation.after is not None:
-        _follow(accumulation, accumulation.after, table, sums, n)
+        _follow(accumulation, accumulation.after, table, sums, n, tables)
     return accumulation.finish(sums, n)
 
 
-def _follow(accumulation: Accumulation, after: Program, table: Floats, sums: Floats, n: int) -> None:
+def _follow(
+    accumulation: Accumulation, after: Program, table: Floats, sums: Floats, n: int, tables: Tables | None
+) -> None:
     """Evaluate what follows the positions into its columns of ``sums``."""
     inputs = np.empty((len(table), len(after.parameters)))
     for column, name in enumerate(after.parameters):
@@ -123,12 +134,12 @@ def _follow(accumulation: Accumulation, after: Program, table: Floats, sums: Flo
             inputs[:, column] = n
         else:
             inputs[:, column] = (table if origin == "parameter" else sums)[:, place]
-    outputs = numpy_program(after).run_designs(inputs, {}, length=1)
+    outputs = numpy_program(after).run_designs(inputs, {}, length=1, tables=tables)
     sums[:, len(accumulation.steps) :] = outputs[:, :, 0]
 
 
 _accumulations: Recent[Program, Accumulation] = Recent(64)
-_Run = Callable[[Floats, Arrays, Arrays, ArrayLike | None, int], Results]
+_Run = Callable[[Floats, Arrays, Arrays, ArrayLike | None, int, int, "Tables | None"], Results]
 
 
 def _runner(accumulation: Accumulation, backend: Backend, configurations: int) -> _Run:
@@ -141,8 +152,8 @@ def _runner(accumulation: Accumulation, backend: Backend, configurations: int) -
             accumulation.program, accumulation.reductions, accumulation.valid, accumulation.after
         )
         if compiled is not None:
-            return lambda table, positions, fields, start, threads: compiled.sweep(
-                table, positions, fields, start=start, threads=threads, length=_length(positions, fields)
+            return lambda table, positions, fields, start, threads, n, tables: compiled.sweep(
+                table, positions, fields, start=start, threads=threads, length=n, tables=tables
             )
         if backend == "llvm":
             raise ValueError("llvmlite cannot be loaded: install it, or use the numpy back end")
@@ -160,8 +171,10 @@ def _for_needed(accumulation: Accumulation, table: Floats) -> Floats:
     return np.ascontiguousarray(table[:, [program.parameters.index(name) for name in needed]])
 
 
-def _length(positions: Arrays, fields: Arrays) -> int:
+def _length(positions: Arrays, fields: Arrays, length: int | None) -> int:
     lengths = {int(np.shape(array)[-1]) for array in (*positions.values(), *fields.values())}
+    if length is not None:
+        lengths.add(length)
     if len(lengths) != 1:
         raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
     return lengths.pop()

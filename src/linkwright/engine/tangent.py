@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from linkwright.engine.program import Program
-from linkwright.engine.replay import Replay, depending
+from collections.abc import Mapping
+
+from linkwright.engine.functions import FUNCTIONS
+from linkwright.engine.program import Program, needed
+from linkwright.engine.replay import WITHOUT_SLOPE, Replay, depending
 from linkwright.engine.trace import Mask, Node, Scalar, Trace, Value
 
 
@@ -13,39 +16,61 @@ def tangents(replay: Replay, name: str) -> dict[int, Scalar]:
     found: dict[int, Scalar] = {}
     for index in sorted(depending(program, [name])):
         node = program.nodes[index]
-        found[index] = _tangent(replay, node, index, found) if node.args else 1.0
+        args = [replay.values[a] for a in node.args]
+        found[index] = _tangent(replay.trace, node, args, replay.values[index], found) if args else 1.0
     return found
 
 
-def _tangent(replay: Replay, node: Node, index: int, found: dict[int, Scalar]) -> Scalar:
-    t, values = replay.trace, replay.values
+def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
+    """Derivative of a value along changes of earlier ones (see :func:`~linkwright.engine.trace.slope`)."""
+    t = value.trace
+    if any(seed.trace is not t for seed in seeds):
+        raise ValueError("a value and what it is differentiated by must be of one trace")
+    found: dict[int, Scalar] = {seed.index: rate for seed, rate in seeds.items()}
+    for index in needed(t.nodes, [value.index], stop=found):
+        node = t.nodes[index]
+        if index in found or not any(a in found for a in node.args) or node.op in WITHOUT_SLOPE:
+            continue
+        args = [_line(t, a) for a in node.args]
+        found[index] = _tangent(t, node, args, Value(t, index), found)
+    return found.get(value.index, 0.0)
+
+
+def _line(t: Trace, index: int) -> Scalar:
+    node = t.nodes[index]
+    return node.constant if node.op == "constant" else Value(t, index)
+
+
+def _tangent(t: Trace, node: Node, args: list[Scalar], value: Scalar, found: dict[int, Scalar]) -> Scalar:
     change = [found.get(a, 0.0) for a in node.args]
-    args = [values[a] for a in node.args]
     if node.op in ("add", "sub"):
         return t.add(*change) if node.op == "add" else t.sub(*change)
     if node.op == "mul":
         return t.add(t.mul(change[0], args[1]), t.mul(args[0], change[1]))
     if node.op == "div":
-        return t.mul(t.sub(change[0], t.mul(values[index], change[1])), t.div(1.0, args[1]))
+        return t.mul(t.sub(change[0], t.mul(value, change[1])), t.div(1.0, args[1]))
     if node.op == "neg":
         return t.neg(change[0])
     if node.op == "select":
         condition: Mask = args[0] if isinstance(args[0], Value) else bool(args[0])
         return t.select(condition, change[1], change[2])
-    return t.mul(change[0], slope(t, node.op, args[0], values[index]))
+    total: Scalar = 0.0
+    for place, rate in enumerate(change):
+        if not _is_zero(rate):
+            total = t.add(total, t.mul(rate, slope_of(t, node, args, value, place)))
+    return total
 
 
-def slope(t: Trace, op: str, argument: Scalar, value: Scalar) -> Scalar:
-    """Derivative of a function of one argument."""
-    if op == "sqrt":
-        return t.div(0.5, value)
-    if op == "abs":
-        return t.select(t.compare("less", argument, 0.0), -1.0, 1.0)
-    if op == "sin":
-        return t.unary("cos", argument)
-    if op == "cos":
-        return t.neg(t.unary("sin", argument))
-    raise ValueError(f"the operation '{op}' has no derivative")
+def slope_of(t: Trace, node: Node, args: list[Scalar], value: Scalar, place: int) -> Scalar:
+    """Derivative of a function or look-up by one of its arguments."""
+    if node.op == "lookup":
+        return t.lookup(node.name, args[0], int(node.constant) + 1)
+    slope: Scalar = FUNCTIONS[node.op].slopes[place](t, args, value)
+    return slope
+
+
+def _is_zero(value: Scalar) -> bool:
+    return not isinstance(value, Value) and value == 0.0
 
 
 def numeric_outputs(program: Program) -> list[tuple[str, int]]:

@@ -1,6 +1,7 @@
 """Values that record what is done to them: one formula, written once, becomes one straight-line program.
 
-A kernel is a plain Python function over values that know ``+ - * / sqrt`` and selection.
+A kernel is a plain Python function over values that know ``+ - * /``, the functions of
+:mod:`~linkwright.engine.functions`, selection and look-ups in tables.
 Called with numbers it computes; called with values of a :class:`Trace` it is written down.
 Equal operations on equal arguments are recorded once, and what is known at tracing time
 (zeros, ones, constants) is folded away.
@@ -9,21 +10,23 @@ Equal operations on equal arguments are recorded once, and what is known at trac
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, overload
+from typing import NamedTuple, overload
+
+from linkwright.engine.functions import FUNCTIONS
 
 Number = float | int
-Kind = Literal["constant", "parameter", "position", "field", "state", "operation"]
-
 #: Operations that yield a truth value instead of a number.
 COMPARISONS = frozenset({"less", "less_equal", "and", "or", "not"})
 COMMUTATIVE = frozenset({"add", "mul", "and", "or"})
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
-    """One line of a program: an input, a constant, or an operation on earlier lines."""
+class Node(NamedTuple):
+    """One line of a program: an input, a constant, or an operation on earlier lines.
+
+    ``name``: of an input, or of the table of a ``lookup``, whose ``constant`` is the order of its derivative.
+    """
 
     op: str
     args: tuple[int, ...] = ()
@@ -209,11 +212,32 @@ class Trace:
         negated = self._negated(a)
         return negated if negated is not None else self._operation("neg", a)
 
-    def unary(self, op: str, a: Scalar) -> Scalar:
-        """``sqrt``, ``abs``, ``sin``, ``cos``; ``stop``: the value, taken as constant by derivatives."""
-        if isinstance(a, float | int):
-            return _UNARY[op](float(a))
-        return self._operation(op, a)
+    def stop(self, a: Scalar) -> Scalar:
+        """The value, taken as constant by derivatives."""
+        return self._operation("stop", a) if isinstance(a, Value) else a
+
+    def function(self, op: str, *args: Scalar) -> Scalar:
+        """A function of :data:`~linkwright.engine.functions.FUNCTIONS`."""
+        if any(isinstance(a, Value) for a in args):
+            return self._operation(op, *args)
+        return FUNCTIONS[op].value(*(float(a) for a in args if not isinstance(a, Value)))
+
+    def power(self, a: Scalar, b: Scalar) -> Scalar:
+        """a to the power b; a small whole power is a product, a half one a root."""
+        if not isinstance(b, Value) and abs(b) <= _LARGEST_PRODUCT and float(b).is_integer():
+            product: Scalar = 1.0
+            for bit in bin(int(abs(b)))[2:]:
+                product = self.mul(product, product)
+                product = self.mul(product, a) if bit == "1" else product
+            return product if b >= 0 else self.div(1.0, product)
+        return self.function("sqrt", a) if _is(b, 0.5) else self.function("pow", a, b)
+
+    def lookup(self, table: str, x: Scalar, order: int = 0) -> Scalar:
+        """A table's value at x, or its derivative; the table itself is given with every call."""
+        if order >= _CONSTANT_DERIVATIVES:
+            return 0.0
+        args = (self.lift(x),)
+        return self._line(Node("lookup", args, float(order), table, self.nodes[args[0]].varies))
 
     def compare(self, op: str, a: Scalar, b: Scalar) -> Mask:
         if isinstance(a, float | int) and isinstance(b, float | int):
@@ -248,11 +272,15 @@ class Trace:
         return self._line(Node("constant", constant=float(value))).index
 
     def _operation(self, op: str, *values: Scalar | bool) -> Value:
-        args = tuple(self.lift(value) for value in values)
+        args = tuple([self.lift(value) for value in values])
         if op in COMMUTATIVE and args[0] > args[1]:
             args = (args[1], args[0])
-        varies = any(self.nodes[i].varies for i in args)
-        return self._line(Node(op, args, varies=varies))
+        index = self._known.get((op, args))
+        if index is None:
+            nodes = self.nodes
+            index = self._known[op, args] = len(nodes)
+            nodes.append(Node(op, args, varies=any(nodes[i].varies for i in args)))
+        return Value(self, index)
 
     def _line(self, node: Node) -> Value:
         key = (node.op, node.args, repr(node.constant), node.name)
@@ -278,19 +306,17 @@ def _same(a: object, b: object) -> bool:
     return isinstance(a, Value) and isinstance(b, Value) and a.index == b.index and a.trace is b.trace
 
 
-_UNARY: dict[str, Callable[[float], float]] = {
-    "sqrt": lambda x: math.sqrt(x) if x >= 0.0 else math.nan,
-    "abs": abs,
-    "sin": math.sin,
-    "cos": math.cos,
-    "stop": lambda x: x,
-}
+#: Whole powers up to this one are products.
+_LARGEST_PRODUCT = 8
+#: Derivatives of a cubic of this order and above are zero.
+_CONSTANT_DERIVATIVES = 4
 
 
-def _apply(op: str, x: Scalar) -> Scalar:
-    if isinstance(x, Value):
-        return x.trace.unary(op, x)
-    return _UNARY[op](x)
+def _apply(op: str, *args: Scalar) -> Scalar:
+    for x in args:
+        if isinstance(x, Value):
+            return x.trace.function(op, *args)
+    return FUNCTIONS[op].value(*args)
 
 
 def sqrt(x: Scalar) -> Scalar:
@@ -310,19 +336,72 @@ def absolute(x: Scalar) -> Scalar:
     return _apply("abs", x)
 
 
+def floor(x: Scalar) -> Scalar:
+    """The largest whole number that is not above x; its derivative is zero."""
+    return _apply("floor", x)
+
+
 def sin(x: Scalar) -> Scalar:
-    """Sine, for numbers known once per design."""
+    """Sine of an angle in radians."""
     return _apply("sin", x)
 
 
 def cos(x: Scalar) -> Scalar:
-    """Cosine, for numbers known once per design."""
+    """Cosine of an angle in radians."""
     return _apply("cos", x)
+
+
+def tan(x: Scalar) -> Scalar:
+    """Tangent of an angle in radians."""
+    return _apply("tan", x)
+
+
+def asin(x: Scalar) -> Scalar:
+    """Arc sine, -π/2 to π/2; NaN beyond ±1."""
+    return _apply("asin", x)
+
+
+def acos(x: Scalar) -> Scalar:
+    """Arc cosine, 0 to π; NaN beyond ±1."""
+    return _apply("acos", x)
+
+
+def atan(x: Scalar) -> Scalar:
+    """Arc tangent, -π/2 to π/2."""
+    return _apply("atan", x)
+
+
+def angle(y: Scalar, x: Scalar) -> Scalar:
+    """Direction of (x, y) from the x axis, counter-clockwise, -π to π (the function atan2)."""
+    return _apply("atan2", y, x)
+
+
+def exp(x: Scalar) -> Scalar:
+    """Exponential."""
+    return _apply("exp", x)
+
+
+def log(x: Scalar) -> Scalar:
+    """Natural logarithm; -∞ for zero, NaN for a negative number."""
+    return _apply("log", x)
+
+
+def power(a: Scalar, b: Scalar) -> Scalar:
+    """a to the power b; NaN for a negative base and a power that is not whole."""
+    for x in (a, b):
+        if isinstance(x, Value):
+            return x.trace.power(a, b)
+    return FUNCTIONS["pow"].value(a, b)
+
+
+def lookup(table: str, x: Value, order: int = 0) -> Scalar:
+    """Value at x of the named table, or its derivative (see :class:`~linkwright.engine.table.Table`)."""
+    return x.trace.lookup(table, x, order)
 
 
 def stop(x: Scalar) -> Scalar:
     """The value itself, which derivatives take as a constant."""
-    return _apply("stop", x)
+    return x.trace.stop(x) if isinstance(x, Value) else x
 
 
 @overload
@@ -344,3 +423,25 @@ def maximum(a: Scalar, b: Scalar) -> Scalar:
 def minimum(a: Scalar, b: Scalar) -> Scalar:
     """The smaller of two numbers."""
     return select(b < a, b, a)
+
+
+def sign(x: Scalar) -> Scalar:
+    """1, -1, or 0 for zero; NaN for NaN; its derivative is zero."""
+    return select(x > 0.0, 1.0, select(x < 0.0, -1.0, stop(x)))
+
+
+def nearest_turn(x: Scalar, reference: Scalar) -> Scalar:
+    """The angle x with as many whole turns as bring it nearest to a reference, at most half a turn off."""
+    return x + math.tau * floor((reference - x) * (1.0 / math.tau) + 0.5)
+
+
+def slope(value: Scalar, seeds: Mapping[Value, Scalar]) -> Scalar:
+    """Derivative of a value along given changes of earlier values, in the same trace.
+
+    ``seeds``: values (inputs, or any line) and their rates; what they depend on counts as constant.
+    The result is a value like every other: it can be an output, and be differentiated again.
+    Raises ValueError for values of different traces.
+    """
+    from linkwright.engine.tangent import slope_in_trace
+
+    return slope_in_trace(value, seeds) if isinstance(value, Value) else 0.0

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kinematics.cycle import Floats, Positions, at_times
-from linkwright.kinematics.groups import mechanism_size
+from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
@@ -128,7 +128,7 @@ class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
     def __init__(self, solver: MotionSolver, positions: Positions, states: Mapping[str, Floats]) -> None:
-        self.base = solver.with_flips(()) if solver.flipping else solver
+        self.base = solver.with_flips(())
         self.solver = self.base
         self.positions = positions
         self.states = states
@@ -170,7 +170,7 @@ class _Search:
             for i in np.flatnonzero(sign != following):
                 place = self._crossing(name, float(i))
                 ends = self._evaluate((f"p:{pin}.x", f"p:{pin}.y"), np.array([place - 1e-6, place + 1e-6]))
-                if not np.hypot(*(ends[:, 1] - ends[:, 0])) < mechanism_size(self.base.motion.dimensions):
+                if not np.hypot(*(ends[:, 1] - ends[:, 0])) < mechanism_size(self.base.mechanism):
                     found.append(self._passage(group, place, 0.0, "pole"))
         return found
 
@@ -266,7 +266,7 @@ class _Search:
         if states and not at_positions:
             index = np.arange(n + 1.0)
             states = {name: np.interp(turn, index, np.append(row, row[0])) for name, row in states.items()}
-        modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.flipping}
+        modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.manner.flipping}
         return self.solver.evaluate(names, positions, states, modes)
 
     def _signs(self, group: str, place: Floats) -> Floats:

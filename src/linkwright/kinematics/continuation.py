@@ -12,7 +12,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.cycle import Floats, Positions
-from linkwright.kinematics.groups import mechanism_size, state_name
+from linkwright.kinematics.groups import state_name
+from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.group import Structure
@@ -41,7 +42,7 @@ class Follower:
         )
         self.program = _follow_program(self.motion)
         self.scalar = ScalarProgram(self.program)
-        self.size = mechanism_size(self.motion.dimensions)
+        self.size = mechanism_size(self.mechanism)
         self.values = [self.parameters[name] for name in self.program.parameters]
         self.names = self.program.states
         self.linear = {

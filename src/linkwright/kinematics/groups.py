@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from linkwright.engine.linear import Matrix, inverse, product
 from linkwright.engine.trace import Mask, Scalar, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Rotor
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.closure import Cut, PinCut, cut_of, jacobian
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
 from linkwright.kinematics.pairs import Coordinate, Guide, pair_of
 from linkwright.kinematics.pose import UNTURNED, Pose
+from linkwright.kinematics.size import mechanism_size
 from linkwright.structure.group import Group, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
@@ -231,23 +229,9 @@ def _corrected(value: Coordinate, change: Scalar) -> Coordinate:
 
 def _relative_square(group: Group, correction: Sequence[Scalar], dimensions: Dimensions) -> Scalar:
     """Sum of squares of the last correction; slides relative to the size of the mechanism."""
-    size = mechanism_size(dimensions)
+    size = mechanism_size(dimensions.mechanism)
     total: Scalar = 0.0
     for step, change in zip(group.unknowns, correction, strict=True):
         relative = change * (1.0 / size) if step.kind == "prismatic" else change
         total = total + relative * relative
     return total
-
-
-def mechanism_size(dimensions: Dimensions) -> float:
-    """A length that tells the size of the mechanism, in metres: its largest coordinate, offset or stroke."""
-    mechanism = dimensions.mechanism
-    links = [*mechanism.links.values(), mechanism.frame]
-    reach = [abs(c) for link in links for point in link.points.values() for c in point]
-    reach += [abs(c) for point in mechanism.drawing.values() for c in point]
-    reach += [abs(getattr(joint, "offset", 0.0)) for joint in mechanism.joints.values()]
-    for driver in mechanism.drivers.values():
-        if isinstance(mechanism.joints[driver.joint], PrismaticJoint):
-            reach.append(abs(float(driver.law.coordinate(np.zeros(1))[0][0])))
-    largest = max([*reach, 0.0])
-    return largest if largest > 0.0 else 1.0

@@ -14,7 +14,7 @@ from linkwright.kinematics.change_points import mark_singular, modal, passages, 
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
-from linkwright.kinematics.rank import mechanism_size
+from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest

@@ -20,7 +20,7 @@ from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
-from linkwright.kinematics.rank import mechanism_size
+from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import nearest
@@ -261,8 +261,8 @@ class _Search:
             moving = np.append(moving, moving[0] + self.count)
         pairs = np.stack([moving[:-1], moving[1:]], axis=1)
         there = np.tile(known | self.singular[: self.count], 2)
-        whole = [bool(there[i : j + 1].all()) for i, j in pairs]
-        return np.asarray(pairs[np.array(whole, dtype=bool)])
+        gaps = np.concatenate([[0], np.cumsum(~there)])
+        return np.asarray(pairs[gaps[pairs[:, 1] + 1] == gaps[pairs[:, 0]]])
 
     def _time(self, index: Indices) -> Floats:
         lap = (index >= self.count) * (self.period or 0.0)

@@ -24,6 +24,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.drawing import Drawing, guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
+from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
@@ -290,12 +291,6 @@ def _drawn(mechanism: Mechanism) -> Floats | None:
         c, s = math.cos(angle), math.sin(angle)
         found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, angle]
     return np.array(found)
-
-
-def mechanism_size(mechanism: Mechanism) -> float:
-    """Largest coordinate of a point on its link, m."""
-    links = [mechanism.frame, *mechanism.links.values()]
-    return max([abs(c) for link in links for point in link.points.values() for c in point] + [1e-12])
 
 
 # rank ---------------------------------------------------------------------------------------------

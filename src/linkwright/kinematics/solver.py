@@ -1,4 +1,4 @@
-"""A mechanism made ready to be solved many times: structure, assembly, traced programs."""
+"""A mechanism made ready to be solved: the programs of its shape, its numbers, its assembly."""
 
 from __future__ import annotations
 
@@ -8,51 +8,56 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
+from linkwright.kinematics.trace import MotionTrace
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure
 
 
 class MotionSolver:
-    """Programs of one mechanism, traced when first needed."""
+    """Evaluates the motion of one mechanism; ``manner``: how it is traced."""
 
-    def __init__(self, mechanism: Mechanism, free: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, mechanism: Mechanism, manner: Manner = AS_IT_IS, assembly: Assembly | None = None
+    ) -> None:
         self.mechanism = mechanism
-        self.free = free
-        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
-        self.point_keys: dict[str, str] = {}
-        self.flipping: frozenset[str] = frozenset()
-        self.iterations = 1
+        self.manner = manner
+        self._assembly = assembly
 
     @cached_property
-    def structure(self) -> Structure:
-        from linkwright.kinematics.rank import analysed
+    def programs(self) -> MotionPrograms:
+        """The programs of the mechanism's shape."""
+        return motion_programs(self.mechanism, self.manner)
 
-        return analysed(self.mechanism)
+    @property
+    def structure(self) -> Structure:
+        """Its Assur groups."""
+        return self.programs.structure
+
+    @property
+    def motion(self) -> MotionTrace:
+        """Every link's state as traced values."""
+        return self.programs.motion
+
+    @property
+    def outputs(self) -> MotionOutputs:
+        """The motion's outputs by name."""
+        return self.programs.outputs
+
+    @property
+    def point_keys(self) -> dict[str, str]:
+        """Names of points that were looked up, with their canonical ones."""
+        return self.programs.point_keys
 
     @cached_property
     def assembly(self) -> Assembly:
-        return assemble(self.mechanism, self.structure)
-
-    @cached_property
-    def motion(self) -> MotionTrace:
-        return trace_motion(
-            self.mechanism,
-            self.structure,
-            free=self.free,
-            modes_vary=self.flipping,
-            iterations=self.iterations,
-        )
-
-    @cached_property
-    def outputs(self) -> MotionOutputs:
-        return MotionOutputs(self.motion)
+        """How its groups are put together."""
+        return self._assembly or assemble(self.mechanism, self.structure)
 
     @cached_property
     def nominal(self) -> Design:
@@ -60,35 +65,28 @@ class MotionSolver:
         return Design(self.mechanism, self.assembly.modes, {})
 
     def for_design(self, design: Design) -> MotionSolver:
-        """The same structure and assembly for a design with its changes made."""
+        """The same assembly for a design with its changes made."""
         if not design.changes:
-            return self.with_flips(()) if self.flipping else self
-        other = MotionSolver(design.mechanism, self.free)
-        other.__dict__["structure"] = self.structure
-        other.__dict__["assembly"] = self.assembly
-        return other
+            return self.with_flips(())
+        return MotionSolver(design.mechanism, Manner(self.manner.free), self.assembly)
 
     def with_flips(self, groups: Iterable[str]) -> MotionSolver:
         """The same mechanism, with assembly modes of some groups given per position."""
-        other = MotionSolver(self.mechanism, self.free)
-        other.flipping = frozenset(groups)
-        other.__dict__["structure"] = self.structure
-        other.__dict__["assembly"] = self.assembly
-        return other
+        flipping = frozenset(groups)
+        if flipping == self.manner.flipping:
+            return self
+        return MotionSolver(self.mechanism, Manner(self.manner.free, flipping), self.assembly)
 
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs."""
-        if names not in self._programs:
-            values = {name: self.outputs.value(name) for name in names}
-            self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
-        return self._programs[names]
+        return self.programs.program(names)
 
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
         if not self.motion.next_states:
             return {}
         parameters = (design or self.nominal).parameters
-        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.free).follow(
+        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.manner.free).follow(
             positions
         )
 

@@ -16,6 +16,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
+from linkwright.model.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -46,14 +47,14 @@ class FrictionTerms:
         self.terms = terms
 
     @classmethod
-    def of(cls, motion: MotionTrace) -> FrictionTerms:
-        """The friction terms of the joints that have a coefficient.
+    def of(cls, mechanism: Mechanism, motion: MotionTrace) -> FrictionTerms:
+        """The friction terms of the joints of a mechanism that have a coefficient; ``motion``: of its shape.
 
         Raises:
             LinkwrightError: a pin with friction but without a radius.
         """
         terms = []
-        for name, joint in motion.mechanism.joints.items():
+        for name, joint in mechanism.joints.items():
             coefficient = getattr(joint, "friction", 0.0)
             if not coefficient:
                 continue

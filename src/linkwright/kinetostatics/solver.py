@@ -1,4 +1,4 @@
-"""Programs of motion and forces together, for one mechanism."""
+"""Motion and forces of one mechanism evaluated together."""
 
 from __future__ import annotations
 
@@ -8,46 +8,45 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.outputs import ForceOutputs
-from linkwright.kinetostatics.trace import ForceTrace, trace_forces
+from linkwright.kinetostatics.programs import ForcePrograms, force_programs
+from linkwright.kinetostatics.trace import ForceTrace
 
 
 class ForceSolver:
-    """Traces the forces of a motion solver's mechanism."""
+    """Evaluates the forces of a motion solver's mechanism."""
 
     def __init__(self, motion: MotionSolver, *, inertia: bool = True) -> None:
         self.motion = motion
         self.inertia = inertia
-        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+
+    @cached_property
+    def programs(self) -> ForcePrograms:
+        """The programs of the mechanism's shape."""
+        return force_programs(self.motion.programs, inertia=self.inertia)
 
     @cached_property
     def friction(self) -> FrictionTerms:
-        return FrictionTerms.of(self.motion.motion)
+        """Friction of the mechanism's joints."""
+        return FrictionTerms.of(self.motion.mechanism, self.motion.motion)
 
-    @cached_property
+    @property
     def forces(self) -> ForceTrace:
-        return trace_forces(self.motion.motion, inertia=self.inertia, extra=self.friction.wrenches())
+        """Reactions and efforts as traced values."""
+        return self.programs.forces
 
-    @cached_property
+    @property
     def outputs(self) -> ForceOutputs:
-        return ForceOutputs(self.forces)
+        """The forces' outputs by name."""
+        return self.programs.outputs
 
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs, of the forces or of the motion."""
-        if names not in self._programs:
-            values = {name: self._value(name) for name in names}
-            self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
-        return self._programs[names]
-
-    def _value(self, name: str):  # type: ignore[no-untyped-def]
-        if name.split(":", maxsplit=1)[0] in {"p", "v", "a", "e", "w", "g", "s", "sv", "sa"}:
-            return self.motion.outputs.value(name)
-        return self.outputs.value(name)
+        return self.programs.program(names)
 
     def fields_needed(self) -> tuple[str, ...]:
         """Inputs per position that are found from the motion: load magnitudes, angles, friction."""

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from linkwright.model.reader import Reader
 
 __all__ = [
+    "AT_REST",
     "LOADS",
     "LinkPoint",
     "Load",
@@ -63,6 +64,8 @@ __all__ = [
     "word",
 ]
 
+#: Slower than this (m/s, rad/s) is at rest, where no direction is opposed.
+AT_REST = 1e-12
 _REQUIRED: Any = object()
 
 

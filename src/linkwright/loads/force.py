@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from linkwright.engine.trace import sqrt
+from linkwright.engine.trace import select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load, Phase, Table
+from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
 
@@ -22,8 +22,10 @@ class Force(Load):
 
     Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of
     ``on``; ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q],
-    along that ray. Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [q0, q1], linear
-    in the input over the phase; ``table``. A negative magnitude reverses the force. Instead of both:
+    along that ray; ``opposes: velocity``, against the velocity of ``at`` in the frame, F = -magnitude v/|v|,
+    zero at rest (below 1e-12 m/s). Magnitude, one of: ``magnitude``, a number or an expression; ``ramp``
+    [q0, q1], linear in the input over the phase (over the output's way where the phase is a part of its
+    stroke); ``table``. A negative magnitude reverses the force. Instead of both:
     ``components`` [Fx, Fy] in frame axes. Outside ``phase`` the force is zero. The frame takes no part:
     whatever presses is outside the machine.
 
@@ -33,7 +35,7 @@ class Force(Load):
 
     kind: ClassVar[str] = "force"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (
-        ("direction", "in_link", "normal_to", "along", "components"),
+        ("direction", "in_link", "normal_to", "along", "opposes", "components"),
         ("magnitude", "ramp", "table", "components"),
     )
     on: str = base.link(moving=True, doc="the link on which the force acts")
@@ -44,6 +46,9 @@ class Force(Load):
         "on", default=None, doc="[P, Q]: along the left normal of the ray P→Q"
     )
     along: tuple[str, str] | None = base.ray("on", default=None, doc="[P, Q]: along the ray P→Q")
+    opposes: str | None = base.word(
+        "velocity", default=None, doc="velocity: against the velocity of the point"
+    )
     components: tuple[float, float] | None = base.values(
         "force",
         names=("x", "y"),
@@ -77,6 +82,8 @@ class Force(Load):
             return site.direction(site.dimension("direction"))
         if self.in_link is not None:
             return site.axis(self.on).turn(site.direction(site.dimension("in_link")))
+        if self.opposes is not None:
+            return _against(site.velocity(self.on, self.at))
         p, q = self.normal_to or self.along or (self.at, self.at)
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
@@ -87,3 +94,9 @@ class Force(Load):
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / sqrt(ray.square))
         return unit.perp if self.normal_to else unit
+
+
+def _against(velocity: Vec) -> Vec:
+    """Unit vector against a velocity; zero at rest."""
+    moves = velocity.square > AT_REST * AT_REST
+    return velocity * select(moves, -1.0 / sqrt(select(moves, velocity.square, 1.0)), 0.0)

@@ -10,6 +10,8 @@ import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
 from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, Phase, SwingPhase
+from linkwright.model.stroke_parts import StrokePart
+from linkwright.words.sentence import Sentence
 
 TURN = 2 * np.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
@@ -26,10 +28,14 @@ class Activity:
 
 @dataclass(frozen=True)
 class Stretch:
-    """One way of an output from a limit to another; times and inputs go on through the cycle's end."""
+    """One way of an output from a limit to another; times and inputs go on through the cycle's end.
+
+    ``values``: the output at both limits.
+    """
 
     begin: tuple[float, float]
     end: tuple[float, float]
+    values: tuple[float, float]
 
 
 def activity(phase: Phase | None, signals: Signals, *, ramp: bool = False) -> Activity:
@@ -44,7 +50,10 @@ def activity(phase: Phase | None, signals: Signals, *, ramp: bool = False) -> Ac
             return _input(phase, signals)
         case MovingPhase():
             return _moving(phase, signals, ramp)
-    return _along(_swings(phase, signals), signals, phase.output, ramp)
+    swings = _swings(phase, signals)
+    if phase.part is not None:
+        return _in_part(phase.part, swings, signals, phase.output)
+    return _along(swings, signals, phase.output, ramp)
 
 
 def _input(phase: InputPhase, signals: Signals) -> Activity:
@@ -136,7 +145,8 @@ def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> li
             continue
         wrap = index == 0
         period, drift = (whole.period or 0.0, whole.drift) if wrap else (0.0, 0.0)
-        found.append(Stretch((first.time - period, first.input - drift), (last.time, last.input)))
+        begin = (first.time - period, first.input - drift)
+        found.append(Stretch(begin, (last.time, last.input), (first.value, last.value)))
     return found
 
 
@@ -155,6 +165,36 @@ def _along(found: Sequence[Stretch], signals: Signals, output: Output, ramp: boo
         if ramp:
             share = np.where(inside, np.clip(gained / rise, 0.0, 1.0), share)
     return Activity(where, share if ramp else None)
+
+
+def _in_part(part: StrokePart, found: Sequence[Stretch], signals: Signals, output: Output) -> Activity:
+    """Where the output itself is in a part of its stroke; the share grows with the output's way."""
+    where = np.zeros(len(signals.time), dtype=bool)
+    share = np.zeros(len(signals.time))
+    value = signals.output(output)[0]
+    for stretch in found:
+        start, stroke = stretch.values[0], stretch.values[1] - stretch.values[0]
+        begin, end = part.ends(abs(stroke))
+        slack = NEAR * abs(stroke)
+        if not -slack <= begin < end <= abs(stroke) + slack:
+            raise LinkwrightError(
+                Sentence(
+                    "loads.part_too_long",
+                    part=Sentence(f"loads.part_{part.word}"),
+                    amounts=" + ".join(
+                        shown(each.way(abs(stroke)), output.dimension) for each in part.amounts
+                    ),
+                    output=output,
+                    stroke=shown(abs(stroke), output.dimension),
+                )
+            )
+        gone = (value - start) * np.sign(stroke)
+        if output.kind == "angle" and abs(stroke) < TURN:
+            gone = gone - TURN * np.floor((gone + (TURN - abs(stroke)) / 2) / TURN)
+        inside = _within(stretch, signals)[0] & (gone >= begin - slack) & (gone <= end + slack)
+        where |= inside
+        share = np.where(inside, np.clip((gone - begin) / (end - begin), 0.0, 1.0), share)
+    return Activity(where, share)
 
 
 def _within(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from linkwright.engine.trace import select
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load, Phase, Table
+from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
 
@@ -18,7 +19,9 @@ class Torque(Load):
     """A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.
 
     Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over
-    the phase; ``table``. Outside ``phase`` it is zero.
+    the phase; ``table``. With ``opposes: velocity`` a positive magnitude acts against the rotation of ``on``
+    relative to ``against``, M = -magnitude sign(ω), zero at rest (below 1e-12 rad/s). Outside ``phase`` it is
+    zero.
 
     Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
@@ -27,6 +30,9 @@ class Torque(Load):
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("magnitude", "ramp", "table"),)
     on: str = base.link(moving=True, doc="the link on which the torque acts")
     against: str = base.link(default="frame", doc="the link that takes the opposite torque (default: frame)")
+    opposes: str | None = base.word(
+        "velocity", default=None, doc="velocity: against the rotation of on relative to against"
+    )
     magnitude: float | Expression | None = base.magnitude("torque", default=None, doc="magnitude")
     ramp: tuple[float, float] | None = base.values(
         "torque", count=2, default=None, doc="from, to over the phase"
@@ -48,4 +54,7 @@ class Torque(Load):
 
     def wrenches(self, site: Site) -> list[Wrench]:
         moment = site.magnitude()
+        if self.opposes is not None:
+            omega = site.omega(self.on) - site.omega(self.against)
+            moment = moment * select(omega > AT_REST, -1.0, select(omega < -AT_REST, 1.0, 0.0))
         return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]

@@ -18,6 +18,8 @@ from linkwright.model.fields import (
 )
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
+from linkwright.model.stroke_parts import PARTS, StrokePart, StrokePartField
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.plain_reader import Place
@@ -155,11 +157,12 @@ class MovingPhase:
 
 @dataclass(frozen=True)
 class SwingPhase:
-    """While an output goes from one of its limits to the other, both found by the program."""
+    """While an output goes from one of its limits to the other, both found by the program; ``part`` of that."""
 
     output: Output
     start: Literal["max", "min"]
     end: Literal["max", "min"]
+    part: StrokePart | None = None
 
 
 Phase = InputPhase | MovingPhase | SwingPhase
@@ -167,8 +170,8 @@ Phase = InputPhase | MovingPhase | SwingPhase
 
 @dataclass(frozen=True)
 class PhaseField(Field):
-    """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to:
-    min}``."""
+    """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to: min}``,
+    the last with ``first``, ``last`` or ``free`` for a part of the stroke."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Phase | None:
         mapping = reader.mapping(node, place)
@@ -187,7 +190,8 @@ class PhaseField(Field):
             )
             return None
         values = reader.table(mapping, place, forms[chosen[0]])
-        if values is None or any(values.get(name) is None for name in forms[chosen[0]]):
+        required = [name for name, each in forms[chosen[0]].items() if each.required]
+        if values is None or any(values.get(name) is None for name in required):
             return None
         return _phase(reader, node, place, values)
 
@@ -205,6 +209,7 @@ class PhaseField(Field):
                 "of": OutputName(required=True, doc="an output"),
                 "from": Word(limits, required=True),
                 "to": Word(limits, required=True),
+                **{word: StrokePartField(word, doc=doc) for word, doc in PARTS.items()},
             },
         }
 
@@ -225,7 +230,8 @@ class PhaseField(Field):
                 return {"input": [written_quantity(start, across), written_quantity(end, across)]}
             case MovingPhase(output, direction):
                 return {"moving": str(output), "direction": direction}
-        return {"of": str(value.output), "from": value.start, "to": value.end}
+        found = {"of": str(value.output), "from": value.start, "to": value.end}
+        return found if value.part is None else {**found, **value.part.written(value.output.dimension)}
 
 
 def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) -> Phase | None:
@@ -246,7 +252,14 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
             "range",
         )
         return None
-    return SwingPhase(values["of"], values["from"], values["to"])
+    parts = [values[word] for word in PARTS if values.get(word) is not None]
+    if len(parts) > 1:
+        words = tuple(part.word for part in parts)
+        reader.error(
+            node, place, Sentence("model.several_parts", words=words), Sentence("model.keep_one"), "choice"
+        )
+        return None
+    return SwingPhase(values["of"], values["from"], values["to"], *parts)
 
 
 def resolve_output(

@@ -13,7 +13,7 @@ from linkwright.engine.sweep import Backend, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.kinematics.cycle import Positions, over_cycle
-from linkwright.kinematics.groups import mechanism_size
+from linkwright.kinematics.size import mechanism_size
 from linkwright.study.starts import start_states
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
@@ -66,7 +66,7 @@ class Following:
     def _needed(self) -> int:
         """How much finer the positions must be for the known design."""
         known = self.traced.solver.states(self.traced.positions)
-        size = mechanism_size(self.traced.solver.motion.dimensions)
+        size = mechanism_size(self.traced.mechanism)
         largest = 0.0
         for name, row in known.items():
             change = np.abs(np.diff(row)) / (size if name.endswith(".s") else 1.0)
@@ -81,7 +81,7 @@ class _Way:
         self.finer = finer
         mechanism, asked = traced.mechanism, traced.positions
         self.positions: Positions = over_cycle(mechanism, positions_steps(asked) * finer)
-        self.traced = Traced(mechanism, traced.solver.free, self.positions, iterations=ITERATIONS)
+        self.traced = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
         self.asked = traced
         self.arrays = {**self.positions.arrays, "counted": _counted(self.positions.count, finer)}
         quantities = self.traced.quantities(names)
@@ -98,7 +98,7 @@ class _Way:
         """Whether this position is found and the way to it was passed."""
         motion = self.traced.solver.motion
         trace = motion.trace
-        size = mechanism_size(motion.dimensions)
+        size = mechanism_size(motion.mechanism)
         passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
         for name, new in motion.next_states.items():
             change = absolute(new - trace.state(name))

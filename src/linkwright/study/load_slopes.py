@@ -29,6 +29,7 @@ from linkwright.model.expressions import Expression, array_functions
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import MovingPhase, Output, SwingPhase, Table
 from linkwright.study.traced import Traced
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -145,6 +146,8 @@ class LoadSlopes:
             return still
         limits = list(self.signals.limits(phase.output))
         if isinstance(phase, SwingPhase):
+            if phase.part is not None:
+                raise LinkwrightError(Sentence("loads.no_slope_of_part", name=load.name))
             limits, ends = outermost(limits), (phase.start, phase.end)
         else:
             ends = ("min", "max") if phase.direction == "increasing" else ("max", "min")

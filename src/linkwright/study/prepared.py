@@ -14,6 +14,7 @@ from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
@@ -60,7 +61,7 @@ class Prepared:
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
-        self.solver = MotionSolver(mechanism, frozenset(vary))
+        self.solver = MotionSolver(mechanism, Manner(frozenset(vary)))
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
         self._names = (*motion[:-1], *forces, "outcome")

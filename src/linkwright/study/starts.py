@@ -11,7 +11,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.continuation import CONVERGED, ITERATIONS, LARGEST_CHANGE
-from linkwright.kinematics.groups import mechanism_size
+from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.trace import trace_motion
 from linkwright.study.traced import Traced
 
@@ -36,7 +36,7 @@ class _Approach:
     def __init__(self, traced: Traced, columns: Mapping[str, Floats]) -> None:
         solver = traced.solver
         motion = trace_motion(
-            traced.mechanism, solver.structure, free=solver.free, rates=False, iterations=ITERATIONS
+            traced.mechanism, solver.structure, free=solver.manner.free, rates=False, iterations=ITERATIONS
         )
         residual: Scalar = 0.0
         for placed in motion.placed.values():
@@ -47,7 +47,7 @@ class _Approach:
         self.goal = traced.table(program, columns)
         self.begin = traced.numbers(program)
         self.inputs = {name: row[:1] for name, row in traced.positions.arrays.items()}
-        size = mechanism_size(motion.dimensions)
+        size = mechanism_size(motion.mechanism)
         self.scale = np.array([size if name.endswith(".s") else 1.0 for name in self.names])
         known = solver.states(traced.positions)
         self.first = np.array([known[name][0] for name in self.names])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -183,7 +183,7 @@ def _fed(program: Program) -> Program:
     """The same program with states and signs of assembly modes as inputs per design and position."""
     program = states_as_fields(program) if program.states else program
     nodes = tuple(
-        replace(node, op="field") if node.op == "position" and node.name.startswith("mode:") else node
+        node._replace(op="field") if node.op == "position" and node.name.startswith("mode:") else node
         for node in program.nodes
     )
     return Program(nodes, program.outputs, program.next_states)

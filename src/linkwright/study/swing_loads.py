@@ -7,7 +7,6 @@ exact acceleration, kept inside their brackets, refine all of them together.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,8 +47,10 @@ def swings(traced: Traced, names: tuple[str, ...], columns: Mapping[str, Floats]
 
 
 def _simple(traced: Traced, load: Load) -> bool:
+    phase = getattr(load, "phase", None)
     if (
-        not isinstance(getattr(load, "phase", None), SwingPhase)
+        not isinstance(phase, SwingPhase)
+        or phase.part is not None
         or type(load).from_cycle is not Load.from_cycle
     ):
         return False
@@ -163,6 +164,6 @@ class SwingLoads:
             valid = select(solver.motion.valid, 1.0, 0.0)
             coarse = Program.of(solver.motion.trace, {"rate": rate, "valid": valid})
             own = Program.of(solver.motion.trace, {"rate": rate, "second": second})
-            nodes = tuple(replace(node, op="field") if node.op == "position" else node for node in own.nodes)
+            nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in own.nodes)
             self._programs[key] = NumpyProgram(coarse), NumpyProgram(Program(nodes, own.outputs))
         return self._programs[key]

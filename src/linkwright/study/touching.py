@@ -7,7 +7,6 @@ in all designs together, by sections of the stretch between the neighbouring pos
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +35,7 @@ class Touching:
         self.groups = tuple(modal_groups(traced.solver.structure))
         qualities = {name: placed[name].quality for name in self.groups}
         program = Program.of(traced.solver.motion.trace, qualities)
-        nodes = tuple(replace(node, op="field") if node.op == "position" else node for node in program.nodes)
+        nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in program.nodes)
         self.along = NumpyProgram(program)
         self.anywhere = NumpyProgram(Program(nodes, program.outputs))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +15,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.solver import ForceSolver
@@ -52,10 +54,11 @@ class Traced:
         self.mechanism = mechanism
         self.positions = positions
         self.turning = turning
-        self.solver = MotionSolver(mechanism, frozenset(free))
-        self.solver.iterations = iterations
+        manner = Manner(frozenset(free), iterations=iterations)
         if flipping:
-            self.solver.flipping = frozenset(modal_groups(self.solver.structure))
+            groups = modal_groups(motion_programs(mechanism, manner).structure)
+            manner = replace(manner, flipping=frozenset(groups))
+        self.solver = MotionSolver(mechanism, manner)
         self.forces = ForceSolver(self.solver)
         self.named = Named(self.forces, self._middle)
 
@@ -68,7 +71,7 @@ class Traced:
     def arrays(self) -> dict[str, Floats]:
         """Inputs per position; with ``flipping`` the signs of the assembly modes of the mechanism as it is."""
         found = dict(self.positions.arrays)
-        if self.solver.flipping:
+        if self.solver.manner.flipping:
             signs = self.solver.assembly.modes
             count = self.positions.count
             found |= {f"mode:{name}": np.full(count, sign) for name, sign in signs.items()}

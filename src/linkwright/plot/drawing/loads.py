@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from linkwright.kinematics.drawing import guide_angle
-from linkwright.loads.base import LinkPoint, Load
+from linkwright.loads.base import AT_REST, LinkPoint, Load
 from linkwright.loads.damper import Damper
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
@@ -36,7 +36,8 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
     if isinstance(load, Spring | Damper | TorsionSpring | TorsionDamper):
         return _stretched(machine, load, index) + anchors(machine, load, index)
     if forces and isinstance(load, Torque):
-        return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=_sign(load), style="lw-load")
+        turning = _sign(load) * (1 if load.opposes is None else _against_rotation(machine, load, index))
+        return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=turning, style="lw-load")
     if forces and isinstance(load, Force):
         return _push(machine, load, index)
     if forces and isinstance(load, Pressure):
@@ -115,6 +116,8 @@ def push_direction(machine: Machine, load: Force, index: int) -> Vec:
     c, s = machine.placed[load.on].direction[index]
     if load.direction is not None:
         angle = load.direction
+    elif load.opposes is not None:
+        angle = _against_velocity(machine, load, index)
     elif load.components is not None:
         angle = math.atan2(load.components[1], load.components[0])
     elif ray := load.normal_to or load.along:
@@ -124,6 +127,23 @@ def push_direction(machine: Machine, load: Force, index: int) -> Vec:
         angle = math.atan2(s, c) + (load.in_link or 0.0)
     sign = _sign(load) or 1
     return sign * math.cos(angle), -sign * math.sin(angle)
+
+
+def _against_velocity(machine: Machine, load: Force, index: int) -> float:
+    """Angle against the velocity of the point; at rest against the motion that begins there."""
+    point = machine.motion.point(f"{load.on}.{load.at}")
+    vx, vy = point.velocity[index]
+    if math.hypot(vx, vy) <= AT_REST:
+        vx, vy = point.acceleration[index]
+    return math.atan2(-vy, -vx)
+
+
+def _against_rotation(machine: Machine, load: Torque, index: int) -> int:
+    """Sign of a torque against the rotation of its link relative to the other; 0 at rest."""
+    omega = machine.motion.link(load.on).angular_velocity[index]
+    if load.against != "frame":
+        omega = omega - machine.motion.link(load.against).angular_velocity[index]
+    return 0 if abs(omega) <= AT_REST else -1 if omega > 0 else 1
 
 
 def _sign(load: Load) -> int:

@@ -1,0 +1,95 @@
+"""Traced programs of a mechanism's motion, kept by its shape: a changed number costs no tracing."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Hashable
+from dataclasses import dataclass
+from functools import cached_property
+
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.shape import shape
+from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.model.mechanism import Mechanism
+from linkwright.structure import Structure
+
+_KEPT = 32
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a motion is traced: ``free`` dimensions, ``flipping`` groups whose assembly mode is given per position,
+    ``iterations`` of groups without closed form (see ``trace_motion``)."""
+
+    free: frozenset[str] = frozenset()
+    flipping: frozenset[str] = frozenset()
+    iterations: int = 1
+
+
+AS_IT_IS = Manner()
+
+
+class MotionPrograms:
+    """The trace of all mechanisms of one shape, and the programs made of it. May be used from several threads."""
+
+    def __init__(self, mechanism: Mechanism, structure: Structure, manner: Manner) -> None:
+        self.mechanism = mechanism
+        self.structure = structure
+        self.manner = manner
+        self.point_keys: dict[str, str] = {}
+        self.lock = threading.RLock()
+        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+
+    @cached_property
+    def motion(self) -> MotionTrace:
+        """Every link's state as traced values."""
+        manner = self.manner
+        with self.lock:
+            return trace_motion(
+                self.mechanism,
+                self.structure,
+                free=manner.free,
+                modes_vary=manner.flipping,
+                iterations=manner.iterations,
+            )
+
+    @cached_property
+    def outputs(self) -> MotionOutputs:
+        """The motion's outputs by name."""
+        return MotionOutputs(self.motion)
+
+    def program(self, names: tuple[str, ...]) -> NumpyProgram:
+        """The program for some outputs."""
+        with self.lock:
+            if names not in self._programs:
+                values = {name: self.outputs.value(name) for name in names}
+                self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
+            return self._programs[names]
+
+
+def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
+    """The programs of a mechanism's shape.
+
+    Raises:
+        StructureError: as :func:`linkwright.structure.structure`.
+    """
+    key = (shape(mechanism, manner.free), manner.flipping, manner.iterations)
+    with _lock:
+        if key in _kept:
+            _kept.move_to_end(key)
+            return _kept[key]
+    from linkwright.kinematics.rank import analysed
+
+    made = MotionPrograms(mechanism, analysed(mechanism), manner)
+    with _lock:
+        made = _kept.setdefault(key, made)
+        while len(_kept) > _KEPT:
+            _kept.popitem(last=False)
+    return made
+
+
+_kept: OrderedDict[Hashable, MotionPrograms] = OrderedDict()
+_lock = threading.Lock()

@@ -1,0 +1,77 @@
+"""What of a mechanism decides its programs: everything but its numbers, and which of these are known zeros."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Hashable, Mapping
+from typing import Any
+
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.size import mechanism_size
+from linkwright.model.expressions import Expression
+from linkwright.model.mechanism import Link, Mechanism
+
+_NUMBER = "#"
+
+
+def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
+    """A key that two mechanisms share just when one program serves both, each with its own dimensions.
+
+    Dimensions that are zero and not ``free``, angles that are whole quarter turns, points of a link that coincide and
+    the directions of guides along a link's axis are known to a program (see ``Dimensions``); all other numbers are
+    its arguments. Loads, joints and laws take part with their fields, numbers left out.
+    """
+    numbers = mechanism.dimensions()
+    return (
+        tuple(
+            (address, _known(value) if address not in free else None) for address, value in numbers.items()
+        ),
+        free,
+        _link(mechanism.frame),
+        tuple(_link(link) for link in mechanism.links.values()),
+        _plain(mechanism.joints),
+        tuple(_ahead(mechanism, joint) for joint in mechanism.joints.values()),
+        tuple((d.name, d.joint, d.link, d.relative_to, type(d.law)) for d in mechanism.drivers.values()),
+        _plain(mechanism.loads),
+        tuple((address, each.text) for address, each in mechanism.expressions.items()),
+        math.frexp(mechanism_size(mechanism))[1],
+    )
+
+
+def _known(value: float) -> int | None:
+    """0 for zero, the number of quarter turns for a whole one, else None."""
+    turns = round(value / (0.5 * math.pi)) if abs(value) < 1e3 else 0
+    return turns if value == turns * 0.5 * math.pi else None
+
+
+def _link(link: Link) -> Hashable:
+    places = list(link.points.values())
+    same = tuple(places.index(place) for place in places)
+    return link.name, link.geometry, tuple(link.points), same, link.mass_centre is None
+
+
+def _ahead(mechanism: Mechanism, joint: object) -> bool | None:
+    """Of a guide along two points: whether the second has the larger abscissa on its link."""
+    if not isinstance(joint, PrismaticJoint) or joint.direction_points is None:
+        return None
+    start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
+    return end > start
+
+
+def _plain(value: Any) -> Hashable:
+    """Fields and names of an element, its numbers left out."""
+    if isinstance(value, float):
+        return _NUMBER
+    if isinstance(value, str | int | bool) or value is None:
+        return value
+    if isinstance(value, Expression):
+        return value.text
+    if isinstance(value, Mapping):
+        return tuple((key, _plain(each)) for key, each in value.items())
+    if isinstance(value, tuple | list):
+        return tuple(_plain(each) for each in value)
+    if dataclasses.is_dataclass(value):
+        fields = ((each.name, _plain(getattr(value, each.name))) for each in dataclasses.fields(value))
+        return type(value), tuple(fields)
+    return type(value).__qualname__

@@ -1,0 +1,57 @@
+"""Traced programs of a mechanism's forces, kept beside those of its motion."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
+from linkwright.engine.trace import Scalar
+from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinetostatics.friction import FrictionTerms
+from linkwright.kinetostatics.outputs import ForceOutputs
+from linkwright.kinetostatics.trace import ForceTrace, trace_forces
+
+_OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa"})
+
+
+class ForcePrograms:
+    """The traced forces of all mechanisms of one shape, and the programs made of them."""
+
+    def __init__(self, motion: MotionPrograms, inertia: bool) -> None:
+        self.motion = motion
+        self.inertia = inertia
+        self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+
+    @cached_property
+    def forces(self) -> ForceTrace:
+        """Reactions and efforts as traced values."""
+        with self.motion.lock:
+            friction = FrictionTerms.of(self.motion.mechanism, self.motion.motion)
+            return trace_forces(self.motion.motion, inertia=self.inertia, extra=friction.wrenches())
+
+    @cached_property
+    def outputs(self) -> ForceOutputs:
+        """The forces' outputs by name."""
+        return ForceOutputs(self.forces)
+
+    def program(self, names: tuple[str, ...]) -> NumpyProgram:
+        """The program for some outputs, of the forces or of the motion."""
+        with self.motion.lock:
+            if names not in self._programs:
+                values = {name: self._value(name) for name in names}
+                self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
+            return self._programs[names]
+
+    def _value(self, name: str) -> Scalar:
+        of_motion = name.split(":", maxsplit=1)[0] in _OF_MOTION
+        return (self.motion.outputs if of_motion else self.outputs).value(name)
+
+
+def force_programs(motion: MotionPrograms, *, inertia: bool = True) -> ForcePrograms:
+    """The programs of the forces that belong to those of a motion."""
+    return _kept.get(motion, inertia, lambda: ForcePrograms(motion, inertia))
+
+
+_kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)

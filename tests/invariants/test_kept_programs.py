@@ -1,0 +1,94 @@
+"""Programs are kept by a mechanism's shape: results depend on its numbers only, never on what was solved before."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinematics import programs
+from linkwright.kinematics.shape import shape
+
+SIXBAR = "gallery:jaw_crusher_sixbar"
+
+
+def torque(mechanism):
+    return lw.solve_forces(lw.solve_motion(mechanism, steps=24)).input_torque
+
+
+def alone(mechanism):
+    programs._kept.clear()
+    return torque(mechanism)
+
+
+@pytest.mark.parametrize(
+    "name", ["jaw_crusher_sixbar", "swing_conveyor", "triad", "scotch_yoke", "excavator"]
+)
+def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
+    mechanism = lw.load(f"gallery:{name}")
+    lengths = [address for address in mechanism.dimensions() if address.endswith(".length")]
+    changed = mechanism.with_dimensions({a: mechanism.dimension(a) * 1.0002 for a in lengths})
+    expected = alone(changed)
+    alone(mechanism)
+    assert np.array_equal(torque(changed), expected)
+
+
+def test_an_edited_value_is_not_traced_again(monkeypatch):
+    mechanism = lw.load(SIXBAR)
+    torque(mechanism)
+    monkeypatch.setattr(programs, "trace_motion", lambda *_, **__: pytest.fail("traced again"))
+    assert np.isfinite(torque(mechanism.with_dimensions({"crank.length": 0.11}))).all()
+
+
+@pytest.mark.parametrize(
+    ("address", "value"),
+    [("crank.mass", 3.0), ("jaw.mass", 0.0), ("gravity.x", 1.0), ("O1.x", None), ("jaw.D.y", 0.1)],
+)
+def test_values_that_become_zero_or_cease_to_be_are_followed(address, value):
+    mechanism = lw.load(SIXBAR)
+    address, value = ("frame.O1.x", 0.01) if value is None else (address, value)
+    changed = mechanism.with_dimensions({address: value})
+    expected = alone(changed)
+    alone(mechanism)
+    assert np.array_equal(torque(changed), expected)
+    assert shape(changed) != shape(mechanism)
+    assert not np.allclose(expected, torque(mechanism), rtol=1e-9) or address == "jaw.D.y"
+
+
+def test_angles_that_become_quarter_turns_are_followed():
+    mechanism = lw.load("gallery:scotch_yoke")
+    angles = [a for a in mechanism.dimensions() if a.endswith((".direction", ".block_angle"))]
+    changed = mechanism.with_dimensions({a: mechanism.dimension(a) + 0.1 for a in angles[:1]})
+    assert shape(changed) != shape(mechanism)
+
+
+def test_friction_follows_the_coefficient():
+    text = """
+format: 1
+name: slider-crank with friction
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: [A, B], length: 0.4 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  slider: {points: [B], mass: 2 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 rad, block: slider, at: B, friction: 0.1}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+gravity: [0, -9.81 m/s²]
+"""
+    low = lw.loads(text)
+    high = lw.loads(text.replace("friction: 0.1", "friction: 0.2"))
+    first = torque(low)
+    assert np.array_equal(alone(high), (alone(low), torque(high))[1])
+    assert np.abs(torque(high) - first).max() > 1e-3
+
+
+def test_eight_threads_share_the_programs():
+    mechanism = lw.load(SIXBAR)
+    designs = [mechanism.with_dimensions({"crank.length": 0.1 + 1e-3 * k}) for k in range(16)]
+    expected = [torque(design) for design in designs]
+    programs._kept.clear()
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(torque, designs))
+    for one, other in zip(found, expected, strict=True):
+        assert np.array_equal(one, other)
