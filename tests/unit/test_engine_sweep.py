@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import KINDS, Reduction
+from linkwright.engine.reductions import KINDS, Kind, Reduction
 from linkwright.engine.sweep import VALID_COUNT, sweep
-from linkwright.engine.trace import Trace, sqrt
+from linkwright.engine.trace import Trace, exp, maximum, slope, sqrt
 
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
-EVERY = [Reduction("y", kind) for kind in KINDS] + [Reduction("high", "count"), Reduction("z", "max")]
+PLAIN = [kind for kind in KINDS if not kind.startswith("at_")]
+EVERY = [Reduction("y", kind) for kind in PLAIN] + [Reduction("high", "count"), Reduction("z", "max")]
+ENDS: tuple[Kind, ...] = ("at_max", "at_min")
 Floats = NDArray[np.float64]
 
 
@@ -32,7 +35,8 @@ def by_hand(a: float, x: Floats) -> dict[str, float]:
     values = [(i, math.sqrt(a * a - v * v)) for i, v in enumerate(x) if v * v <= a * a]
     count = len(values)
     if not count:
-        nothing = dict.fromkeys(("y.min", "y.max", "y.mean", "y.rms", "z.max"), math.nan)
+        missing = ("y.min", "y.max", "y.mean", "y.rms", "z.max", "y.first", "y.last")
+        nothing = dict.fromkeys(missing, math.nan)
         counts = {"y.sum": 0.0, "y.count": 0, "high.count": 0, VALID_COUNT: 0}
         return {**nothing, **counts, "y.argmin": -1, "y.argmax": -1}
     ys = [y for _, y in values]
@@ -40,6 +44,8 @@ def by_hand(a: float, x: Floats) -> dict[str, float]:
     return {
         "y.min": min(ys),
         "y.max": max(ys),
+        "y.first": ys[0],
+        "y.last": ys[-1],
         "y.mean": total / count,
         "y.sum": total,
         "y.rms": math.sqrt(math.fsum(y * y for y in ys) / count),
@@ -121,7 +127,7 @@ def test_reductions_of_carried_states(backend: str, designs: int) -> None:
     rng = np.random.default_rng(designs)
     xs, gains, starts = rng.uniform(size=50), rng.normal(size=designs), rng.normal(size=designs)
     field = rng.normal(size=(designs, 50))
-    kinds = [Reduction("y", kind) for kind in KINDS] + [Reduction("f", "max")]
+    kinds = [Reduction("y", kind) for kind in PLAIN] + [Reduction("f", "max")]
     got = sweep(
         program, gains[:, None], {"x": xs}, kinds, fields={"g": field}, start=starts[:, None], backend=backend
     )
@@ -133,11 +139,91 @@ def test_reductions_of_carried_states(backend: str, designs: int) -> None:
                 values.append((i, value))
         ys = np.array([y for _, y in values])
         want = {"min": ys.min(), "max": ys.max(), "mean": ys.mean(), "sum": ys.sum()}
-        want |= {"rms": np.sqrt((ys**2).mean()), "count": len(ys)}
+        want |= {"rms": np.sqrt((ys**2).mean()), "count": len(ys), "first": ys[0], "last": ys[-1]}
         want |= {"argmin": values[int(ys.argmin())][0], "argmax": values[int(ys.argmax())][0]}
         for kind, number in want.items():
             np.testing.assert_allclose(got[f"y.{kind}"][d], number, rtol=1e-11)
         np.testing.assert_allclose(got["f.max"][d], (field[d] * gains[d])[xs < 0.9].max(), rtol=1e-14)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("n", [1, 5, 8, 13, 16, 40])
+def test_values_are_taken_where_another_output_has_its_extreme(backend: str, n: int) -> None:
+    t = Trace()
+    x, y, a = t.position("x"), t.position("y"), t.parameter("a")
+    outputs = {"x": x * a, "y": y, "low": y < x, "valid": y < 1.0}
+    kinds = [
+        Reduction(name, kind, of) for name, of in (("y", "x"), ("low", "x"), ("x", "y")) for kind in ENDS
+    ]
+    rng = np.random.default_rng(n)
+    xs, ys = rng.integers(-3, 4, n).astype(float), rng.normal(size=n)
+    ys[rng.integers(0, n)] = math.nan
+    factors = np.array([1.0, -2.0, 0.25])
+    got = sweep(Program.of(t, outputs), factors[:, None], {"x": xs, "y": ys}, kinds, backend=backend)
+    for d, factor in enumerate(factors):
+        rows = {"x": xs * factor, "y": ys, "low": ys < xs}
+        for kind in kinds:
+            best, want = None, math.nan
+            for i in np.flatnonzero(ys < 1.0):
+                number = rows[kind.of][i] * (1.0 if kind.kind == "at_max" else -1.0)
+                if best is None or number > best:
+                    best, want = number, float(rows[kind.output][i])
+            np.testing.assert_allclose(got[kind.name][d], want, rtol=1e-15, err_msg=kind.name)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("carried", [False, True])
+def test_what_follows_the_positions_takes_any_reduction_by_name(backend: str, carried: bool) -> None:
+    t = Trace()
+    x, a = t.position("x"), t.parameter("a")
+    y = x * a + (t.state("s") if carried else 0.0)
+    program = Program.of(t, {"y": y, "z": y * y, "valid": x < 0.9}, {"s": y} if carried else None)
+    names = [f"y.{kind}" for kind in PLAIN] + ["y.at_max.z", "z.at_min.y", VALID_COUNT]
+    f = Trace()
+    after = Program.of(
+        f, {f"twice {name}": f.parameter(name) * 2.0 for name in names} | {"a": f.parameter("a")}
+    )
+    xs = np.random.default_rng(2).uniform(-1.0, 1.0, 29)
+    reductions = [Reduction.named(name) for name in names[:-1]]
+    assert [r.name for r in reductions] == names[:-1]
+    got = sweep(
+        program,
+        np.array([[1.0], [-2.0], [math.nan]]),
+        {"x": xs},
+        reductions,
+        start=[[0.25]] * 3 if carried else None,
+        after=after,
+        backend=backend,
+    )
+    for name in names:
+        np.testing.assert_allclose(got[f"twice {name}"], 2.0 * got[name], rtol=1e-15)
+    np.testing.assert_array_equal(got["a"], [1.0, -2.0, math.nan])
+    assert math.isnan(got["y.max"][2])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("designs", [1, 8, 21])
+def test_an_iteration_without_inputs_over_the_positions_finds_roots(backend: str, designs: int) -> None:
+    """Newton's steps for x eˣ = a, kept between bounds; against mpmath's function of Lambert."""
+    t = Trace()
+    x, a = t.state("x"), t.parameter("a")
+    error = x * exp(x) - a
+    step = x - error / slope(error, {x: 1.0})
+    program = Program.of(t, {"x": step, "error": error}, {"x": maximum(step, 1e-3)})
+    numbers = np.linspace(0.1, 20.0, designs)
+    start = np.log1p(numbers)[:, None]
+    got = sweep(
+        program,
+        numbers[:, None],
+        {},
+        [("x", "last"), ("error", "last")],
+        start=start,
+        length=7,
+        backend=backend,
+    )
+    want = [float(mpmath.lambertw(number).real) for number in numbers]
+    np.testing.assert_allclose(got["x.last"], want, rtol=1e-14)
+    assert np.abs(got["error.last"]).max() < 1e-13
 
 
 def test_what_does_not_exist_is_refused() -> None:
@@ -146,6 +232,13 @@ def test_what_does_not_exist_is_refused() -> None:
         sweep(chord(), [[1.0]], x, [("w", "max")])
     with pytest.raises(ValueError, match="no reduction 'median'"):
         sweep(chord(), [[1.0]], x, [("y", "median")])  # type: ignore[list-item]
+    with pytest.raises(ValueError, match=r"'y\.at_max' must say of what"):
+        sweep(chord(), [[1.0]], x, [Reduction("y", "at_max")])
+    with pytest.raises(ValueError, match="no output 'w'"):
+        sweep(chord(), [[1.0]], x, [Reduction("y", "at_max", "w")])
+    t = Trace()
+    with pytest.raises(ValueError, match="'zz' is not a parameter, nor a reduction"):
+        sweep(chord(), [[1.0]], x, [], after=Program.of(t, {"b": t.parameter("zz")}))
     with pytest.raises(ValueError, match="no back end"):
         sweep(chord(), [[1.0]], x, [("y", "max")], backend="gpu")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="shape"):

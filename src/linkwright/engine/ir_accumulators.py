@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from linkwright.engine.ir_lines import FAST, LineWriter, number
-from linkwright.engine.reductions import Accumulation
+from linkwright.engine.reductions import PLACE, Accumulation, Step
 
-_START = {"min": float("inf"), "max": float("-inf")}
+_START = {"min": float("inf"), "max": float("-inf"), "at_min": float("nan"), "at_max": float("nan")}
 _BETTER = {"min": "olt", "max": "ogt"}
 #: The position number of an extreme that no number reached.
 NO_INDEX = 2**62
@@ -43,38 +43,57 @@ class AccumulatorWriter:
     def update(self) -> list[str]:
         """Instructions that let a turn's positions enter."""
         code: list[str] = []
-        for k, (step, output) in enumerate(self.steps):
-            if step in _BETTER:
-                code += self._extreme(k, step, output)
-            elif step == "count":
-                code += self._count(k, output)
-            elif step in ("sum", "square"):
-                code += self._sum(k, step, output)
+        for k, step in enumerate(self.steps):
+            if step.kind in _BETTER:
+                code += self._extreme(k, step)
+            elif step.kind == "count":
+                code += self._count(k, step.output)
+            elif step.kind in ("sum", "square"):
+                code += self._sum(k, step.kind, step.output)
         return code
 
-    def finish_lanes(self, k: int, target: str) -> list[str]:
-        """Instructions that bring the lanes of one accumulator together and store them."""
-        step, output = self.steps[k]
-        kind, value = self.kind(step), f"%b{k}"
+    def finish_lanes(self, k: int) -> list[str]:
+        """Instructions that bring the lanes of one accumulator together in ``%r{k}``.
+
+        Extremes come first, then their position numbers, then what is taken there.
+        """
+        step = self.steps[k]
+        kind, value = self.kind(step.kind), f"%b{k}"
         suffix = f"v{self.w.width}f64"
-        if step in _BETTER:
-            code = [f"%r{k} = call double @llvm.vector.reduce.f{step}.{suffix}({kind} {value})"]
-        elif step in ("sum", "square"):
+        if step.kind in _BETTER:
+            return [f"%r{k} = call double @llvm.vector.reduce.f{step.kind}.{suffix}({kind} {value})"]
+        if step.kind in ("sum", "square"):
             total = f"call {FAST} double @llvm.vector.reduce.fadd.{suffix}"
-            code = [f"%r{k} = {total}(double {number(-0.0)}, {kind} {value})"]
-        elif step == "count":
-            code = [
+            return [f"%r{k} = {total}(double {number(-0.0)}, {kind} {value})"]
+        if step.kind == "count":
+            return [
                 f"%q{k} = call i64 @llvm.vector.reduce.add.v{self.w.width}i64({kind} {value})",
                 f"%r{k} = sitofp i64 %q{k} to double",
             ]
-        else:
-            code = self._first_index(k, step, output)
-        return [*code, f"store double %r{k}, ptr {target}"]
+        return self._there(k, step) if step.of else self._first_index(k, step)
 
-    def _first_index(self, k: int, step: str, output: str) -> list[str]:
-        side = self._column[step.removeprefix("arg"), output]
+    def _there(self, k: int, step: Step) -> list[str]:
+        """What the lanes with the extreme have taken; if there are several, they have taken the same."""
+        side = self._column[Step(step.kind[3:], step.of)]
+        arg = self._column.get(Step(f"arg{step.kind[3:]}", step.of))
+        source, at, kind = (
+            (f"%b{side}", f"%r{side}", "double") if arg is None else (f"%b{arg}", f"%q{arg}", "i64")
+        )
+        compare = "fcmp oeq" if arg is None else "icmp eq"
+        vector = f"<{self.w.width} x {kind}>"
+        return [
+            *self.w.spread(at, f"%best{k}", kind),
+            f"%at{k} = {compare} {vector} {source}, %best{k}",
+            f"%bits{k} = bitcast {self.w.vector} %b{k} to {self.integers}",
+            f"%kept{k} = select {self.w.mask} %at{k}, {self.integers} %bits{k}, {self.integers} zeroinitializer",
+            f"%q{k} = call i64 @llvm.vector.reduce.or.v{self.w.width}i64({self.integers} %kept{k})",
+            f"%r{k} = bitcast i64 %q{k} to double",
+        ]
+
+    def _first_index(self, k: int, step: Step) -> list[str]:
+        side = self._column[Step(step.kind.removeprefix("arg"), step.output)]
         vector, mask = self.w.vector, self.w.mask
-        none = self.start(step)
+        none = self.start(step.kind)
         return [
             *self.w.spread(f"%r{side}", f"%best{k}", "double"),
             f"%at{k} = fcmp oeq {vector} %b{side}, %best{k}",
@@ -87,7 +106,7 @@ class AccumulatorWriter:
 
     def as_double(self, k: int) -> tuple[list[str], str]:
         """One accumulator as a vector of numbers (the lanes are designs)."""
-        step, _ = self.steps[k]
+        step = self.steps[k].kind
         if step in ("argmin", "argmax"):
             none = f"<{', '.join(['i64 -1'] * self.w.width)}>"
             code = [
@@ -123,29 +142,45 @@ class AccumulatorWriter:
             code.append(f"{name} = fcmp une {self.w.vector} {operand}, {self.w.constant(0.0, True)}")
         return name
 
-    def _extreme(self, k: int, step: str, output: str) -> list[str]:
+    def _number(self, output: str, code: list[str]) -> str:
+        """An output as numbers; the position's number for :data:`PLACE`."""
+        if output != PLACE:
+            return self.w.as_number(self.rows[output], code)
+        if PLACE not in self._masks:
+            self._masks[PLACE] = "%place"
+            code.append(f"%place = sitofp {self.integers} %position to {self.w.vector}")
+        return self._masks[PLACE]
+
+    def _extreme(self, k: int, step: Step) -> list[str]:
+        """An extreme, its position number, and other outputs there."""
         code: list[str] = []
         vector, mask = self.w.vector, self.w.mask
-        value = self.w.as_number(self.rows[output], code)
+        value = self._number(step.output, code)
         entering = self._entering(code, once=False)
-        code.append(f"%c{k} = fcmp {_BETTER[step]} {vector} {value}, %a{k}")
-        arg = self._column.get(("arg" + step, output))
-        if entering is None:
-            code.append(f"%b{k} = select {mask} %c{k}, {vector} {value}, {vector} %a{k}")
-        elif arg is None:
-            code += [
+        code.append(f"%c{k} = fcmp {_BETTER[step.kind]} {vector} {value}, %a{k}")
+        arg = self._column.get(Step(f"arg{step.kind}", step.output))
+        there = [
+            (place, other)
+            for place, other in enumerate(self.steps)
+            if (other.kind, other.of) == (f"at_{step.kind}", step.output)
+        ]
+        better = f"%c{k}"
+        if entering is not None and arg is None and not there:
+            return [
+                *code,
                 f"%e{k} = select {mask} %c{k}, {vector} {value}, {vector} %a{k}",
                 f"%b{k} = select {mask} {entering}, {vector} %e{k}, {vector} %a{k}",
             ]
-        else:
-            code += [
-                f"%e{k} = and {mask} %c{k}, {entering}",
-                f"%b{k} = select {mask} %e{k}, {vector} {value}, {vector} %a{k}",
-            ]
+        if entering is not None:
+            better = f"%e{k}"
+            code.append(f"%e{k} = and {mask} %c{k}, {entering}")
+        code.append(f"%b{k} = select {mask} {better}, {vector} {value}, {vector} %a{k}")
         if arg is not None:
-            better = f"%c{k}" if entering is None else f"%e{k}"
             kinds = self.integers
             code.append(f"%b{arg} = select {mask} {better}, {kinds} %position, {kinds} %a{arg}")
+        for place, other in there:
+            taken = self._number(other.output, code)
+            code.append(f"%b{place} = select {mask} {better}, {vector} {taken}, {vector} %a{place}")
         return code
 
     def _count(self, k: int, output: str) -> list[str]:

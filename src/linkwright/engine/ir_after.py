@@ -2,37 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Accumulation
 
 
-def following_lines(accumulation: Accumulation, after: Program, width: int) -> list[str]:
-    """Instructions that evaluate ``after`` from ``%p.row`` and ``%r{k}``, and store its outputs.
+def following_lines(
+    accumulation: Accumulation,
+    following: Program,
+    width: int,
+    steps: list[str],
+    load: Callable[[str, int], list[str]],
+    *,
+    wide: bool,
+) -> tuple[list[str], list[str]]:
+    """Instructions that evaluate ``following``, and the operands that hold its outputs.
 
-    They go to ``%out.row``, behind the accumulators.
+    ``steps``: the accumulators' values; ``load(name, place)``: instructions that read a parameter of a
+    design; ``wide``: whether the lanes are designs.
     """
-    lines = Lines.of(after)
-    writer = LineWriter(lines, width, wide=False)
-    writer.tables = [accumulation.tables.index(name) for name in after.tables]
+    lines = Lines.of(following)
+    writer = LineWriter(lines, width, wide=wide)
+    writer.tables = [accumulation.tables.index(name) for name in following.tables]
     code: list[str] = []
     for index, line in enumerate(lines.lines):
-        writer.names[index] = f"%g{index}"
+        name = writer.names[index] = f"%g{index}"
         if line.op == "parameter":
-            origin, place = accumulation.source(after.parameters[line.place])
+            origin, place = accumulation.source(following.parameters[line.place])
             if origin == "step":
-                writer.names[index] = f"%r{place}"
-            elif origin == "count":
-                code.append(f"%g{index} = sitofp i64 %count to double")
+                writer.names[index] = steps[place]
+            elif origin == "parameter":
+                code += load(name, place)
             else:
-                code.append(f"%g{index}.at = getelementptr double, ptr %p.row, i64 {place}")
-                code.append(f"%g{index} = load double, ptr %g{index}.at, align 8")
+                count = f"{name}.count" if wide else name
+                code.append(f"{count} = sitofp i64 %count to double")
+                code += writer.spread(count, name, "double") if wide else []
         elif line.is_operation:
             writer.write(index)
-    code += writer.preamble
-    for place, index in enumerate(lines.outputs):
-        to = f"%g.to{place}"
-        code.append(f"{to} = getelementptr double, ptr %out.row, i64 {len(accumulation.steps) + place}")
-        code.append(f"store double {writer.operand(index, False)}, ptr {to}, align 8")
-    return code
+    return code + writer.preamble, [writer.operand(index, wide) for index in lines.outputs]

@@ -10,7 +10,7 @@ from linkwright.engine.ir_after import following_lines
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_lookup import lookup_functions
 from linkwright.engine.lines import Lines
-from linkwright.engine.reductions import Accumulation
+from linkwright.engine.reductions import PLACE, Accumulation
 
 #: Name of the function: one argument, the address of the call block.
 ENTRY = "linkwright_run"
@@ -179,20 +179,20 @@ class PositionKernel:
 
     def _phis(self, name: str, sources: dict[str, str | None]) -> list[str]:
         code = []
-        for k, (step, _) in enumerate(self.sums.steps if self.sums else ()):
+        for k, step in enumerate(self.sums.steps if self.sums else ()):
             assert self.sums is not None
             values = {
-                origin: self.sums.start(step) if value is None else f"%{value}{k}"
+                origin: self.sums.start(step.kind) if value is None else f"%{value}{k}"
                 for origin, value in sources.items()
             }
             edges = ", ".join(f"[ {value}, {origin} ]" for origin, value in values.items())
-            code.append(f"%{name}{k} = phi {self.sums.kind(step)} {edges}")
+            code.append(f"%{name}{k} = phi {self.sums.kind(step.kind)} {edges}")
         return code
 
     def _updates(self) -> list[str]:
         assert self.sums is not None
         code = self.sums.update()
-        if any(step.startswith("arg") for step, _ in self.sums.steps):
+        if any(step.kind.startswith("arg") or PLACE in step for step in self.sums.steps):
             integers = self.sums.integers
             position = [
                 *self.writer.spread("%i", "%i.all", "i64"),
@@ -217,14 +217,15 @@ class PositionKernel:
 
     def _finish(self) -> list[str]:
         code = ["finish:"]
-        if self.sums is not None:
-            steps = self.sums.steps
-            for k in range(len(steps)):
-                code.append(f"%z{k} = getelementptr double, ptr %out.row, i64 {k}")
-            for k in sorted(range(len(steps)), key=lambda k: steps[k][0].startswith("arg")):
-                code += self.sums.finish_lanes(k, f"%z{k}")
-        if self.accumulation is not None and self.accumulation.after is not None:
-            code += following_lines(self.accumulation, self.accumulation.after, self.width)
+        steps = self.sums.steps if self.sums is not None else ()
+        order = sorted(
+            range(len(steps)), key=lambda k: ("arg" in steps[k].kind) + 2 * ("at_" in steps[k].kind)
+        )
+        for k in order:
+            assert self.sums is not None
+            code += self.sums.finish_lanes(k)
+            code += self._store_result(k, f"%r{k}")
+        code += self._follow()
         return [
             *code,
             "%d.next = add i64 %d, 1",
@@ -233,6 +234,31 @@ class PositionKernel:
             "done:",
             "ret void",
         ]
+
+    def _store_result(self, place: int, value: str) -> list[str]:
+        """Store one number of a design's row of results."""
+        return [
+            f"%z{place} = getelementptr double, ptr %out.row, i64 {place}",
+            f"store double {value}, ptr %z{place}, align 8",
+        ]
+
+    def _follow(self) -> list[str]:
+        if self.accumulation is None or self.accumulation.following is None:
+            return []
+        names = [f"%r{k}" for k in range(len(self.accumulation.steps))]
+        code, outputs = following_lines(
+            self.accumulation, self.accumulation.following, self.width, names, _load_parameter, wide=False
+        )
+        for place, value in enumerate(outputs, start=len(names)):
+            code += self._store_result(place, value)
+        return code
+
+
+def _load_parameter(name: str, place: int) -> list[str]:
+    return [
+        f"{name}.at = getelementptr double, ptr %p.row, i64 {place}",
+        f"{name} = load double, ptr {name}.at, align 8",
+    ]
 
 
 def lane_numbers(width: int) -> str:
@@ -273,7 +299,10 @@ def module_text(body: list[str], width: int) -> str:
         *(f"declare double @llvm.{name}.f64(double)" for name in exact),
         *(f"declare double @llvm.vector.reduce.{name}.{suffix}({vector})" for name in ("fmin", "fmax")),
         f"declare double @llvm.vector.reduce.fadd.{suffix}(double, {vector})",
-        *(f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})" for name in ("add", "smin")),
+        *(
+            f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})"
+            for name in ("add", "smin", "or")
+        ),
         f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, {mask}, {vector})",
         f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, {mask})",
         *(

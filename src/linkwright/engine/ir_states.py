@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
+from linkwright.engine.ir_after import following_lines
 from linkwright.engine.ir_kernel import ENTRY, Shape, lane_numbers, load_block, module_text
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
@@ -16,6 +17,7 @@ class StateKernel:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
         self.width = width
+        self.accumulation = accumulation
         self.integers = f"<{width} x i64>"
         self.pointers = f"<{width} x ptr>"
         self.all = f"<{', '.join(['i1 true'] * width)}>"
@@ -94,14 +96,15 @@ class StateKernel:
 
     def _design_inputs(self) -> list[str]:
         stored = self.sums is None
-        row = self._numbers(self.shape.outputs if self.sums is None else len(self.sums.steps))
+        row = self._numbers(self.shape.outputs if self.accumulation is None else self.accumulation.width)
         kind = self.integers
+        parameters = self.shape.parameters if self.accumulation is None else len(self.accumulation.parameters)
         code = [
             *self._splat("%d", "%d.all"),
             f"%d.lanes = add {kind} %d.all, {lane_numbers(self.width)}",
             f"%d.below = icmp slt {kind} %d.lanes, %last.all",
             f"%lane = select {self.writer.mask} %d.below, {kind} %d.lanes, {kind} %last.all",
-            f"%parameter.offset = mul {kind} %lane, {self._numbers(self.shape.parameters)}",
+            f"%parameter.offset = mul {kind} %lane, {self._numbers(parameters)}",
             f"%state.offset = mul {kind} %lane, {self._numbers(self.shape.states)}",
             f"%field.offset = mul {kind} %lane, %length.all",
             f"%row.offset = mul {kind} %lane, {row}",
@@ -116,6 +119,10 @@ class StateKernel:
                 code += self._gather(name, f"%base{index}", f"%{line.op}.offset")
         return code
 
+    def _parameter(self, name: str, place: int) -> list[str]:
+        base = f"{name}.base = getelementptr double, ptr %parameters, i64 {place}"
+        return [base, *self._gather(name, f"{name}.base", "%parameter.offset")]
+
     def _phis(self) -> list[str]:
         v = self.writer
         code = []
@@ -124,10 +131,10 @@ class StateKernel:
                 following = v.operand(self.lines.carried[line.place], True)
                 edges = f"[ %start{line.place}, %design ], [ {following}, %loop ]"
                 code.append(f"%v{index} = phi {v.vector} {edges}")
-        for k, (step, _) in enumerate(self.sums.steps if self.sums else ()):
+        for k, step in enumerate(self.sums.steps if self.sums else ()):
             assert self.sums is not None
-            edges = f"[ {self.sums.start(step)}, %design ], [ %b{k}, %loop ]"
-            code.append(f"%a{k} = phi {self.sums.kind(step)} {edges}")
+            edges = f"[ {self.sums.start(step.kind)}, %design ], [ %b{k}, %loop ]"
+            code.append(f"%a{k} = phi {self.sums.kind(step.kind)} {edges}")
         return code
 
     def _position_inputs(self) -> list[str]:
@@ -145,11 +152,19 @@ class StateKernel:
         return code
 
     def _finish(self) -> list[str]:
-        code = ["finish:"]
+        code, values = ["finish:"], []
         for k in range(len(self.sums.steps) if self.sums else 0):
             assert self.sums is not None
             converted, value = self.sums.as_double(k)
-            code += [*converted, f"%z{k} = getelementptr double, ptr %out, i64 {k}"]
+            code += converted
+            values.append(value)
+        if self.accumulation is not None and self.accumulation.following is not None:
+            more, outputs = following_lines(
+                self.accumulation, self.accumulation.following, self.width, values, self._parameter, wide=True
+            )
+            code, values = code + more, values + outputs
+        for k, value in enumerate(values):
+            code.append(f"%z{k} = getelementptr double, ptr %out, i64 {k}")
             code += self._scatter(value, f"%z{k}", "%out.offset", f"%z{k}")
         return [
             *code,

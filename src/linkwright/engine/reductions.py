@@ -5,31 +5,36 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
+from linkwright.engine.replay import Replay
+from linkwright.engine.trace import Scalar, Trace
 
-Kind = Literal["min", "max", "mean", "sum", "rms", "argmin", "argmax", "count"]
+Kind = Literal[
+    "min", "max", "mean", "sum", "rms", "argmin", "argmax", "count", "first", "last", "at_min", "at_max"
+]
 KINDS: tuple[str, ...] = get_args(Kind)
 Floats = NDArray[np.float64]
+Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 
 #: The key of the number of valid positions among the results.
 VALID_COUNT = "valid.count"
+#: Stands for the number of the position, where an output is meant.
+PLACE = "#"
+#: Kinds that take the value of an output where another one has its extreme.
+_ELSEWHERE = ("at_min", "at_max")
 
-#: What a kind needs: accumulators of the same output.
-_NEEDS: dict[str, tuple[str, ...]] = {
-    "min": ("min",),
-    "max": ("max",),
-    "mean": ("sum",),
-    "sum": ("sum",),
-    "rms": ("square",),
-    "argmin": ("min", "argmin"),
-    "argmax": ("max", "argmax"),
-    "count": ("count",),
-}
+
+class Step(NamedTuple):
+    """An accumulator: ``square`` sums squares; ``at_min`` and ``at_max`` follow the extreme of ``of``."""
+
+    kind: str
+    output: str
+    of: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,27 +43,66 @@ class Reduction:
 
     ``kind``: ``min``, ``max``, ``mean``, ``sum``, ``rms`` (root of the mean square), ``argmin``
     and ``argmax`` (number of the first position with the extreme), ``count`` (number of valid
-    positions where a truth output holds, or a number is not zero). Extremes skip NaN; the other
-    kinds pass it on.
+    positions where a truth output holds, or a number is not zero), ``first`` and ``last`` (value at
+    the first and last position), ``at_min`` and ``at_max`` (value at the first position where the
+    output ``of`` has its extreme). Extremes skip NaN; the other kinds pass it on.
     """
 
     output: str
     kind: Kind
+    of: str = ""
 
     @property
     def name(self) -> str:
-        """The key among the results."""
-        return f"{self.output}.{self.kind}"
+        """The key among the results: ``output.kind``, or ``output.at_max.of``."""
+        return f"{self.output}.{self.kind}.{self.of}" if self.of else f"{self.output}.{self.kind}"
+
+    @classmethod
+    def named(cls, name: str) -> Reduction:
+        """The reduction whose key this is. Raises ValueError for a kind that does not exist."""
+        for kind in get_args(Kind):
+            if kind in _ELSEWHERE and f".{kind}." in name:
+                output, _, of = name.partition(f".{kind}.")
+                return cls(output, kind, of)
+            if kind not in _ELSEWHERE and name.endswith(f".{kind}"):
+                return cls(name.removesuffix(f".{kind}"), kind)
+        raise ValueError(f"'{name}' is not a parameter, nor a reduction: use one of {', '.join(KINDS)}")
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The accumulators that it needs; the last one holds it."""
+        kind, output = self.kind, self.output
+        if kind in ("argmin", "argmax"):
+            return Step(kind[3:], output), Step(kind, output)
+        if kind in ("first", "last"):
+            side = "min" if kind == "first" else "max"
+            return Step(side, PLACE), Step(f"at_{side}", output, PLACE)
+        if kind in _ELSEWHERE:
+            side = kind[3:]
+            return Step(side, self.of), Step(f"arg{side}", self.of), Step(kind, output, self.of)
+        return (Step({"mean": "sum", "rms": "square"}.get(kind, kind), output),)
+
+    def value(self, t: Trace, accumulated: Scalar, count: Scalar) -> Scalar:
+        """The summary from its accumulator and the number of valid positions."""
+        if self.kind == "mean":
+            return t.div(accumulated, count)
+        if self.kind == "rms":
+            return t.function("sqrt", t.div(accumulated, count))
+        if self.kind == "min":
+            return t.select(t.compare("less", accumulated, np.inf), accumulated, np.nan)
+        if self.kind == "max":
+            return t.select(t.compare("less", -np.inf, accumulated), accumulated, np.nan)
+        return accumulated
 
 
 @dataclass(frozen=True)
 class Accumulation:
     """The accumulators that a set of reductions of a program needs.
 
-    ``steps``: (accumulator, output), each once. ``valid``: the truth output that says which
+    ``steps``: the accumulators, each once. ``valid``: the truth output that says which
     positions enter, or None for all of them. ``after``: a program per design, evaluated after
-    the last position; its parameters are parameters of ``program``, or accumulators as
-    ``output.sum``, ``output.square``, ``output.min``, ``output.max``, or ``valid.count``.
+    the last position; its parameters are parameters of ``program``, names of reductions as
+    ``output.mean`` or ``output.at_max.other``, or ``valid.count``.
     """
 
     program: Program
@@ -68,26 +112,52 @@ class Accumulation:
 
     def __post_init__(self) -> None:
         names = set(self.program.output_names)
-        if self.after is not None and (self.program.next_states or _has_positions(self.after)):
+        if self.after is not None and _has_positions(self.after):
             raise ValueError("only a program per design, without states, can follow the positions")
-        for reduction in self.reductions:
+        for reduction in (*self.reductions, *self._read.values()):
             if reduction.kind not in KINDS:
                 raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
-            if reduction.output not in names:
-                raise ValueError(f"the program has no output '{reduction.output}' to reduce")
+            elsewhere = reduction.kind in _ELSEWHERE
+            if elsewhere != bool(reduction.of):
+                raise ValueError(
+                    f"the reduction '{reduction.name}' must{'' if elsewhere else ' not'} say of what"
+                )
+            for output in (reduction.output, *([reduction.of] if elsewhere else [])):
+                if output not in names:
+                    raise ValueError(f"the program has no output '{output}' to reduce")
         if self.valid is not None and self.valid not in names:
             raise ValueError(f"the program has no output '{self.valid}' that says which positions are valid")
 
     @cached_property
-    def steps(self) -> tuple[tuple[str, str], ...]:
-        wanted = [(step, r.output) for r in self.reductions for step in _NEEDS[r.kind]]
+    def _read(self) -> dict[str, Reduction]:
+        """The reductions that ``after`` takes, by name."""
+        own = {*self.program.parameters, VALID_COUNT}
+        following = self.after.parameters if self.after is not None else ()
+        return {name: Reduction.named(name) for name in following if name not in own}
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        wanted = [step for r in (*self.reductions, *self._read.values()) for step in r.steps]
         if self.valid is not None:
-            wanted.append(("count", self.valid))
-        for name in self.after.parameters if self.after is not None else ():
-            if name != VALID_COUNT and name not in self.program.parameters:
-                output, _, step = name.rpartition(".")
-                wanted.append((step, output))
+            wanted.append(Step("count", self.valid))
         return tuple(dict.fromkeys(wanted))
+
+    @cached_property
+    def following(self) -> Program | None:
+        """``after`` as formulas of the accumulators, named by their places, instead of the reductions."""
+        if self.after is None:
+            return None
+        replay = Replay(self.after, (), Trace())
+        t = replay.trace
+        count = t.parameter(VALID_COUNT)
+        for index, node in enumerate(self.after.nodes):
+            reduction = self._read.get(node.name) if node.op == "parameter" else None
+            if reduction is None:
+                replay.write(index)
+            else:
+                place = self.steps.index(reduction.steps[-1])
+                replay.values[index] = reduction.value(t, t.parameter(f"{PLACE}{place}"), count)
+        return Program.of(t, {name: replay.values[i] for name, i in self.after.outputs})
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
@@ -103,7 +173,7 @@ class Accumulation:
         return tuple(dict.fromkeys([*self.needed.tables, *following]))
 
     @cached_property
-    def column(self) -> dict[tuple[str, str], int]:
+    def column(self) -> dict[Step, int]:
         """Where the accumulators stand in a row of the table."""
         return {step: place for place, step in enumerate(self.steps)}
 
@@ -113,21 +183,21 @@ class Accumulation:
         return len(self.steps) + (len(self.after.outputs) if self.after is not None else 0)
 
     def source(self, name: str) -> tuple[str, int]:
-        """Where a parameter of ``after`` comes from: ("parameter" or "step", place), or ("count", 0)."""
+        """Where a parameter of ``following`` comes from: ("parameter" or "step", place), or ("count", 0)."""
         if name in self.program.parameters:
             return "parameter", self.parameters.index(name)
         if name == VALID_COUNT:
-            return ("count", 0) if self.valid is None else ("step", self.column["count", self.valid])
-        output, _, step = name.rpartition(".")
-        return "step", self.column[step, output]
+            return ("count", 0) if self.valid is None else ("step", self.column[Step("count", self.valid)])
+        return "step", int(name.removeprefix(PLACE))
 
     @cached_property
     def needed(self) -> Program:
         """The program without the outputs that nothing here uses."""
-        outputs = dict.fromkeys(output for _, output in self.steps)
+        wanted = dict.fromkeys(name for step in self.steps for name in (step.output, step.of))
+        outputs = [name for name in wanted if name not in ("", PLACE)]
         if set(outputs) == set(self.program.output_names):
             return self.program
-        return self.program.only(list(outputs))
+        return self.program.only(outputs)
 
     @property
     def key(self) -> str:
@@ -137,21 +207,23 @@ class Accumulation:
     def start(self, designs: int) -> Floats:
         """Accumulators before the first position, shape (designs, width)."""
         table = np.zeros((designs, self.width))
-        for column, (step, _) in enumerate(self.steps):
-            table[:, column] = _START.get(step, 0.0)
+        for column, step in enumerate(self.steps):
+            table[:, column] = _START.get(step.kind, 0.0)
         table[:, len(self.steps) :] = np.nan
         return table
 
-    def finish(self, table: Floats, n: int) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:
+    def finish(self, table: Floats, n: int) -> Results:
         """Results of every design from its table (designs, width) over ``n`` positions.
 
         Where no position is valid: NaN, position number -1, count 0 and sum 0.
         """
-        at = {step: table[:, column] for column, step in enumerate(self.steps)}
-        valid = at["count", self.valid] if self.valid is not None else np.full(len(table), float(n))
-        results: dict[str, NDArray[np.float64] | NDArray[np.int64]] = {}
+        valid = np.full(len(table), float(n))
+        if self.valid is not None:
+            valid = table[:, self.column[Step("count", self.valid)]]
+        results: Results = {}
         for reduction in self.reductions:
-            results[reduction.name] = _result(reduction, at, valid)
+            accumulated = table[:, self.column[reduction.steps[-1]]]
+            results[reduction.name] = _result(reduction.kind, accumulated, valid)
         for place, (name, _) in enumerate(self.after.outputs if self.after is not None else ()):
             results[name] = table[:, len(self.steps) + place].copy()
         results[VALID_COUNT] = valid.astype(np.int64)
@@ -162,23 +234,20 @@ def _has_positions(program: Program) -> bool:
     return bool(program.positions or program.fields or program.states)
 
 
-_START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0}
+_START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0, "at_min": np.nan, "at_max": np.nan}
 
 
-def _result(
-    reduction: Reduction, at: dict[tuple[str, str], Floats], valid: Floats
-) -> NDArray[np.float64] | NDArray[np.int64]:
-    output, kind = reduction.output, reduction.kind
+def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | NDArray[np.int64]:
     if kind in ("argmin", "argmax", "count"):
-        return at[kind, output].astype(np.int64)
-    if kind == "sum":
-        return at["sum", output].copy()
+        return accumulated.astype(np.int64)
     with np.errstate(invalid="ignore", divide="ignore"):
         if kind == "mean":
-            return np.asarray(at["sum", output] / valid)
+            return np.asarray(accumulated / valid)
         if kind == "rms":
-            return np.sqrt(at["square", output] / valid)
-    return np.where(valid > 0.0, at[kind, output], np.nan)
+            return np.sqrt(accumulated / valid)
+    if kind in ("min", "max"):
+        return np.where(accumulated == _START[kind], np.nan, accumulated)
+    return accumulated.copy()
 
 
 def accumulate(
@@ -186,31 +255,40 @@ def accumulate(
 ) -> None:
     """Let positions ``first``… of (outputs, designs, positions) enter the accumulators (in place)."""
     rows = dict(zip(names, outputs, strict=True))
+    rows[PLACE] = np.broadcast_to(first + np.arange(outputs.shape[2], dtype=np.float64), outputs.shape[1:])
     mask = None if accumulation.valid is None else rows[accumulation.valid] != 0.0
-    column = accumulation.column
-    for step, output in accumulation.steps:
-        values, into = rows[output], table[:, column[step, output]]
-        if step in ("min", "max"):
-            side = "arg" + step
-            arg = table[:, column[side, output]] if (side, output) in column else None
-            _extreme(step, values, mask, into, arg, first)
-        elif step == "count":
+    for column, step in enumerate(accumulation.steps):
+        values, into = rows[step.output], table[:, column]
+        if step.kind in ("min", "max"):
+            _extreme(accumulation, step, rows, mask, table, first)
+        elif step.kind == "count":
             held = (values != 0.0) if mask is None else (values != 0.0) & mask
             into += held.sum(axis=1)
-        elif step in ("sum", "square"):
+        elif step.kind in ("sum", "square"):
             entering = values if mask is None else np.where(mask, values, 0.0)
-            into += (entering if step == "sum" else entering * entering).sum(axis=1)
+            into += (entering if step.kind == "sum" else entering * entering).sum(axis=1)
 
 
 def _extreme(
-    step: str, values: Floats, mask: NDArray[np.bool_] | None, into: Floats, arg: Floats | None, first: int
+    accumulation: Accumulation,
+    step: Step,
+    rows: dict[str, Floats],
+    mask: NDArray[np.bool_] | None,
+    table: Floats,
+    first: int,
 ) -> None:
-    sign = 1.0 if step == "min" else -1.0
+    """An extreme, its position number, and other outputs there."""
+    values, into = rows[step.output], table[:, accumulation.column[step]]
+    sign = 1.0 if step.kind == "min" else -1.0
     entering = np.where(np.isnan(values), np.inf, sign * values)
     if mask is not None:
         entering = np.where(mask, entering, np.inf)
-    best = entering.min(axis=1)
-    better = best < sign * into
+    places = entering.argmin(axis=1)
+    best = entering[np.arange(len(places)), places]
+    better = np.flatnonzero(best < sign * into)
     into[better] = sign * best[better]
-    if arg is not None:
-        arg[better] = first + entering.argmin(axis=1)[better]
+    for column, other in enumerate(accumulation.steps):
+        if other == (f"arg{step.kind}", step.output, ""):
+            table[better, column] = first + places[better]
+        elif (other.kind, other.of) == (f"at_{step.kind}", step.output):
+            table[better, column] = rows[other.output][better, places[better]]

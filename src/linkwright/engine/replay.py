@@ -15,16 +15,22 @@ _BINARY = {"add", "sub", "mul", "div"}
 
 
 class Replay:
-    """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written."""
+    """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written (None: all)."""
 
-    def __init__(self, program: Program, chosen: Iterable[int] | None = None) -> None:
-        self.trace = Trace()
+    def __init__(
+        self, program: Program, chosen: Iterable[int] | None = None, trace: Trace | None = None
+    ) -> None:
+        self.trace = Trace() if trace is None else trace
         self.program = program
         self.values: dict[int, Scalar] = {}
         for index in range(len(program.nodes)) if chosen is None else chosen:
-            self.values[index] = self._write(program.nodes[index])
+            self.write(index)
 
-    def _write(self, node: Node) -> Scalar:
+    def write(self, index: int) -> None:
+        """Write one line, whose arguments are there."""
+        self.values[index] = self._written(self.program.nodes[index])
+
+    def _written(self, node: Node) -> Scalar:
         t = self.trace
         args = [self.values[a] for a in node.args]
         if node.op == "constant":

@@ -118,8 +118,8 @@ def sweep_numpy(
                 accumulate(accumulation, part[designs], outputs, names, columns.start)
 
     spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), threads, work)
-    if accumulation.after is not None:
-        _follow(accumulation, accumulation.after, table, sums, n, tables)
+    if accumulation.following is not None:
+        _follow(accumulation, accumulation.following, table, sums, n, tables)
     return accumulation.finish(sums, n)
 
 
