@@ -61,6 +61,10 @@ class LinkwrightError(Exception):
         return in_language(self.sentence, language)
 
 
+class RequestError(LinkwrightError):
+    """What was asked for does not exist or is out of range: the call is wrong, not the model."""
+
+
 class ModelError(LinkwrightError):
     """A model that cannot be used; ``findings`` lists every remark, not only the first."""
 

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Generic, TypeVar
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 
 T = TypeVar("T")
 
@@ -80,7 +80,7 @@ def _home(element: object) -> tuple[str, str]:
     return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
 
 
-class UnknownName(LinkwrightError, KeyError):
+class UnknownName(RequestError, KeyError):
     """A name that no registered element has."""
 
 

@@ -1,7 +1,7 @@
 """Errors that belong to the command line."""
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 
 
-class UsageError(LinkwrightError):
+class UsageError(RequestError):
     """The command is wrong, not the model: exit code 2."""

@@ -13,7 +13,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import nearest_of
 from linkwright.cli.session import Session
-from linkwright.errors import LinkwrightError, ModelError
+from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.words import LANGUAGES, Say, speaker
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
@@ -133,7 +133,7 @@ def _refused(error: LinkwrightError, session: Session) -> int:
 
         findings = [finding_data(found) for found in getattr(error, "findings", ())]
         session.show(json_text({"ok": False, "error": str(error), "findings": findings}))
-    return MISUSED if missing or isinstance(error, UsageError) else FAULTY
+    return MISUSED if missing or isinstance(error, RequestError) else FAULTY
 
 
 def _unexpected(error: Exception, session: Session) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.registry import Registry
 
 
@@ -35,6 +35,6 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
         return importlib.import_module(name)
     except ImportError:
         command = f"pip install {install or name}"
-        raise LinkwrightError(
+        raise RequestError(
             f"{purpose} need the package {install or name}; install it with: {command}"
         ) from None

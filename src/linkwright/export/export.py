@@ -6,7 +6,7 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
@@ -51,7 +51,7 @@ def export(
     chosen = chosen_format(target, format)
     check_target(target, force=force)
     if language not in LANGUAGES:
-        raise LinkwrightError(
+        raise RequestError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
     check_options(chosen, FORMATS[chosen], options)
@@ -69,17 +69,17 @@ def chosen_format(path: Path, name: str | None) -> str:
         return by_suffix[suffix]
     offer = nearest(suffix, by_suffix) if suffix else None
     hint = f'did you mean "{offer}"?' if offer else f"use {', '.join(sorted(by_suffix))}, or say which format"
-    raise LinkwrightError(f'{path}: no format is written to files with the ending "{suffix}"; {hint}')
+    raise RequestError(f'{path}: no format is written to files with the ending "{suffix}"; {hint}')
 
 
 def check_target(path: Path, *, force: bool) -> None:
     """Raises LinkwrightError where the file could not be written, before any work is done."""
     if path.is_dir():
-        raise LinkwrightError(f"{path} is a folder; name a file")
+        raise RequestError(f"{path} is a folder; name a file")
     if not path.parent.is_dir():
-        raise LinkwrightError(f"there is no folder {path.parent}; create it first")
+        raise RequestError(f"there is no folder {path.parent}; create it first")
     if path.exists() and not force:
-        raise LinkwrightError(f"{path} exists; choose another name, or replace it with force=True")
+        raise RequestError(f"{path} exists; choose another name, or replace it with force=True")
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
@@ -89,4 +89,4 @@ def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
         if option not in known:
             offer = nearest(option, known)
             hint = f"did you mean {offer}?" if offer else f"it has {', '.join(known) or 'no options'}"
-            raise LinkwrightError(f"the format {name} has no option {option}; {hint}")
+            raise RequestError(f"the format {name} has no option {option}; {hint}")

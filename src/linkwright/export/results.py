@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -38,7 +38,7 @@ class Results:
         if isinstance(source, Motion):
             return cls(source, None, language)
         if not isinstance(source, Mechanism):
-            raise LinkwrightError(
+            raise RequestError(
                 f"a {type(source).__name__} cannot be exported; give a mechanism, a motion or its forces"
             )
         motion = solve_motion(source, steps=steps)

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
@@ -115,7 +115,7 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     if name is None or name not in mechanism.drivers:
         offer = nearest(str(driver), list(mechanism.drivers))
         hint = f"; did you mean {offer!r}?" if offer else ""
-        raise LinkwrightError(f"{mechanism.name!r} has no driver{f' {driver!r}' if driver else ''}{hint}")
+        raise RequestError(f"{mechanism.name!r} has no driver{f' {driver!r}' if driver else ''}{hint}")
     search = _Search(mechanism, name)
     high = search.end(1.0)
     low = search.end(-1.0) if high is not None or not search.rotary else None

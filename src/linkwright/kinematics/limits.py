@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.continuation import Follower
@@ -86,7 +86,7 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     offer = nearest(text, [*links, *guides, *dict.fromkeys(points)])
     hint = f"; did you mean {offer!r}?" if offer else ""
-    raise LinkwrightError(
+    raise RequestError(
         f"there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its displacement)"
         f"{hint}"
     )

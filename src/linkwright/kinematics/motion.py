@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, Positions
@@ -148,7 +148,7 @@ class Motion:
     def input(self) -> Floats:
         """Coordinate of the first driver, (n,) rad or m."""
         if not self.inputs:
-            raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input")
+            raise RequestError(f"{self.mechanism.name!r} has no driver, so it has no input")
         return next(iter(self.inputs.values()))
 
     @property
@@ -194,7 +194,7 @@ class Motion:
             )
         offer = nearest(name, list(self.mechanism.joints))
         hint = f"; did you mean {offer!r}?" if offer else ""
-        raise LinkwrightError(f"there is no joint {name!r} with a coordinate{hint}")
+        raise RequestError(f"there is no joint {name!r} with a coordinate{hint}")
 
     def point_of(self, key: str) -> PointMotion:
         """Motion of a point by its canonical key."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
@@ -39,7 +39,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         raise _unknown("point", name, everything)
     if len(found) > 1 and not isinstance(mechanism.joints.get(name), RevoluteJoint):
         choices = ", ".join(f"{link}.{name}" for link in found)
-        raise LinkwrightError(f"several links have a point {name!r} of their own; say which: {choices}")
+        raise RequestError(f"several links have a point {name!r} of their own; say which: {choices}")
     return found[0], name
 
 

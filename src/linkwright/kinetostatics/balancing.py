@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -84,7 +84,7 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
         LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
     """
     if not 0.0 <= share <= 1.0:
-        raise LinkwrightError(f"share is {share:g}; give a number from 0 (nothing) to 1 (everything)")
+        raise RequestError(f"share is {share:g}; give a number from 0 (nothing) to 1 (everything)")
     moments = _moments(mechanism, radius, share)
     links = dict(mechanism.links)
     weights = []
@@ -114,7 +114,7 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 def _radius(radius: Radius, link: str) -> float:
     distance = radius[link] if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
-        raise LinkwrightError(
+        raise RequestError(
             f"the radius of the counterweight on {link!r} is {distance:g} m; give a positive one"
         )
     return distance

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -104,7 +104,7 @@ class Forces:
         drivers = self.motion.design.base.drivers
         if name not in drivers:
             offer = nearest(name, list(drivers))
-            raise LinkwrightError(
+            raise RequestError(
                 f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
             )
         return self.fetch((f"effort:{name}",))[0]
@@ -118,9 +118,7 @@ class Forces:
     def input_torque_from_power(self) -> Floats:
         """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
         if len(self.mechanism.drivers) != 1:
-            raise LinkwrightError(
-                "with several drivers the powers give one sum, not the effort of one driver"
-            )
+            raise RequestError("with several drivers the powers give one sum, not the effort of one driver")
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
             return np.where(rate == 0.0, np.nan, self.power / rate)
@@ -156,9 +154,7 @@ class Forces:
         """What one of the file's loads did."""
         if name not in self.mechanism.loads:
             offer = nearest(name, list(self.mechanism.loads))
-            raise LinkwrightError(
-                f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
-            )
+            raise RequestError(f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
         names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
         fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
@@ -194,19 +190,19 @@ class Forces:
         joints = self.motion.design.base.joints
         if joint not in joints:
             offer = nearest(joint, list(joints))
-            raise LinkwrightError(
+            raise RequestError(
                 f"there is no joint {joint!r}" + (f"; did you mean {offer!r}?" if offer else "")
             )
         links = joints[joint].joined
         if on is None:
             others = [link for link in links if link != "frame"]
             if len(others) != 1:
-                raise LinkwrightError(
+                raise RequestError(
                     f"joint {joint!r} joins {', '.join(links)}; say on which link: on={others[0]!r}"
                 )
             return others[0]
         if on not in links:
-            raise LinkwrightError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")
+            raise RequestError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")
         return on
 
     def guide_direction(self, joint: str) -> Floats:
@@ -226,7 +222,7 @@ class Forces:
     def _first_driver(self) -> str:
         drivers = self.motion.design.base.drivers
         if not drivers:
-            raise LinkwrightError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
+            raise RequestError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
         return next(iter(drivers))
 
     def fetch(self, names: tuple[str, ...]) -> list[Floats]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:
@@ -27,7 +27,7 @@ def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present
 def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
     """Coefficient of speed fluctuation δ = ΔE/(J ω²) that an inertia gives, by the same formula."""
     if not inertia > 0:
-        raise LinkwrightError(f"the moment of inertia is {inertia:g} kg·m²; give a value above zero")
+        raise RequestError(f"the moment of inertia is {inertia:g} kg·m²; give a value above zero")
     _require(1.0, speed)
     return energy / (inertia * speed * speed)
 
@@ -38,7 +38,7 @@ def on_faster_shaft(inertia: float, ratio: float) -> float:
     Raises LinkwrightError for a ratio of zero.
     """
     if not abs(ratio) > 0:
-        raise LinkwrightError(
+        raise RequestError(
             "the speed ratio of the flywheel's shaft to the crank is zero; give another number"
         )
     return inertia / (ratio * ratio)
@@ -84,9 +84,9 @@ def rim(
     given = (inertia, density, width_ratio, thickness_ratio)
     for name, value in zip(("moment of inertia", "density", "width", "thickness"), given, strict=True):
         if not value > 0:
-            raise LinkwrightError(f"the {name} of the flywheel is {value:g}; give a value above zero")
+            raise RequestError(f"the {name} of the flywheel is {value:g}; give a value above zero")
     if thickness_ratio > 0.5:
-        raise LinkwrightError(
+        raise RequestError(
             f"a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less"
         )
     hole = 1.0 - 2.0 * thickness_ratio
@@ -98,7 +98,7 @@ def rim(
 
 def _require(fluctuation: float, speed: float) -> None:
     if not fluctuation > 0:
-        raise LinkwrightError(
+        raise RequestError(
             f"the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, such as 0.02"
         )
     if not abs(speed) > 0:

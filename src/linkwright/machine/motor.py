@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: 
     Raises LinkwrightError for values out of range.
     """
     if not 0 < efficiency <= 1:
-        raise LinkwrightError(f"the efficiency is {efficiency:g}; give a value above 0 and up to 1")
+        raise RequestError(f"the efficiency is {efficiency:g}; give a value above 0 and up to 1")
     if not margin >= 1:
-        raise LinkwrightError(f"the margin on the motor's power is {margin:g}; give 1 or more")
+        raise RequestError(f"the margin on the motor's power is {margin:g}; give 1 or more")
     return Motor(mean_torque, mean_torque * speed, efficiency, margin)

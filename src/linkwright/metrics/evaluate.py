@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
@@ -38,7 +38,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         elif asked is None:
             skipped.append(name)
         else:
-            raise LinkwrightError(_refusal(name, analysis))
+            raise RequestError(_refusal(name, analysis))
     return MetricsTable(analysis.motion.mechanism.name, rows, skipped)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.registry import nearest
@@ -74,7 +74,7 @@ class MetricsTable(Sequence[MetricValue]):
         if found:
             return found
         METRICS[name]
-        raise LinkwrightError(f'"{name}" is not in the table: it does not apply here or was not asked for')
+        raise RequestError(f'"{name}" is not in the table: it does not apply here or was not asked for')
 
     def _one(self, name: str, subject: str) -> MetricValue:
         rows = self._of(name)
@@ -84,7 +84,7 @@ class MetricsTable(Sequence[MetricValue]):
         subjects = [row.subject for row in rows]
         offer = nearest(subject, subjects)
         hint = f'did you mean "{offer}"?' if offer else f"there is {', '.join(subjects)}"
-        raise LinkwrightError(f'"{name}" has no value for "{subject}"; {hint}')
+        raise RequestError(f'"{name}" has no value for "{subject}"; {hint}')
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
@@ -111,9 +111,7 @@ class MetricsTable(Sequence[MetricValue]):
         try:
             import pandas
         except ImportError:
-            raise LinkwrightError(
-                "tables need pandas; install it: pip install linkwright[notebook]"
-            ) from None
+            raise RequestError("tables need pandas; install it: pip install linkwright[notebook]") from None
         return pandas.DataFrame(self.data())
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:

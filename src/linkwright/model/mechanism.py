@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.drivers.base import Driver
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.loads.base import Load
 from linkwright.model.geometry import centre, local_points, point_addresses, second_point_address
@@ -211,9 +211,7 @@ class Mechanism:
             return self.frame
         if name not in self.links:
             offer = nearest(name, ["frame", *self.links])
-            raise LinkwrightError(
-                f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else "")
-            )
+            raise RequestError(f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else ""))
         return self.links[name]
 
     @cached_property
@@ -242,13 +240,13 @@ class Mechanism:
             raise self._unknown(address)
         value = float(value)
         if not math.isfinite(value):
-            raise LinkwrightError(f"{address} is set to {value}; give a finite number")
+            raise RequestError(f"{address} is set to {value}; give a finite number")
         last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
         owner = address.split(".", maxsplit=1)[0]
         if owner in self.links and last in ("length", "lengths") and value <= 0:
-            raise LinkwrightError(f"{address} is set to {value:g} m; a length must be positive")
+            raise RequestError(f"{address} is set to {value:g} m; a length must be positive")
         if owner in self.links and last in ("mass", "inertia") and value < 0:
-            raise LinkwrightError(f"{address} is set to {value:g}; it must not be negative")
+            raise RequestError(f"{address} is set to {value:g}; it must not be negative")
         return value
 
     def __repr__(self) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
@@ -78,13 +78,13 @@ def animate(
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(
+        raise RequestError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
     if not 2 <= frames <= 2000:
-        raise LinkwrightError(f"an animation of {frames} frames cannot be made; give 2 to 2000")
+        raise RequestError(f"an animation of {frames} frames cannot be made; give 2 to 2000")
     if seconds is not None and not 0.05 <= seconds <= 3600:
-        raise LinkwrightError(f"a cycle of {seconds} s cannot be shown; give 0.05 to 3600 s")
+        raise RequestError(f"a cycle of {seconds} s cannot be shown; give 0.05 to 3600 s")
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
@@ -195,9 +195,7 @@ class Animation:
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
             return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
-        raise LinkwrightError(
-            f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4'
-        )
+        raise RequestError(f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4')
 
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None

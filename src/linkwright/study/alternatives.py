@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -121,9 +121,7 @@ def alternatives(
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
     if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
-        raise LinkwrightError(
-            "a comparison needs two or more alternatives; give a list of mechanisms or files"
-        )
+        raise RequestError("a comparison needs two or more alternatives; give a list of mechanisms or files")
     flywheel_inertia(1.0, 1.0, fluctuation)
     machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
     labels = _labels(machines)
@@ -156,7 +154,7 @@ def _outputs(
         return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
     if output is not None:
         if len(output) != len(machines):
-            raise LinkwrightError(
+            raise RequestError(
                 f"{len(output)} outputs are named for {len(machines)} alternatives; name one for each"
             )
         return list(output)
@@ -180,7 +178,7 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
     for key in keys:
         if key in output:
             return output[key]
-    raise LinkwrightError(
+    raise RequestError(
         f"no output is named for {label!r}; output names them for {', '.join(map(repr, output))}"
     )
 
@@ -214,4 +212,4 @@ def output_of_machine(machine: Mechanism, name: str) -> Output:
         own = [str(each) for each in mechanism_outputs(machine)]
         offer = nearest(name, own)
         hint = f"did you mean {offer!r}?" if offer else f"it has {', '.join(own) or 'none'}"
-        raise LinkwrightError(f"{machine.name!r} has no output {name!r}; {hint}") from None
+        raise RequestError(f"{machine.name!r} has no output {name!r}; {hint}") from None

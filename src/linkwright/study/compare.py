@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.metrics.quantities import si_unit
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
@@ -126,7 +126,7 @@ class Comparison:
                 found = row.values[index]
                 return float("nan") if found is None else found.value
         offer = nearest(metric, [row.criterion.name for row in self.rows])
-        raise LinkwrightError(
+        raise RequestError(
             f"{metric!r} is not among the compared metrics" + (f"; did you mean {offer!r}?" if offer else "")
         )
 
@@ -141,7 +141,7 @@ class Comparison:
 
     def _index(self, label: str) -> int:
         if label not in self.labels:
-            raise LinkwrightError(
+            raise RequestError(
                 f"there is no alternative {label!r}; there is {', '.join(map(repr, self.labels))}"
             )
         return self.labels.index(label)
@@ -246,7 +246,7 @@ def compare(
             continue
         if metrics is not None and all(value is None for value in values):
             known = "; ".join(note for a in found for note in a.notes)
-            raise LinkwrightError(
+            raise RequestError(
                 f"{each.name!r} does not apply to any of the alternatives: {known or 'leave it out'}"
             )
         rows.append(Row(each, values, given.get(each.name, 1.0)))
@@ -260,14 +260,14 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
         if name not in known:
             offer = nearest(name, list(known))
             hint = f"did you mean {offer!r}?" if offer else f"compared are {', '.join(known)}"
-            raise LinkwrightError(f"the weight of {name!r} belongs to no compared metric; {hint}")
+            raise RequestError(f"the weight of {name!r} belongs to no compared metric; {hint}")
         if not weight >= 0.0 or weight == float("inf"):
-            raise LinkwrightError(f"the weight of {name!r} is {weight}; give a number that is not negative")
+            raise RequestError(f"the weight of {name!r} is {weight}; give a number that is not negative")
         if known[name].better is None and weight > 0.0:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{name!r} has no better direction, so it cannot be weighted; leave its weight out"
             )
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
-        raise LinkwrightError("all weights are zero; give one metric a weight above zero")
+        raise RequestError("all weights are zero; give one metric a weight above zero")
     return weights

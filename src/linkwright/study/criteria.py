@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import nearest
@@ -16,7 +16,7 @@ from linkwright.study.summary import KINDS, wanted
 from linkwright.words import say
 
 
-class NoSuchSubject(LinkwrightError):
+class NoSuchSubject(RequestError):
     """A design number that is asked for a joint, link or output for which it has no value."""
 
 
@@ -53,7 +53,7 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
     asked = [names] if isinstance(names, str) else list(names)
     if not asked:
-        raise LinkwrightError("no metric is asked for; name some, such as peak_input_torque")
+        raise RequestError("no metric is asked for; name some, such as peak_input_torque")
     return [criterion(name) for name in dict.fromkeys(asked)]
 
 
@@ -70,7 +70,7 @@ def criterion(name: str) -> Criterion:
     known = [*OWN, *METRICS]
     offer = nearest(name, known)
     hint = f"did you mean {offer!r}?" if offer else f"known: {', '.join(known)}"
-    raise LinkwrightError(
+    raise RequestError(
         f'there is no metric {name!r}; {hint} An output with a summary will do as well, such as "driver.effort rms"'
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.engine.sweep import Backend, Progress
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.failures import Failure, explained
@@ -63,7 +63,7 @@ class Sweep:
         """A summary (designs,), by output and kind."""
         (found, *more) = wanted([key])
         if found not in self.summaries or more:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{key!r} was not asked for; there is {', '.join(s.name for s in self.summaries)}"
             )
         return self.summaries[found]

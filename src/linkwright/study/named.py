@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from linkwright.engine.trace import Scalar, absolute, minimum, sqrt
 from linkwright.engine.vector import Vec
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point
@@ -197,7 +197,7 @@ class Named:
             quality = placed[group.name].quality
             total = quality if total is None else minimum(total, quality)
         if total is None:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{name!r}: there is no group with a closed form, and only those tell how near they are to a "
                 "singular position; choose another output"
             )
@@ -209,7 +209,7 @@ class Named:
             raise self._unknown(name)
         group = self._group(name, rest[0])
         if group.signature != "RRR" or len(group.inner_joints) != 1:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{name!r}: a transmission angle is between two links of an RRR group; {group.signature} "
                 f"({', '.join(group.links)}) is none; ask for closeness {rest[0]}"
             )
@@ -224,7 +224,7 @@ class Named:
         if joint not in inner:
             offer = nearest(joint, list(inner))
             hint = f"did you mean {offer!r}?" if offer else f"inner joints are: {', '.join(inner) or 'none'}"
-            raise LinkwrightError(f"{name!r}: {joint!r} is not the inner joint of a group; {hint}")
+            raise RequestError(f"{name!r}: {joint!r} is not the inner joint of a group; {hint}")
         return inner[joint]
 
     def _at_joint(self, name: str, rest: list[str]) -> tuple[str, str, str]:
@@ -238,13 +238,13 @@ class Named:
         joined = joints[rest[0]].joined
         if len(rest) == 3:
             if rest[2] not in joined:
-                raise LinkwrightError(
+                raise RequestError(
                     f"{name!r}: joint {rest[0]!r} does not touch {rest[2]!r}; it joins {', '.join(joined)}"
                 )
             return rest[0], rest[2], axis
         moving = [link for link in joined if link != "frame"]
         if len(moving) != 1:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{name!r}: joint {rest[0]!r} joins {', '.join(joined)}; say on which link: "
                 f'"{name} on {moving[0]}"'
             )

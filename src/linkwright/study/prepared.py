@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
@@ -57,7 +57,7 @@ class Prepared:
             if address not in known:
                 offer = nearest(address, known)
                 hint = f"; did you mean {offer!r}?" if offer else ""
-                raise LinkwrightError(f"there is no dimension {address!r} in {mechanism.name!r}{hint}")
+                raise RequestError(f"there is no dimension {address!r} in {mechanism.name!r}{hint}")
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -126,7 +126,7 @@ class Prepared:
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
         if self.mechanism.dimension(address) == 0.0:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{address!r} is zero and was not named when the mechanism was prepared; "
                 f"write prepare(mechanism, vary=[{address!r}, …])"
             )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import units
-from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.errors import QuantityError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 
@@ -68,7 +68,7 @@ def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> R
         found = _parsed(address, given.strip())
         _require_unit(mechanism, address, found.unit, given)
     except QuantityError as error:
-        raise LinkwrightError(f"{address}={given}: {error}") from None
+        raise RequestError(f"{address}={given}: {error}") from None
     return found
 
 
@@ -95,7 +95,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     """A number in SI and its unit; without a unit of its own that of ``unit``."""
     match = _QUANTITY.match(part.strip())
     if match is None:
-        raise LinkwrightError(
+        raise RequestError(
             f'{address}={text}: "{part.strip()}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
             "1.2, 1.25, 1.3 m"
         )
@@ -103,7 +103,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     factor = units.unit(unit)[0] if unit else 1.0
     value = float(number) * factor
     if not math.isfinite(value):
-        raise LinkwrightError(f"{address}={text}: a value is not finite")
+        raise RequestError(f"{address}={text}: a value is not finite")
     return value, unit
 
 
@@ -111,11 +111,11 @@ def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
     if not text.strip().isdigit() or int(text) < 1:
-        raise LinkwrightError(
+        raise RequestError(
             f'{address}={whole}: "{text.strip()}" is no number of values; end a range in a whole number, such as :11'
         )
     if int(text) > 1_000_000:
-        raise LinkwrightError(f"{address}={whole}: {text} values are too many; give a million or fewer")
+        raise RequestError(f"{address}={whole}: {text} values are too many; give a million or fewer")
     return int(text)
 
 
@@ -129,7 +129,7 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
         need = units.name_of(expected)
         example = units.si_symbol(expected)
         told = f"it has the unit {unit}" if unit else "it has no unit"
-        raise LinkwrightError(
+        raise RequestError(
             f"{address}={text}: this is {need}, but {told}; write it with a unit such as {example or 'none'}"
         )
 

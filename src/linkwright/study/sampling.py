@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.study.ranges import Range
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
     for each in ranges:
         count *= len(each.values)
     if count > MOST:
-        raise LinkwrightError(
+        raise RequestError(
             f"the grid has {count} designs; give {MOST} or fewer, or sample it: sampling='sobol'"
         )
     mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
@@ -35,9 +35,9 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
     """
     if sampling != "sobol":
-        raise LinkwrightError(f"there is no sampling {sampling!r}; use grid or sobol")
+        raise RequestError(f"there is no sampling {sampling!r}; use grid or sobol")
     if not 1 <= samples <= MOST:
-        raise LinkwrightError(f"{samples} samples are asked for; give 1 to {MOST}")
+        raise RequestError(f"{samples} samples are asked for; give 1 to {MOST}")
     try:
         from scipy.stats import qmc
     except ImportError as error:

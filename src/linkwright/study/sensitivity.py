@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.sweep import Backend
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal
 from linkwright.model.mechanism import Mechanism
@@ -58,7 +58,7 @@ class Sensitivity:
         """Derivative of an output with respect to a dimension at fixed input, (n,)."""
         self._asked(output)
         if by not in self.by:
-            raise LinkwrightError(f"{by!r} is not among the dimensions {', '.join(self.by)}")
+            raise RequestError(f"{by!r} is not among the dimensions {', '.join(self.by)}")
         return self.slopes[output, by]
 
     def value(self, output: str, kind: str | None = None) -> float:
@@ -110,14 +110,14 @@ class Sensitivity:
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise LinkwrightError(
+            raise RequestError(
                 f"no curve of {output!r} was asked for; there is {', '.join(self.curves) or 'none'}"
             )
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
         if not isinstance(found, Summary) or found not in self.values:
-            raise LinkwrightError(
+            raise RequestError(
                 f"no summary {output!r} was asked for; there is {', '.join(s.name for s in self.values) or 'none'}"
             )
         return found
@@ -157,13 +157,13 @@ def sensitivity(
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
-        raise LinkwrightError(
+        raise RequestError(
             "no dimension is given to differentiate by; name some, such as by=['crank.length']"
         )
     _refuse_input(dimensions)
     asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
     if not asked:
-        raise LinkwrightError('no outputs are asked for; name some, such as "driver.effort rms"')
+        raise RequestError('no outputs are asked for; name some, such as "driver.effort rms"')
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.ok.all():
         raise refusal(traced.nominal)
@@ -181,16 +181,14 @@ def split(each: str | tuple[str, str]) -> str | Summary:
     if len(found) == 2 and output is not None:
         return output
     if found[0].kind in ("argmin", "argmax"):
-        raise LinkwrightError(
-            f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme"
-        )
+        raise RequestError(f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme")
     return found[0]
 
 
 def _refuse_input(by: Iterable[str]) -> None:
     for address in by:
         if address.startswith("cycle.") or address.endswith(".start"):
-            raise LinkwrightError(
+            raise RequestError(
                 f"{address} moves the positions of the input; derivatives are taken at fixed input, so leave it out"
             )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.machine import flywheel_inertia
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
@@ -67,9 +67,7 @@ class Study:
             if name in columns:
                 return columns[name]
         offer = nearest(name, [*self.metrics, *self.varied])
-        raise LinkwrightError(
-            f"{name!r} is not in the study" + (f"; did you mean {offer!r}?" if offer else "")
-        )
+        raise RequestError(f"{name!r} is not in the study" + (f"; did you mean {offer!r}?" if offer else ""))
 
     def best(self, metric: str) -> int:
         """Number of the design that is best in a metric.
@@ -78,7 +76,7 @@ class Study:
         """
         values, better = self[metric], self.better.get(metric)
         if better is None:
-            raise LinkwrightError(f"{metric!r} has no better direction, so no design is best in it")
+            raise RequestError(f"{metric!r} has no better direction, so no design is best in it")
         if not np.isfinite(values).any():
             raise LinkwrightError(f"{metric!r} has no value in any of the designs")
         sizes = np.abs(values)
@@ -204,13 +202,11 @@ def study(
     flywheel_inertia(1.0, 1.0, fluctuation)
     ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
     if not ranges:
-        raise LinkwrightError('nothing varies; give dimensions with ranges: {"crank.length": "20..30 mm:11"}')
+        raise RequestError('nothing varies; give dimensions with ranges: {"crank.length": "20..30 mm:11"}')
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
     count = len(next(iter(columns.values())))
     if count > MOST:
-        raise LinkwrightError(
-            f"{count} designs are too many for a study; give {MOST} or fewer, or use sweep()"
-        )
+        raise RequestError(f"{count} designs are too many for a study; give {MOST} or fewer, or use sweep()")
     work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
     return work.study(ranges, sampling)
 
@@ -301,7 +297,7 @@ class _Work:
         for name, values in self.values.items():
             if np.isnan(values[ok]).all():
                 known = "; ".join(self.notes)
-                raise LinkwrightError(
+                raise RequestError(
                     f"{name!r} does not apply to {self.mechanism.name!r}"
                     + (f": {known}" if known else "; leave it out")
                 )

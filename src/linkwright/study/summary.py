@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.reductions import Reduction
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.registry import nearest
 from linkwright.study.named import Quantity
 
@@ -58,7 +58,7 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
         for summary in _one(each):
             found[summary] = None
     if not found:
-        raise LinkwrightError('no outputs are asked for; name some, such as "driver.effort rms"')
+        raise RequestError('no outputs are asked for; name some, such as "driver.effort rms"')
     return tuple(found)
 
 
@@ -74,7 +74,7 @@ def _one(each: str | tuple[str, str]) -> list[Summary]:
     if kind not in KINDS:
         offer = nearest(kind, list(KINDS))
         hint = f"did you mean {offer!r}?" if offer else f"use one of {', '.join(KINDS)}"
-        raise LinkwrightError(f"{output!r}: there is no summary {kind!r}; {hint}")
+        raise RequestError(f"{output!r}: there is no summary {kind!r}; {hint}")
     return [Summary(output, kind)]
 
 
@@ -83,7 +83,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
     found: dict[Reduction, None] = {}
     for summary in summaries:
         if quantities[summary.output].form != "plain" and summary.kind not in _GROWING:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{summary.name!r}: an angle has {', '.join(sorted(_GROWING))} in a study; take one of these, or the "
                 "mean or rms of its rate"
             )

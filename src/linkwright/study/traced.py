@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, minimum, select
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
@@ -138,7 +138,7 @@ class Traced:
         if high - low <= TURNING:
             return 0.5 * (low + high)
         if not self.turning:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{link!r} turns through, so its angle has no smallest and largest value; ask for "
                 f"{link}.angular_velocity instead"
             )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest
@@ -24,7 +24,7 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
         if address not in known:
             offer = nearest(address, known)
             hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(list(known)[:6])}"
-            raise LinkwrightError(
+            raise RequestError(
                 f"there is no dimension or parameter {address!r} in {mechanism.name!r}; {hint}"
             )
     return wanted
@@ -39,20 +39,18 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     """
     checked_addresses(mechanism, vary)
     if not vary:
-        raise LinkwrightError('nothing varies; give dimensions with their values: {"crank.length": values}')
+        raise RequestError('nothing varies; give dimensions with their values: {"crank.length": values}')
     columns = {
         address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()
     }
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise LinkwrightError(
-                f"the values of {address} have the shape {column.shape}; give one per design"
-            )
+            raise RequestError(f"the values of {address} have the shape {column.shape}; give one per design")
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
-        raise LinkwrightError(
+        raise RequestError(
             f"the dimensions have different numbers of values ({told}); give one per design each"
         )
     count = lengths.pop() if lengths else 1
@@ -62,10 +60,10 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
 def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
     """Every value on its own must be one that the mechanism takes."""
     if not len(column):
-        raise LinkwrightError(f"{address} has no values")
+        raise RequestError(f"{address} has no values")
     bad = np.flatnonzero(~np.isfinite(column))
     if len(bad):
-        raise LinkwrightError(f"value {int(bad[0])} of {address} is {column[bad[0]]}; give finite numbers")
+        raise RequestError(f"value {int(bad[0])} of {address} is {column[bad[0]]}; give finite numbers")
     for extreme in (column.min(), column.max()):
         mechanism.with_dimensions({address: float(extreme)})
 
@@ -76,7 +74,7 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
         for value in (column.min(), column.max()):
             changed = mechanism.with_dimensions({address: float(value)})
             if not _same(mechanism, positions, over_cycle(changed, positions_steps(positions))):
-                raise LinkwrightError(
+                raise RequestError(
                     f"{address} changes the drive's law or the cycle, so that the positions of the input differ from "
                     "design to design; solve such designs one by one"
                 )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.groups import dyad_shape
 from linkwright.kinematics.motion import Motion
@@ -77,7 +77,7 @@ def worked(
         LinkwrightError: a position that does not exist or was not reached, an unknown language.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(f"there is no language {language!r}; choose one of {', '.join(LANGUAGES)}")
+        raise RequestError(f"there is no language {language!r}; choose one of {', '.join(LANGUAGES)}")
     if at is not None:
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
@@ -97,16 +97,14 @@ def worked(
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
     mechanism = source.mechanism
     if not mechanism.drivers:
-        raise LinkwrightError(
-            f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out"
-        )
+        raise RequestError(f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out")
     motion = solve_motion(mechanism, at=np.array([at]))
     return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
 
 
 def _refuse_missing(motion: Motion, position: int) -> None:
     if not -motion.steps <= position < motion.steps:
-        raise LinkwrightError(
+        raise RequestError(
             f"there is no position {position}; the motion has {motion.steps}, from 0 to {motion.steps - 1}"
         )
     if not motion.ok[position]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
 from linkwright.joints.revolute import RevoluteJoint
@@ -186,7 +186,7 @@ def check_unit(unit: str) -> tuple[float, int]:
     """Units per metre, and DXF's number of the unit; raises LinkwrightError."""
     known = {"mm": (1000.0, 4), "m": (1.0, 6)}
     if unit not in known:
-        raise LinkwrightError(f'a drawing is in mm or m, not in "{unit}"')
+        raise RequestError(f'a drawing is in mm or m, not in "{unit}"')
     return known[unit]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.dxf.sheet import Sheet, check_unit, decimals_for, prepare
 from linkwright.export.results import Results
@@ -31,7 +31,7 @@ def content(
     ezdxf = package("ezdxf", "DXF drawings")
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
-        raise LinkwrightError(f'a path is a "polyline" or a "spline", not a "{curve}"')
+        raise RequestError(f'a path is a "polyline" or a "spline", not a "{curve}"')
     index = _index(results, position)
     document = ezdxf.new("R2010", setup=["linetypes"])
     document.units = code
@@ -54,7 +54,7 @@ def _index(results: Results, position: int | None) -> int:
         return results.first_ok()
     steps = results.motion.steps
     if not -steps <= position < steps:
-        raise LinkwrightError(f"position {position} does not exist; there are the positions 0 to {steps - 1}")
+        raise RequestError(f"position {position} does not exist; there are the positions 0 to {steps - 1}")
     if not results.motion.ok[position]:
         raise LinkwrightError(
             f"position {position} cannot be drawn: {results.motion.outcomes[position].sentence}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.mjcf.text import seconds
 from linkwright.export.modelica.equations import Equations, indented
@@ -34,7 +34,7 @@ def content(
     motion, mechanism = results.motion, results.mechanism
     index = results.first_ok()
     if form not in FORMS:
-        raise LinkwrightError(f'the equations are of "positions" or of "rates", not of "{form}"')
+        raise RequestError(f'the equations are of "positions" or of "rates", not of "{form}"')
     if form == "rates":
         text = Rates(results, index, seconds(motion) / RELAXATIONS).write()
     else:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
@@ -103,7 +103,7 @@ class Workbook:
         sheet = self._sheet(table.subject)
         columns = [*leading, *self._turned(table.columns)]
         if len(columns) > MOST_COLUMNS or len(columns[0].values) > MOST_ROWS:
-            raise LinkwrightError(
+            raise RequestError(
                 f"an Excel sheet holds {MOST_COLUMNS} columns of {MOST_ROWS} values; take fewer steps, or .parquet"
             )
         for index, column in enumerate(columns):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
@@ -29,7 +29,7 @@ class Angles(OverInput):
         motion, say = source.motion, request.say
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
-            raise LinkwrightError(
+            raise RequestError(
                 f"no link of {motion.mechanism.name!r} turns, so there are no angle curves; draw its sva"
             )
         shown = [source.closed(motion.link(name).angle, turns=True) for name in links]

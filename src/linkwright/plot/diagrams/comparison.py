@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import equal, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.legend import Legend
@@ -74,7 +74,7 @@ class PivotHodograph(ResultKind):
     def draw(self, result: Comparison, request: Request) -> Figure:
         overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
         if overlay is None:
-            raise LinkwrightError(
+            raise RequestError(
                 "the alternatives carry no loads or masses, so no pivot has a reaction; give some"
             )
         unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
@@ -99,9 +99,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     known = {each.name: each for each in result.curves if each.name != HODOGRAPH}
     for name in names:
         if name not in known:
-            raise LinkwrightError(
-                f"there is no curve {name!r} of this comparison; there is {', '.join(known)}"
-            )
+            raise RequestError(f"there is no curve {name!r} of this comparison; there is {', '.join(known)}")
     return [known[name] for name in names or known]
 
 
@@ -109,7 +107,7 @@ def _axis(result: Comparison) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in result.alternatives}
     if len(turning) > 1:
-        raise LinkwrightError(
+        raise RequestError(
             "one alternative has an input that turns and another one that slides, so their curves have no common "
             "axis; draw the pivot_hodograph"
         )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request
@@ -34,7 +34,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
     Raises LinkwrightError where nothing varies.
     """
     if not table.moving:
-        raise LinkwrightError("all designs are the same, so there is nothing to draw; vary a dimension")
+        raise RequestError("all designs are the same, so there is nothing to draw; vary a dimension")
     legend = Legend()
     if len(table.moving) == 1:
         figure = _over_one(table, request, legend)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import units
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
@@ -90,7 +90,7 @@ def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:
         if name not in known:
             offer = nearest(name, list(known))
             hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(known)}"
-            raise LinkwrightError(f"there is no metric {name!r} here; {hint}")
+            raise RequestError(f"there is no metric {name!r} here; {hint}")
     return list(asked or known)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.axes import wrapped
@@ -58,7 +58,7 @@ class ForcePolygon(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise LinkwrightError("force polygons show one mechanism at one position; give one result")
+            raise RequestError("force polygons show one mechanism at one position; give one result")
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
@@ -88,7 +88,7 @@ def plot(
             sense for the mechanism, no matplotlib, or no font for Chinese.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(
+        raise RequestError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
     own = _own_kind(result, kind)
@@ -142,7 +142,7 @@ def require_kind(name: str) -> None:
         return
     offer = nearest(name, list(DIAGRAMS))
     hint = f'did you mean "{offer}"? ' if offer else ""
-    raise LinkwrightError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
+    raise RequestError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
 
 
 def require_options(name: str, given: Sequence[str]) -> None:
@@ -166,7 +166,7 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     if kind is None:
         return next(name for name in own if RESULT_DIAGRAMS[name].usual)
     if kind not in own:
-        raise LinkwrightError(
+        raise RequestError(
             f'there is no kind of diagram "{kind}" of this result; the kinds are {", ".join(own)}'
         )
     return kind
@@ -180,11 +180,9 @@ def _sources(result: _Solved, *, static: bool) -> list[Source]:
     else:
         found = [Source(result, static=static)]
     if not found:
-        raise LinkwrightError("there is nothing to draw; give at least one result")
+        raise RequestError("there is nothing to draw; give at least one result")
     if len(found) > 1 and len({source.label for source in found}) < len(found):
-        raise LinkwrightError(
-            "results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})"
-        )
+        raise RequestError("results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})")
     return found
 
 
@@ -199,7 +197,7 @@ def _place(at: float | str | None, source: Source) -> float | None:
     if not isinstance(at, str):
         return at
     if not source.mechanism.drivers:
-        raise LinkwrightError(
+        raise RequestError(
             f"{source.mechanism.name!r} has no driver, so there is no input to set; leave at out"
         )
     return parse(at, source.input_dimension)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.plot.diagrams.axes import framed
@@ -54,14 +54,14 @@ def _groups(result: MetricsTable, request: Request) -> list[Group]:
     names = request.of or tuple(name for name in result.names if METRICS[name].limit is not None)
     if not names:
         known = f"; name what to draw: of={result.names[0]!r}" if result.names else ", and it has no numbers"
-        raise LinkwrightError(f"nothing in this table has a recommended limit to be drawn against{known}")
+        raise RequestError(f"nothing in this table has a recommended limit to be drawn against{known}")
     found: dict[tuple[str, str], list[MetricValue]] = {}
     for name in names:
         for row in result[name]:
             if np.isfinite(row.value):
                 found.setdefault((name, row.dimension), []).append(row)
     if not found:
-        raise LinkwrightError(f"there is no number to draw: {', '.join(names)} are not finite")
+        raise RequestError(f"there is no number to draw: {', '.join(names)} are not finite")
     return [(name, tuple(rows)) for (name, _), rows in found.items()]
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import wrapped
@@ -65,7 +65,7 @@ class MotionPolygons(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise LinkwrightError("a polygon shows one mechanism at one position; give one result")
+            raise RequestError("a polygon shows one mechanism at one position; give one result")
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.limits import output_of
@@ -107,7 +107,7 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{mechanism.name!r} has no joint that carries a force there; name another joint"
             )
         return max(on_frame or pairs, key=lambda pair: size(forces.reaction(pair[0], on=pair[1])))

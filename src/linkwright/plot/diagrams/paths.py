@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.axes import framed
@@ -99,7 +99,7 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 def _point(source: Source, name: str) -> str:
     found = output_named(source.mechanism, name)
     if isinstance(found, Output):
-        raise LinkwrightError(
+        raise RequestError(
             f'"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D'
         )
     return found

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.diagrams.fonts import REMEDY, families
 from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.render import MOST_PIXELS
@@ -90,7 +90,7 @@ class Diagram:
                 f"{int((MOST_PIXELS / (wide * tall)) ** 0.5)}"
             )
         if ending not in ENDINGS:
-            raise LinkwrightError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
+            raise RequestError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
         return self._bytes(ending[1:], dpi)
 
     def svg(self) -> str:
@@ -139,7 +139,7 @@ def _no_boxes() -> Iterator[None]:
         try:
             yield
         except UserWarning as problem:
-            raise LinkwrightError(
+            raise RequestError(
                 f"a text of the diagram cannot be written with the fonts there are ({problem}); {REMEDY}"
             ) from None
 

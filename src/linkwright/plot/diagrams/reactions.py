@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
@@ -43,7 +43,7 @@ class Reactions(OverInput):
 def require_forces(forces: Forces) -> None:
     """Raises LinkwrightError where no joint carries anything."""
     if not loaded(forces):
-        raise LinkwrightError(
+        raise RequestError(
             f"no joint of {forces.mechanism.name!r} carries a force: its links have no mass and there are no loads; "
             "give masses (mass: 5 kg) or loads (loads: …)"
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright import units
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import framed, label_input
@@ -47,7 +47,7 @@ class RelativeSensitivity(ResultKind):
         names = chosen(request.of, known)
         table = {name: result.relative(known[name].output, known[name].kind) for name in names}
         if not any(np.isfinite(list(row.values())).any() for row in table.values()):
-            raise LinkwrightError(
+            raise RequestError(
                 "all of these summaries are zero, so they have no relative sensitivity to draw"
             )
         figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
@@ -97,7 +97,7 @@ def _axis(result: Sensitivity) -> InputAxis:
     from linkwright.kinematics.cycle import over_cycle
 
     if len(result.input) < 2:
-        raise LinkwrightError(
+        raise RequestError(
             f"{result.mechanism.name!r} was solved at one position only, so there are no curves; ask for summaries"
         )
     turning = next(iter(over_cycle(result.mechanism, 1).rotary.values()))

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.motion import Motion
@@ -77,7 +77,7 @@ class Source:
     def motion(self) -> Motion:
         """The motion."""
         if isinstance(self._result, SteadyRunning):
-            raise LinkwrightError(
+            raise RequestError(
                 "the result of steady running holds no motion; it has the diagrams speed and energy; else give forces"
             )
         if isinstance(self._result, Forces):
@@ -154,12 +154,12 @@ class Source:
         """The input, or the time where drivers follow laws of their own, up to the cycle's end."""
         motion = self.motion
         if not motion.mechanism.drivers:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{motion.mechanism.name!r} has no driver, so there is no input to draw curves over; draw its "
                 "force_polygon, or add a driver"
             )
         if motion.steps < 2:
-            raise LinkwrightError(
+            raise RequestError(
                 f"{motion.mechanism.name!r} is solved at one position only; solve a cycle to draw curves"
             )
         name, driver = next(iter(motion.mechanism.drivers.items()))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.metrics.analysis import Analysis
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
@@ -24,7 +24,7 @@ class Torque(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         motion, forces, say = source.motion, source.forces, request.say
         if not motion.mechanism.drivers:
-            raise LinkwrightError(f"{motion.mechanism.name!r} has no driver, so it has no input torque")
+            raise RequestError(f"{motion.mechanism.name!r} has no driver, so it has no input torque")
         found = []
         several = len(motion.mechanism.drivers) > 1
         for name in motion.mechanism.drivers:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
 from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
@@ -55,9 +55,7 @@ def _ends(machine: Machine, wanted: Dimension, index: int) -> tuple[tuple[Vec, V
     if isinstance(wanted, str):
         names = list(mechanism.link(wanted.removesuffix(".length")).points)[:2]
         if len(names) < 2:
-            raise LinkwrightError(
-                f'link "{wanted}" has one point, so it has no length; name two points instead'
-            )
+            raise RequestError(f'link "{wanted}" has one point, so it has no length; name two points instead')
         pair = [(wanted.removesuffix(".length"), name) for name in names]
     else:
         pair = [find_point(mechanism, name) for name in wanted]

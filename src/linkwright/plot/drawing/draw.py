@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
@@ -89,7 +89,7 @@ def draw(
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
     if language not in LANGUAGES:
-        raise LinkwrightError(
+        raise RequestError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
         )
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
@@ -202,7 +202,7 @@ def laid_out_beside(
 
 def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
     if sum(each is not None for each in (position, at, time)) > 1:
-        raise LinkwrightError("a drawing shows one position; give one of position, at and time")
+        raise RequestError("a drawing shows one position; give one of position, at and time")
     if at is not None:
         return at_input(motion, at).checked()
     if time is not None:
@@ -214,7 +214,7 @@ def _shown(motion: Motion, position: int | None, at: At | None, time: float | No
 
 def _index(motion: Motion, position: int) -> int:
     if not -motion.steps <= position < motion.steps:
-        raise LinkwrightError(
+        raise RequestError(
             f"position {position} does not exist; the motion of {motion.mechanism.name!r} has the positions 0 to "
             f"{motion.steps - 1}"
         )
@@ -233,7 +233,7 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown],
         return [Shown(denser, each) for each in indices], "lw-dashed"
     if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
         return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
-    raise LinkwrightError(
+    raise RequestError(
         f'overlay "{overlay}" is unknown; give positions, "limits", "limits:LINK" or "faded:8" '
         f"(1 to {MOST_FADED} positions)"
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
@@ -19,7 +19,7 @@ def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition,
     name = output or _last_to_and_fro(motion)
     found = limit_positions(motion, name)
     if not found:
-        raise LinkwrightError(f'"{name}" does not turn back in this motion, so it has no limit positions')
+        raise RequestError(f'"{name}" does not turn back in this motion, so it has no limit positions')
     high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
     return (high,) if high is low else (high, low)
 
@@ -37,7 +37,7 @@ def _last_to_and_fro(motion: Motion) -> str:
                 angle = motion.link(link).angle
                 if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
                     return link
-    raise LinkwrightError(
+    raise RequestError(
         f"no link of {motion.mechanism.name!r} on the frame goes to and fro, so there are no limit positions; "
         "name a link or a guide, such as limits:coupler"
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box
 from linkwright.plot.svg.element import Element, Floats, element, path
 from linkwright.plot.svg.text import text_element, width
@@ -79,4 +79,4 @@ def title_of(columns: Mapping[str, Floats], name: str) -> str:
     bare = [title.split(" [", 1)[0] for title in columns]
     offer = nearest(name, bare)
     hint = f'; did you mean "{offer}"?' if offer else ""
-    raise LinkwrightError(f'there is no result "{name}" to draw as a curve{hint}')
+    raise RequestError(f'there is no result "{name}" to draw as a curve{hint}')

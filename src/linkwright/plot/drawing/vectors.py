@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical, find_point
@@ -148,7 +148,7 @@ def loads(forces: Forces) -> Vectors:
 def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
-        raise LinkwrightError(
+        raise RequestError(
             "the forces belong to another motion than the one that is drawn; draw forces.motion, or solve the forces "
             "of this motion"
         )

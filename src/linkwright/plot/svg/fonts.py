@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 
 FAMILIES = (
     "Noto Sans", "DejaVu Sans", "Segoe UI", "Helvetica Neue", "Arial",
@@ -63,8 +63,6 @@ def check_fonts(text: str, given: Sequence[Path]) -> None:
     if given:
         return
     if needs_chinese(text) and not chinese_fonts(system_fonts()):
-        raise LinkwrightError(
-            f"the picture has Chinese text, and no font that can write it was found; {remedy}"
-        )
+        raise RequestError(f"the picture has Chinese text, and no font that can write it was found; {remedy}")
     if "<text" in text and not system_fonts():
         raise LinkwrightError(f"the picture has text, and no font was found; {remedy}")

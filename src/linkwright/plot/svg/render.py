@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.fonts import check_fonts
 
@@ -45,7 +45,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
             )
         )
     except ValueError as problem:
-        raise LinkwrightError(f"the picture cannot be made: {problem}; give a smaller size") from None
+        raise RequestError(f"the picture cannot be made: {problem}; give a smaller size") from None
 
 
 def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) -> None:
@@ -91,12 +91,12 @@ def save_picture(svg: str, path: str | Path, **options: Any) -> Path:
         return write_whole(path, png(svg, **options))
     if suffix == ".pdf":
         return write_whole(path, pdf(svg, **options))
-    raise LinkwrightError(f'{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf')
+    raise RequestError(f'{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf')
 
 
 def _font_files(fonts: Paths) -> list[Path]:
     files = [Path(font) for font in fonts]
     for file in files:
         if not file.is_file():
-            raise LinkwrightError(f"the font file {file} does not exist; give the path of a TTF or OTF file")
+            raise RequestError(f"the font file {file} does not exist; give the path of a TTF or OTF file")
     return files
