@@ -367,7 +367,7 @@ def test_saving_is_whole_or_not_at_all(
 
 
 @pytest.mark.parametrize(
-    ("name", "words"), [("a.bmp", "no kind of picture"), ("no/such/a.svg", "cannot be written")]
+    ("name", "words"), [("a.bmp", "no kind of picture"), ("no/such/a.svg", "there is no folder")]
 )
 def test_wrong_targets(crusher: lw.Motion, tmp_path: Path, name: str, words: str) -> None:
     with pytest.raises(lw.LinkwrightError, match=words):

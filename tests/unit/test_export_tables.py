@@ -159,7 +159,7 @@ def test_a_sheet_that_would_not_hold_all_is_refused(
 def test_files_that_exist_are_kept(forces: Forces, tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("mine", encoding="utf-8")
-    with pytest.raises(LinkwrightError, match=r"a\.csv exists; .*force=True"):
+    with pytest.raises(LinkwrightError, match=r"a\.csv. exists; .*force=True"):
         export(forces, path)
     assert path.read_text(encoding="utf-8") == "mine"
     export(forces, path, force=True)

@@ -5,9 +5,14 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
+from linkwright.cli.errors import OutputError
 from linkwright.words import Say
+from linkwright.words.carried import terminal_text
+from linkwright.words.sentence import Sentence
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
@@ -23,12 +28,19 @@ class Session:
     debug: bool = False
 
     def show(self, text: str = "") -> None:
-        """Prints to the standard output."""
-        print(text, file=sys.stdout)
+        """Prints to the standard output; raises OutputError where that is full or closed."""
+        with _writing():
+            print(terminal_text(text), file=sys.stdout)
+
+    def flush(self) -> None:
+        """Sees to it that everything shown is written."""
+        with _writing():
+            sys.stdout.flush()
 
     def tell(self, text: str) -> None:
         """Prints to the standard error: what is not part of the result."""
-        print(text, file=sys.stderr)
+        with suppress(OSError):
+            print(terminal_text(text), file=sys.stderr)
 
     @property
     def width(self) -> int:
@@ -42,6 +54,16 @@ class Session:
     def alarm(self, text: str) -> str:
         """Red text where the standard error is a terminal that wants it."""
         return f"\x1b[31m{text}\x1b[0m" if _coloured(sys.stderr.isatty()) else text
+
+
+@contextmanager
+def _writing() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as problem:
+        raise OutputError(Sentence("cli.output_lost", reason=problem.strerror or str(problem))) from None
 
 
 def _coloured(terminal: bool) -> bool:

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from linkwright.cli import commands
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import OutputError, UsageError
 from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import nearest_of
 from linkwright.cli.session import Session
@@ -21,9 +21,9 @@ FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
 _NO_FILE = frozenset({"no-file", "not-a-file"})
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Runs one command. Exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
+def run(argv: Sequence[str]) -> int:
+    """Runs one command and returns its exit code."""
+    arguments = list(argv)
     _widen_streams()
     session = Session(speaker("en"))
     try:
@@ -32,10 +32,15 @@ def main(argv: Sequence[str] | None = None) -> int:
             speaker(language), language, json="--json" in arguments, debug="--debug" in arguments
         )
         code = _dispatch(arguments, session)
-        sys.stdout.flush()
+        session.flush()
         return code
     except BrokenPipeError:
-        return _quiet_end()
+        _quiet_end()
+        return FINE
+    except OutputError as error:
+        _quiet_end()
+        session.tell(_headed(error.say(session.language), session))
+        return FAULTY
     except KeyboardInterrupt:
         session.tell(session.say("cli.interrupted"))
         return INTERRUPTED
@@ -158,8 +163,7 @@ def _widen_streams() -> None:
             stream.reconfigure(errors="replace")
 
 
-def _quiet_end() -> int:
+def _quiet_end() -> None:
     """Nobody reads any more: the rest goes nowhere, without a complaint at the end of the process."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return FINE

@@ -10,6 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import refuse_existing, write_whole
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.carried import cell_text
 
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison
@@ -25,7 +26,7 @@ def write_diagram(name: str | None, found: Comparison | Study, session: Session,
         return
     path = Path(name)
     content = found.plot(language=session.language).content(path.suffix.lower())
-    write_whole(path, content, session.say, force=force)
+    write_whole(path, content, force=force)
 
 
 def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: bool) -> None:
@@ -35,7 +36,7 @@ def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: 
     path = Path(name)
     if path.suffix.lower() not in endings:
         raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(endings)))
-    refuse_existing(path, say, force=force)
+    refuse_existing(path, force=force)
 
 
 def write_table(
@@ -48,7 +49,7 @@ def write_table(
 
     path = Path(name)
     text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
-    write_whole(path, text, session.say, force=force)
+    write_whole(path, text, force=force)
 
 
 def csv_of(columns: Mapping[str, Any]) -> str:
@@ -58,7 +59,7 @@ def csv_of(columns: Mapping[str, Any]) -> str:
 
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(columns)
+    writer.writerow([cell_text(name) for name in columns])
     count = max((len(column) for column in columns.values()), default=0)
     for i in range(count):
         writer.writerow([_cell(column[i]) if i < len(column) else "" for column in columns.values()])
@@ -67,7 +68,7 @@ def csv_of(columns: Mapping[str, Any]) -> str:
 
 def _cell(value: Any) -> str:
     if isinstance(value, str):
-        return value
+        return cell_text(value)
     number = float(value)
     return repr(number) if number == number else ""
 

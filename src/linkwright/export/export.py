@@ -12,8 +12,8 @@ from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.svg.files import write_whole
 from linkwright.registry import nearest
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import LANGUAGES
 
 
@@ -49,7 +49,7 @@ def export(
     """
     target = Path(path)
     chosen = chosen_format(target, format)
-    check_target(target, force=force)
+    refuse_target(target, force=force, remedy="force=True")
     if language not in LANGUAGES:
         raise RequestError(
             f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
@@ -70,16 +70,6 @@ def chosen_format(path: Path, name: str | None) -> str:
     offer = nearest(suffix, by_suffix) if suffix else None
     hint = f'did you mean "{offer}"?' if offer else f"use {', '.join(sorted(by_suffix))}, or say which format"
     raise RequestError(f'{path}: no format is written to files with the ending "{suffix}"; {hint}')
-
-
-def check_target(path: Path, *, force: bool) -> None:
-    """Raises LinkwrightError where the file could not be written, before any work is done."""
-    if path.is_dir():
-        raise RequestError(f"{path} is a folder; name a file")
-    if not path.parent.is_dir():
-        raise RequestError(f"there is no folder {path.parent}; create it first")
-    if path.exists() and not force:
-        raise RequestError(f"{path} exists; choose another name, or replace it with force=True")
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:

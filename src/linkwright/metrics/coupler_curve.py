@@ -114,8 +114,8 @@ def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Float
 
 
 def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot, float]]:
-    """Local minima of the speed where it vanishes."""
-    if not analysis.resolver.possible:
+    """Local minima of the speed where it vanishes; fewer than three positions show none."""
+    if not analysis.resolver.possible or len(speed) < 3:
         return
     mean, step = float(np.mean(speed)), float(abs(analysis.motion.time[1] - analysis.motion.time[0]))
     for i in np.flatnonzero(

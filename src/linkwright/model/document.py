@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from linkwright.model.mechanism import Mechanism
 from linkwright.model.nodes import Entry, Mapping, Node, Scalar, Sequence
 from linkwright.model.write import flow
 from linkwright.registry import nearest
+from linkwright.whole_files import write_whole
 
 _AXES = {"x": "0", "y": "1"}
 ReadText = Callable[[str, str], tuple[Mechanism | None, list[Finding]]]
@@ -60,8 +59,8 @@ class Document:
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the text to a file, by way of a temporary file next to it."""
-        write_atomically(self.text, Path(path))
+        """Write the text to a file, whole or not at all; raises LinkwrightError where it cannot be written."""
+        write_whole(path, self.text.encode())
 
     def _replace(self, node: Node, value: str) -> None:
         offset = 1 if self.text.startswith("\ufeff") else 0
@@ -159,20 +158,3 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
             return node, path[index:]
         node = below
     return node, []
-
-
-def write_atomically(text: str, path: Path) -> None:
-    """Write a text to a temporary file next to ``path`` and rename it, so that no half-written file is
-    left."""
-    try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise LinkwrightError(f"{path} cannot be written ({error.strerror}); choose another place") from None
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
-            stream.write(text)
-        os.chmod(temporary, path.stat().st_mode & 0o777 if path.exists() else 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        Path(temporary).unlink(missing_ok=True)
-        raise LinkwrightError(f"{path} cannot be written ({error.strerror}); choose another place") from None

@@ -27,8 +27,8 @@ from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Vectors, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.plot.svg.element import Element, Floats, circle, group
-from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.render import png
+from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, say
 
 if TYPE_CHECKING:

@@ -38,6 +38,8 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
         raise RequestError(f"there is no sampling {sampling!r}; use grid or sobol")
     if not 1 <= samples <= MOST:
         raise RequestError(f"{samples} samples are asked for; give 1 to {MOST}")
+    if seed < 0:
+        raise RequestError(f"the seed is {seed}; give a whole number that is not negative")
     try:
         from scipy.stats import qmc
     except ImportError as error:

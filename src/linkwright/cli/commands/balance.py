@@ -60,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     radius = _radius(options.radius, mechanism, say)
     found = balance(mechanism, radius=radius, share=share, steps=options.steps)
     if options.output is not None:
-        write_whole(Path(options.output), _model_text(found), say, force=options.force)
+        write_whole(Path(options.output), _model_text(found), force=options.force)
     if session.json:
         from linkwright.cli.data import json_text
 

@@ -38,7 +38,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     path = Path(options.output)
     chosen, form = _checked(path, options)
-    refuse_existing(path, session.say, force=options.force)
+    refuse_existing(path, force=options.force)
     mechanism, _ = read_model(options.file)
     export(
         mechanism,

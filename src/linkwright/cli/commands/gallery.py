@@ -64,7 +64,7 @@ def _show(options: argparse.Namespace, session: Session) -> int:
 def _copy(options: argparse.Namespace, session: Session) -> int:
     name, text = _text(options, session.say)
     path = Path(options.folder) / f"{name}.yaml"
-    write_whole(path, text, session.say, force=options.force)
+    write_whole(path, text, force=options.force)
     if session.json:
         from linkwright.cli.data import json_text
 

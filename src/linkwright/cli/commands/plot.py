@@ -84,7 +84,7 @@ def _path(options: argparse.Namespace, say: Say) -> Path:
     path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")
     if path.suffix.lower() not in ENDINGS:
         raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
-    refuse_existing(path, say, force=options.force)
+    refuse_existing(path, force=options.force)
     return path
 
 
@@ -136,7 +136,7 @@ def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace
     from linkwright.cli.files import write_whole
 
     content = diagram.content(path.suffix.lower(), dpi=dpi)
-    write_whole(path, content, session.say, force=options.force)
+    write_whole(path, content, force=options.force)
     if session.json:
         session.show(json_text({"ok": True, "kind": options.kind, "file": str(path)}))
     else:

@@ -91,7 +91,7 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
     path = Path(options.output)
     if path.suffix.lower() not in ENDINGS:
         raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
-    refuse_existing(path, say, force=options.force)
+    refuse_existing(path, force=options.force)
 
 
 def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
@@ -104,6 +104,6 @@ def _write(solved: Solved, options: argparse.Namespace, session: Session) -> Non
         text = csv_text(solved, options, session.say)
     else:
         text = json_text(data(solved, options, session.say)) + "\n"
-    write_whole(path, text, session.say, force=options.force)
+    write_whole(path, text, force=options.force)
     if not session.json:
         session.show(session.say("cli.written", path=path))

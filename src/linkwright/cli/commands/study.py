@@ -86,7 +86,7 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
     if options.output is not None:
         path = Path(options.output)
         text = found.csv() if path.suffix.lower() == ".csv" else json_text(found.data()) + "\n"
-        write_whole(path, text, session.say, force=options.force)
+        write_whole(path, text, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
     if session.json:
         session.show(json_text(found.data()))

@@ -8,6 +8,7 @@ import io
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
+from linkwright.words.carried import cell_text
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:
@@ -18,7 +19,7 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     columns = [column.turned if degrees else column for column in wide(results).values()]
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([column.name for column in columns])
+    writer.writerow([cell_text(column.name) for column in columns])
     for row in zip(*(column.values.tolist() for column in columns), strict=True):
         writer.writerow(["" if value != value else repr(value) for value in row])
     return stream.getvalue().encode()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -15,12 +14,11 @@ from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
+from linkwright.plot.svg.characters import printable
 from linkwright.units import si_symbol
 from linkwright.words import say
 
 Cell = str | float | int | bool | None
-#: Characters that XML cannot hold.
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 LONGEST_TEXT = 32767
 MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
 
@@ -94,7 +92,7 @@ class Workbook:
 
     def _cell(self, sheet: Any, row: int, column: int, cell: Cell) -> None:
         if isinstance(cell, str):
-            sheet.write_string(row, column, _CONTROL.sub("", cell)[:LONGEST_TEXT], self.text)
+            sheet.write_string(row, column, printable(cell)[:LONGEST_TEXT], self.text)
         elif cell is not None and math.isfinite(cell):
             sheet.write_number(row, column, cell)
 
@@ -124,7 +122,7 @@ class Workbook:
         if column.owner == "shaking_force":
             owner = self.say("quantity.shaking_force")
         word = column.words(self.results.language) if column.quantity else self.say("input")
-        return _CONTROL.sub("", "\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
+        return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 
 
 def number_format(values: np.ndarray[Any, np.dtype[np.float64]]) -> str:

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.diagrams.fonts import REMEDY, families
-from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.render import MOST_PIXELS
+from linkwright.whole_files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

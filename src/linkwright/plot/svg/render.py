@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.files import write_whole
 from linkwright.plot.svg.fonts import check_fonts
+from linkwright.whole_files import write_whole
 
 Paths = Sequence[str | Path]
 #: Most pixels of one picture, and smallest width.
@@ -53,7 +53,7 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
     across = zoom * wide if width is None else float(width)
     most = math.floor(math.sqrt(MOST_PIXELS * wide / tall))
     if not LEAST_WIDTH <= across <= most:
-        raise LinkwrightError(
+        raise RequestError(
             f"a picture cannot be {across:.12g} pixels wide; give a width from {LEAST_WIDTH} to {most}"
         )
 

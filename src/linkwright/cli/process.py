@@ -1,0 +1,46 @@
+"""The command line as a process of its own: interrupts from the first moment, streams that are closed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+#: Exit code of a process that was interrupted.
+INTERRUPTED = 130
+
+
+def main() -> int:
+    """Runs the command of the process's arguments and returns its exit code."""
+    signal.signal(signal.SIGINT, _leave)  # nothing to tidy up before the command runs
+    _open_streams()
+    from linkwright.cli.start import run
+
+    try:
+        sys.unraisablehook = _interrupt_again
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        return run(sys.argv[1:])
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: let the process end in peace
+
+
+def _leave(number: int, frame: object) -> None:
+    os._exit(INTERRUPTED)
+
+
+def _interrupt_again(problem: sys.UnraisableHookArgs) -> None:
+    """An interrupt that hit a place from which nothing can be raised comes once more, where it can."""
+    if issubclass(problem.exc_type, KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    else:
+        sys.__unraisablehook__(problem)
+
+
+def _open_streams() -> None:
+    """In place of streams closed before the start: one that cannot be written, and one that nobody reads."""
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, encoding="utf-8")  # noqa: SIM115
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115

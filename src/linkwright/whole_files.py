@@ -1,0 +1,71 @@
+"""Files are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from contextlib import suppress
+from pathlib import Path
+
+from linkwright.errors import RequestError
+from linkwright.words.sentence import Sentence
+
+
+def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> None:
+    """Raise RequestError where a file could not be written, before any work is done.
+
+    A file that is there already is refused unless ``force``; ``remedy`` says how it may be replaced.
+    """
+    target = Path(path)
+    try:
+        if target.is_dir():
+            raise RequestError(Sentence("file.is_folder", path=target))
+        if not target.parent.is_dir():
+            raise RequestError(Sentence("file.no_folder", path=target.parent))
+        target.lstat() if target.is_symlink() else os.stat(target)
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError) as problem:
+        raise _refused(target, problem) from None
+    if not force:
+        raise RequestError(Sentence("file.exists", path=target, remedy=remedy))
+
+
+def write_whole(path: str | Path, content: bytes) -> Path:
+    """Write ``content`` beside ``path`` and move it there in one step; nothing is left behind on failure.
+
+    A symbolic link stays, and the file that it leads to is replaced; what is no file (a device, a pipe) is written
+    to directly. A new file gets the usual permissions, an old one keeps its own.
+    Raises RequestError where the folder does not exist or cannot be written.
+    """
+    target = Path(path)
+    refuse_target(target)
+    try:
+        if target.exists() and not target.is_file():
+            target.write_bytes(content)
+        else:
+            _replace(Path(os.path.realpath(target)), content)
+    except (OSError, ValueError) as problem:
+        raise _refused(target, problem) from None
+    return target
+
+
+def _replace(target: Path, content: bytes) -> None:
+    beside = target.parent / f".linkwright-{secrets.token_hex(8)}"
+    handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        with suppress(FileNotFoundError):
+            os.chmod(beside, target.stat().st_mode & 0o777)
+        os.replace(beside, target)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(beside)
+        raise
+
+
+def _refused(target: Path, problem: OSError | ValueError) -> RequestError:
+    shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
+    reason = getattr(problem, "strerror", None) or str(problem)
+    return RequestError(Sentence("file.cannot_write", path=shown, reason=reason))
