@@ -78,11 +78,11 @@ def show(result: Result, options: argparse.Namespace, session: Session) -> None:
         if table and not result.columns():
             raise UsageError(session.say("part.no_curves", path=path))
         text = csv_of(result.columns()) if table else json_text(result.data()) + "\n"
-        write_whole(path, text, session.say, force=options.force)
+        write_whole(path, text, force=options.force)
     if options.plot is not None:
         path = Path(options.plot)
         content = result.plot(language=session.language).content(path.suffix.lower())
-        write_whole(path, content, session.say, force=options.force)
+        write_whole(path, content, force=options.force)
     if session.json:
         session.show(json_text({"ok": True, **result.data()}))
         return

@@ -182,7 +182,7 @@ class Animation:
         """
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
-            raise LinkwrightError(
+            raise RequestError(
                 f"a film cannot be {width:.12g} pixels wide; give a width from {WIDTHS[0]} to {WIDTHS[1]}"
             )
         if suffix == ".svg":

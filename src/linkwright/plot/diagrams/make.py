@@ -109,9 +109,7 @@ def plot(
         name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
     )
     if size is not None and not all(1.0 <= each <= 100.0 for each in size):
-        raise LinkwrightError(
-            f"a diagram cannot be {size[0]:g} × {size[1]:g} inches large; give 1 to 100 each"
-        )
+        raise RequestError(f"a diagram cannot be {size[0]:g} × {size[1]:g} inches large; give 1 to 100 each")
     request = Request(
         of=(of,) if isinstance(of, str) else tuple(of),
         joint=joint,
@@ -153,7 +151,7 @@ def require_options(name: str, given: Sequence[str]) -> None:
     for option in given:
         if option not in kinds[name]:
             users = ", ".join(each for each in DIAGRAMS if option in kinds[each])
-            raise LinkwrightError(
+            raise RequestError(
                 f'a diagram of the kind {name} has no use for "{option}"; leave it out, or draw one of {users}'
             )
 
