@@ -6,10 +6,11 @@ import difflib
 import importlib
 import pkgutil
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Generic, TypeVar
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
 
@@ -32,7 +33,7 @@ class Registry(Mapping[str, T], Generic[T]):
 
         def file_under(element: T) -> T:
             if name in self._elements and _home(self._elements[name]) != _home(element):
-                raise LinkwrightError(f'the {self.noun} "{name}" is registered twice; choose another name')
+                raise LinkwrightError(Sentence("names.twice", noun=Sentence(f"nouns.{self.noun}"), name=name))
             self._elements[name] = element
             return element
 
@@ -41,9 +42,7 @@ class Registry(Mapping[str, T], Generic[T]):
     def __getitem__(self, name: str) -> T:
         self._discover()
         if name not in self._elements:
-            offer = nearest(name, self._elements)
-            hint = f'did you mean "{offer}"?' if offer else f"one of: {', '.join(sorted(self._elements))}"
-            raise UnknownName(f'there is no {self.noun} "{name}"; {hint}')
+            raise UnknownName(no_such(self.noun, name, sorted(self._elements)))
         return self._elements[name]
 
     def __contains__(self, name: object) -> bool:
@@ -78,6 +77,20 @@ class Registry(Mapping[str, T], Generic[T]):
 def _home(element: object) -> tuple[str, str]:
     """Where an element is defined; equal for one whose module was imported again after a failure."""
     return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
+
+
+def offered(name: str, known: Iterable[str]) -> Sentence:
+    """What was probably meant by a name that does not exist, else all that exist."""
+    names = tuple(dict.fromkeys(known))
+    offer = nearest(name[:100], names)
+    if offer is not None:
+        return Sentence("names.did_you_mean", offer=offer)
+    return Sentence("names.there_is", names=names) if names else Sentence("names.there_is_none")
+
+
+def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
+    """The sentence for a name that does not exist; ``noun`` is a key of the catalogue's ``nouns``."""
+    return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))
 
 
 class UnknownName(RequestError, KeyError):

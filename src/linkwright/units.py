@@ -12,6 +12,7 @@ from collections.abc import Mapping
 
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
+from linkwright.words.sentence import Sentence
 
 Dimension = tuple[float, float, float, float]
 
@@ -207,7 +208,7 @@ def exponent(text: str) -> int:
     digits = text.translate(_SUPERSCRIPTS).lstrip("^* ").replace("−", "-").replace(" ", "")
     power = int(digits[:4]) if digits else 1
     if abs(power) > 9:
-        raise QuantityError(f'the exponent "{digits[:20]}" is too large', "units take exponents from -9 to 9")
+        raise QuantityError(Sentence("units.large_exponent", digits=digits[:20]), Sentence("units.exponents"))
     return power
 
 
@@ -237,8 +238,8 @@ def unit(text: str) -> tuple[float, Dimension]:
 def unknown_unit(text: str, column: int = 0) -> QuantityError:
     """The error for a text that is not a unit, offering what was probably meant."""
     offer = suggestion(text)
-    remedy = f'did you mean "{offer}"?' if offer else "write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²"
-    return QuantityError(f'unknown unit "{text}"', remedy, column=column, code="unknown-unit")
+    remedy = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("units.write_unit")
+    return QuantityError(Sentence("units.unknown", text=text), remedy, column=column, code="unknown-unit")
 
 
 def suggestion(text: str) -> str | None:
@@ -292,7 +293,9 @@ def parse(text: str, dimension: str) -> float:
         raise decimal_comma(plain)
     if re.match(r"\d", rest):
         raise QuantityError(
-            f'"{plain}" has a space inside the number', f'write "{digits}{rest}"', code="quantity"
+            Sentence("units.space", plain=plain),
+            Sentence("units.write_number", digits=digits, rest=rest),
+            code="quantity",
         )
     value = float(sign + digits)
     if rest:
@@ -302,8 +305,8 @@ def parse(text: str, dimension: str) -> float:
         kind = NONE
     if not math.isfinite(value):
         raise QuantityError(
-            f'"{plain}" is not a finite number',
-            f'write a number such as "{example(dimension)}"',
+            Sentence("units.not_finite", text=plain),
+            Sentence("units.number_such_as", example=example(dimension)),
             code="not-finite",
         )
     if not rest and value == 0:
@@ -333,19 +336,22 @@ def _unit_of(text: str, column: int) -> tuple[float, Dimension]:
 def decimal_comma(text: str) -> QuantityError:
     """The error for a decimal comma, with the same text written with a point."""
     right = re.sub(r"(?<=\d),\s?(?=\d)", ".", text)
-    return QuantityError(f'decimal comma in "{text}"', f'write a point: "{right}"', code="decimal-comma")
+    return QuantityError(
+        Sentence("units.decimal_comma", text=text), Sentence("units.point", right=right), code="decimal-comma"
+    )
 
 
 def not_a_number(text: str, dimension: str) -> QuantityError:
     """The error for a text without a number where a quantity is needed."""
     if re.match(r"^[+-]?\.?(inf|infinity|nan)\b", text, re.IGNORECASE):
         return QuantityError(
-            f'"{text}" is not a finite number',
-            f'write a number such as "{example(dimension)}"',
+            Sentence("units.not_finite", text=text),
+            Sentence("units.number_such_as", example=example(dimension)),
             code="not-finite",
         )
     return QuantityError(
-        f'"{text}" is not a quantity', f'write a number and a unit, such as "{example(dimension)}"'
+        Sentence("units.not_quantity", text=text),
+        Sentence("units.number_and_unit", example=example(dimension)),
     )
 
 
@@ -353,33 +359,28 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
     """Raise QuantityError unless ``kind`` is the dimension that is needed."""
     if kind == DIMENSIONS[dimension]:
         return
-    noun = dimension.replace("_", " ")
+    noun = Sentence(f"nouns.a_{dimension}")
     if bare:
         right = f"{text} {USUAL_UNITS[dimension]}".strip()
         raise QuantityError(
-            f'"{text}" has no unit', f'{article(noun)} is needed, such as "{right}"', code="missing-unit"
+            Sentence("units.no_unit", text=text),
+            Sentence("units.needed", noun=noun, right=right),
+            code="missing-unit",
         )
     wrong = name_of(kind)
     raise QuantityError(
-        f'"{text}" is {wrong}, where {article(noun)} is needed',
-        f'write it as in "{example(dimension)}"',
+        Sentence("units.wrong_dimension", text=text, wrong=wrong, noun=noun),
+        Sentence("units.as_in", example=example(dimension)),
         code="wrong-dimension",
     )
 
 
-def article(noun: str) -> str:
-    """The noun with its article; "a dimensionless number" for a dimensionless quantity."""
-    if noun == "dimensionless":
-        return "a dimensionless number"
-    return f"an {noun}" if noun[0] in "aeiou" else f"a {noun}"
-
-
-def name_of(kind: Dimension) -> str:
+def name_of(kind: Dimension) -> Sentence:
     """A dimension in words: ``a length``, or by its SI units where it has no name."""
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:
-            return article(name.replace("_", " "))
-    return f"a quantity in {si_symbol(kind)}"
+            return Sentence(f"nouns.a_{name}")
+    return Sentence("nouns.in_units", unit=si_symbol(kind))
 
 
 def si_symbol(kind: Dimension) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.drivers.base import LAWS, Law
 from linkwright.errors import LinkwrightError
 from linkwright.model.fields import Field, TimeTable, TimeTableValues
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
@@ -39,9 +40,7 @@ class TableLaw(Law):
         slack = 1e-9 * (last - first)
         if np.any(t < first - slack) or np.any(t > last + slack):
             raise LinkwrightError(
-                f"the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
-                f"{np.min(t):g} s to "
-                f"{np.max(t):g} s; shorten the cycle or extend the table"
+                Sentence("loads.table_range", first=first, last=last, begin=np.min(t), end=np.max(t))
             )
         inside = np.clip(t, first, last)
         return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)

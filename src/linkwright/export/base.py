@@ -22,7 +22,7 @@ class Format:
     content: Callable[..., bytes]
 
 
-FORMATS: Registry[Format] = Registry("export format", "linkwright.export.formats")
+FORMATS: Registry[Format] = Registry("export_format", "linkwright.export.formats")
 
 
 def package(name: str, purpose: str, install: str | None = None) -> Any:

@@ -68,7 +68,7 @@ class Dyad(Protocol):
         ...
 
 
-DYADS: Registry[type[Dyad]] = Registry("Assur group", "linkwright.groups")
+DYADS: Registry[type[Dyad]] = Registry("assur_group", "linkwright.groups")
 
 
 def shown_length(value: float) -> str:

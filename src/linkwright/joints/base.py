@@ -37,4 +37,4 @@ class Joint(ABC):
         return self
 
 
-JOINTS: Registry[type[Joint]] = Registry("joint kind", "linkwright.joints")
+JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints")

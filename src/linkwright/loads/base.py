@@ -32,6 +32,7 @@ from linkwright.model.reference_fields import (
 )
 from linkwright.model.signal_fields import Magnitude, Output, OutputName, Phase, PhaseField, Table, TableField
 from linkwright.registry import Registry
+from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
     from linkwright.loads.signals import Array, Signals
@@ -145,7 +146,7 @@ class Load:
         return found
 
 
-LOADS: Registry[type[Load]] = Registry("load kind", "linkwright.loads")
+LOADS: Registry[type[Load]] = Registry("load_kind", "linkwright.loads")
 
 
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
@@ -156,7 +157,11 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     kind_node = mapping.get("kind")
     if kind_node is None:
         reader.error(
-            node, place, "the load has no kind", f"write kind: one of {', '.join(LOADS)}", "missing-key"
+            node,
+            place,
+            Sentence("loads.no_kind"),
+            Sentence("loads.write_kind", kinds=tuple(LOADS)),
+            "missing-key",
         )
         return None
     kind = reader.word(kind_node, place.child("kind"), tuple(LOADS))
@@ -193,13 +198,23 @@ def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], gi
             chosen = [name for name in group if name in have]
             if least <= len(chosen) <= 1:
                 continue
-            words = ", ".join(group)
+            words = tuple(group)
             if chosen:
                 reader.error(
-                    node, place, f"{' and '.join(chosen)} are both given", f"keep one of {words}", "choice"
+                    node,
+                    place,
+                    Sentence("loads.both_given", given=together(chosen)),
+                    Sentence("loads.keep_one_of", words=words),
+                    "choice",
                 )
             else:
-                reader.error(node, place, f"none of {words} is given", "give exactly one of them", "choice")
+                reader.error(
+                    node,
+                    place,
+                    Sentence("loads.none_given", words=words),
+                    Sentence("loads.give_one"),
+                    "choice",
+                )
 
 
 def _declare(kind: Field, default: Any) -> Any:
@@ -305,8 +320,8 @@ def check_ramp(values: Mapping[str, Any], report: Callable[[str, str, str], None
     if values.get("ramp") is not None and values.get("phase") is None:
         report(
             "ramp",
-            "a ramp runs over a phase, and none is given",
-            "add phase: {input: [from, to]} or another",
+            Sentence("loads.ramp_without_phase"),
+            Sentence("loads.add_phase"),
         )
 
 
@@ -316,6 +331,6 @@ def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], N
     if ends is not None and ends[0].link == ends[1].link:
         report(
             "between",
-            f'both points are on the link "{ends[0].link}", so the load does nothing',
-            "name points of two links",
+            Sentence("loads.same_link", link=ends[0].link),
+            Sentence("loads.name_two_links"),
         )

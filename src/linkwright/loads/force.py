@@ -13,6 +13,7 @@ from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
+from linkwright.words.sentence import Sentence
 
 
 @LOADS.register("force")
@@ -87,10 +88,7 @@ class Force(Load):
         p, q = self.normal_to or self.along or (self.at, self.at)
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
-            raise LinkwrightError(
-                f"loads.{self.name}: the points {p} and {q} of {self.on} coincide, so the ray {p}→{q} has no "
-                "direction; name two points that are apart"
-            )
+            raise LinkwrightError(Sentence("loads.no_ray", name=self.name, p=p, q=q, on=self.on))
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / sqrt(ray.square))
         return unit.perp if self.normal_to else unit

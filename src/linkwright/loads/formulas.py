@@ -11,7 +11,8 @@ from linkwright.loads.signals import Array, Mask, Signals, column, input_dimensi
 from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.model.expressions import Expression, array_functions
 from linkwright.model.signal_fields import Output, resolve_output
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 _HALVINGS = 60
 #: Positions of a turning input that are further apart (rad) are not taken for neighbours.
@@ -45,9 +46,7 @@ def _column(name: str, signals: Signals) -> Array:
     found = output_named(name, signals)
     if found is None:
         known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
-        offer = nearest(name, known)
-        hint = f'did you mean "{offer}"?' if offer else f"known: {', '.join(known)}"
-        raise LinkwrightError(f'unknown name "{name}" in its magnitude; {hint}')
+        raise LinkwrightError(Sentence("loads.unknown_in_magnitude", name=name, hint=offered(name, known)))
     return signals.output(found)[0]
 
 
@@ -64,8 +63,8 @@ def _refusal(expression: Expression, columns: Mapping[str, Array], signals: Sign
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
         where = spot(signals, index)
-        return f"{error.message} {where}; change the expression, or leave that position out by a phase"
-    return f'"{expression.text}" is not finite {spot(signals, index)}; change the expression'
+        return Sentence("loads.formula_fails", message=error.message, where=where)
+    return Sentence("loads.formula_not_finite", text=expression.text, where=spot(signals, index))
 
 
 def _no_poles_between(
@@ -150,7 +149,4 @@ def _zero(divisor: Node, columns: Mapping[str, Array], index: int) -> float | No
 def _between(expression: Expression, signals: Signals, index: int, share: float) -> str:
     q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
     place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
-    return (
-        f'"{expression.text}" divides by zero near input = {place}; change the expression, or leave '
-        "that position out by a phase"
-    )
+    return Sentence("loads.formula_divides", text=expression.text, place=place)

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.loads.formulas import calculated
 from linkwright.loads.phases import activity
 from linkwright.loads.signals import Array, Mask, Signals, column
 from linkwright.loads.tables import interpolated
 from linkwright.model.expressions import Expression
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.loads.base import Load
@@ -39,7 +40,7 @@ def evaluate(load: Load, signals: Signals) -> Array:
         found = load.from_cycle(signals)
         return _evaluated(load, signals) if found is None else found
     except LinkwrightError as error:
-        raise LinkwrightError(f"loads.{load.name}: {error}") from None
+        raise LinkwrightError(Sentence("loads.of_load", name=load.name, cause=error)) from None
 
 
 def _evaluated(load: Load, signals: Signals) -> Array:
@@ -49,9 +50,7 @@ def _evaluated(load: Load, signals: Signals) -> Array:
     if ramp is None:
         return np.where(where, _values(load, signals, where), 0.0)
     if active.share is None:
-        raise LinkwrightError(
-            "a ramp runs over a phase, and none is given; add phase: {input: [from, to]} or another"
-        )
+        raise LinkwrightError(with_remedy(Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase")))
     return np.where(where, ramp[0] + (ramp[1] - ramp[0]) * active.share, 0.0)
 
 

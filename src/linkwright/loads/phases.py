@@ -68,15 +68,13 @@ def _input(phase: InputPhase, signals: Signals) -> Activity:
     length = end - start
     if length < 0 and signals.heading == 0:
         raise LinkwrightError(
-            f"the phase goes from {shown(start, 'angle')} down to {shown(end, 'angle')}, but the input turns to "
-            "and fro; write the smaller angle first"
+            Sentence("loads.phase_to_and_fro", start=shown(start, "angle"), end=shown(end, "angle"))
         )
     if length < 0 and signals.heading > 0:
         length = length % TURN or TURN
     if abs(length) > TURN + NEAR:
         raise LinkwrightError(
-            f"the phase from {shown(start, 'angle')} to {shown(end, 'angle')} is longer than one turn of the "
-            "input; use a table over the time instead"
+            Sentence("loads.phase_too_long", start=shown(start, "angle"), end=shown(end, "angle"))
         )
     gone = (q - min(start, start + length)) % TURN
     gone = np.where(gone > TURN - NEAR, gone - TURN, gone)
@@ -103,22 +101,29 @@ def _swings(phase: SwingPhase, signals: Signals) -> list[Stretch]:
     found = stretches(extreme, phase.start, phase.end, signals.whole)
     if found:
         return found
-    places = ", ".join(
-        f"{each.kind} at input {shown(each.input, input_dimension(signals))}" for each in extreme
+    places = tuple(
+        Sentence(
+            "loads.limit_at",
+            kind=Sentence(f"loads.{each.kind}"),
+            input=shown(each.input, input_dimension(signals)),
+        )
+        for each in extreme
     )
     raise LinkwrightError(
-        f"the output '{phase.output}' does not go from its {phase.start} to its {phase.end} within the cycle "
-        f"(it has its {places}); let the cycle hold both, or exchange from and to"
+        Sentence(
+            "loads.no_such_swing",
+            output=phase.output,
+            start=Sentence(f"loads.{phase.start}"),
+            end=Sentence(f"loads.{phase.end}"),
+            places=places,
+        )
     )
 
 
 def _some(limits: Sequence[Limit], output: Output) -> Sequence[Limit]:
     if limits:
         return limits
-    raise LinkwrightError(
-        f"the output '{output}' never reverses within the cycle, so it has no limit positions; choose an "
-        "output that swings, or give the phase by the input: {input: [a, b]}"
-    )
+    raise LinkwrightError(Sentence("loads.never_reverses", output=output))
 
 
 def outermost(limits: Sequence[Limit]) -> list[Limit]:
@@ -157,10 +162,7 @@ def _along(found: Sequence[Stretch], signals: Signals, output: Output, ramp: boo
         inside, gained = _within(stretch, signals)
         rise = stretch.end[1] - stretch.begin[1]
         if ramp and abs(rise) < NEAR * (1.0 + abs(stretch.end[1])):
-            raise LinkwrightError(
-                f"the input is the same at both limit positions of '{output}', so a ramp over the input has "
-                f"no length; give a table over {output} instead"
-            )
+            raise LinkwrightError(Sentence("loads.ramp_without_length", output=output))
         where |= inside
         if ramp:
             share = np.where(inside, np.clip(gained / rise, 0.0, 1.0), share)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.model.signal_fields import Output
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.mechanism import Mechanism
@@ -107,8 +108,8 @@ def input_dimension(signals: Signals) -> str:
 def spot(signals: Signals, index: int) -> str:
     """Where a position is, for a message."""
     if not signals.mechanism.drivers:
-        return "in the only position"
-    return f"at input = {shown(float(signals.input[index]), input_dimension(signals))}"
+        return Sentence("loads.only_position")
+    return Sentence("loads.at_input", input=shown(float(signals.input[index]), input_dimension(signals)))
 
 
 def column(value: Any, count: int) -> Array:

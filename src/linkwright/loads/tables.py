@@ -8,6 +8,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.loads.signals import Array, Mask, Signals, input_dimension, shown
 from linkwright.model.signal_fields import Output, Table
+from linkwright.words.sentence import Sentence, together
 
 
 def interpolated(table: Table, signals: Signals, where: Mask) -> Array:
@@ -49,10 +50,17 @@ def _missing(table: Table, short: Array, dimension: str) -> str:
     first, last = table.x[0], table.x[-1]
     ranges = []
     if (short < first).any():
-        ranges.append(f"{shown(float(short.min()), dimension)} to {shown(first, dimension)}")
+        ranges.append(
+            Sentence("loads.stretch", low=shown(float(short.min()), dimension), high=shown(first, dimension))
+        )
     if (short > last).any():
-        ranges.append(f"{shown(last, dimension)} to {shown(float(short.max()), dimension)}")
-    return (
-        f"its table over {table.over} goes from {shown(first, dimension)} to {shown(last, dimension)} and does "
-        f"not cover what the cycle needs: {' and '.join(ranges)} is missing; add rows, or limit the load by a phase"
+        ranges.append(
+            Sentence("loads.stretch", low=shown(last, dimension), high=shown(float(short.max()), dimension))
+        )
+    return Sentence(
+        "loads.table_too_short",
+        over=table.over,
+        first=shown(first, dimension),
+        last=shown(last, dimension),
+        ranges=together(ranges),
     )

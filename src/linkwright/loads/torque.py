@@ -11,6 +11,7 @@ from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
+from linkwright.words.sentence import Sentence
 
 
 @LOADS.register("torque")
@@ -48,8 +49,8 @@ class Torque(Load):
         if values.get("on") is not None and values.get("on") == values.get("against"):
             report(
                 "against",
-                f'the torque acts on and against the same link "{values["on"]}"',
-                "name another link",
+                Sentence("loads.same_links", link=values["on"]),
+                Sentence("loads.name_other_link"),
             )
 
     def wrenches(self, site: Site) -> list[Wrench]:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright import units
 from linkwright.model.expressions import Expression
 from linkwright.model.nodes import Node, Scalar
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.plain_reader import Place
@@ -107,7 +108,7 @@ class Quantity(Field):
         return "negative" if value < 0 and not (self.minimum or self.above) else "too small"
 
     def _limit(self) -> str:
-        noun = units.article(self.dimension.replace("_", " "))
+        noun = Sentence(f"nouns.a_{self.dimension}")
         if self.above is not None:
             return f"{noun} above {units.format(self.above, self.dimension) if self.above else 'zero'}"
         if self.minimum is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
 from linkwright.words import say
@@ -44,8 +45,14 @@ def in_language(text: str, language: str) -> str:
     return text.say(language) if isinstance(text, Sentence) else text
 
 
+def together(items: Sequence[str]) -> str:
+    """One or more texts as a list with "and" before the last."""
+    *first, last = items
+    return Sentence("finding.and", first=tuple(first), last=last) if first else last
+
+
 def _said(key: str, language: str, values: dict[str, object]) -> str:
-    return say(key, language, **{name: _value(value, language) for name, value in values.items()})
+    return say(key, language).format(**{name: _value(value, language) for name, value in values.items()})
 
 
 def _value(value: object, language: str) -> object:

@@ -82,8 +82,8 @@ class ResultKind(ABC):
         """The figure; raises LinkwrightError for unknown names, and where there is nothing to draw."""
 
 
-DIAGRAMS: Registry[type[Kind]] = Registry("kind of diagram", "linkwright.plot.diagrams")
-RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("kind of diagram", "linkwright.plot.diagrams")
+DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams")
+RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("diagram", "linkwright.plot.diagrams")
 
 
 def _word(key: str, *, language: str, **values: object) -> str:

@@ -53,8 +53,8 @@ All commands: linkwright --help""",
     "bad_language": 'there is no language "{name}"; choose en or zh',
     "output_lost": "the output cannot be written ({reason})",
     "interrupted": "interrupted",
-    "unexpected": "this should not have happened ({kind}: {message}); please report it with the command and the "
-    "model file; --debug shows where it arose",
+    "unexpected": "this should not have happened ({kind}: {message}); please report it with the command and "
+    "the model file; --debug shows where it arose",
     "out_of_memory": "there is not enough memory for this; ask for fewer steps",
     "written": "written: {path}",
     "bad_suffix": '"{path}": the ending says what is written; end the name in {endings}',

@@ -42,14 +42,15 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each""",
     "motion_of": "in {label} the output {output} travels {travel}, at most {rate} fast, with "
     "accelerations up to {second}",
     "pivot": "Pivot reaction: {parts}.",
-    "pivot_of": "pivot {joint} of {label} carries at most {most} (at input {at}, direction {direction}) and at least "
-    "{least}",
+    "pivot_of": "pivot {joint} of {label} carries at most {most} (at input {at}, direction {direction}) and "
+    "at least {least}",
     "torque": "Balancing torque: {parts}.",
     "torque_of": "that of {label} lies between {low} and {high}, root mean square {root}; found from the joint "
     "forces and from the powers it agrees within {gap}",
     "against_nothing": "{name}: {mine}, against {theirs} of {other}",
     "flywheels": "Flywheel on the crank for a speed fluctuation of {fluctuation}: {parts}.",
-    "flywheel_of": "{label} has an energy fluctuation of {energy} at a mean power of {power} and needs {inertia}",
+    "flywheel_of": "{label} has an energy fluctuation of {energy} at a mean power of {power} and needs "
+    "{inertia}",
     "flywheel_none": "for {label} there is none to lay out",
     "first": "Verdict: {label} comes first ({score} of 100); it is best in: {names}.",
     "other": "{label} ({score} of 100) is to be preferred where this matters most: {names}.",

@@ -19,16 +19,17 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
     "steps_help": "equal steps over the cycle (default: {steps})",
     "at_help": 'draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"',
     "time_help": 'draw at this time: "0.5 s"',
-    "overlay_help": "positions beneath: limits (of the last output), limits:jaw (of a link or guide), faded:8 (as "
-    "many over the cycle)",
+    "overlay_help": "positions beneath: limits (of the last output), limits:jaw (of a link or guide), "
+    "faded:8 (as many over the cycle)",
     "paths_help": "paths of points over the cycle: C,jaw.D",
     "velocities_help": "velocities of these points; of all without names",
     "accelerations_help": "accelerations of these points; of all without names",
-    "forces_help": "loads and forces in these joints (B: on its last link, rocker.B: on that link); in all without "
-    "names",
+    "forces_help": "loads and forces in these joints (B: on its last link, rocker.B: on that link); in all "
+    "without names",
     "static_help": "forces without inertia",
     "centres_help": "mark the mass centres",
-    "dimensions_help": "dimension lines of links (pitman) and between points (O1:O3); of all lengths without names",
+    "dimensions_help": "dimension lines of links (pitman) and between points (O1:O3); of all lengths without "
+    "names",
     "labels_help": "names of points and links (default: all)",
     "inputs_help": "arrows at what is driven",
     "output_help": "write FILE.svg, FILE.png or FILE.pdf",

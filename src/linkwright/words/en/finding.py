@@ -6,4 +6,5 @@ WORDS = {
     "note": "note: {body}",
     "with_remedy": "{message}; {remedy}",
     "comma": ", ",
+    "and": "{first} and {last}",
 }

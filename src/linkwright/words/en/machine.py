@@ -74,18 +74,20 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     "see linkwright machine --help",
     "not_with_file": "{option} describes a torque diagram; it cannot be used together with a model file",
     "output_needs_file": "--output writes the cycle of a mechanism; name a model file",
-    "needs_speed": "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
+    "needs_speed": "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed "
+    "180rpm",
     "shape_needs_fluctuation": "the dimensions of a flywheel need to know how even the speed must be; add "
     "--fluctuation, such as --fluctuation 0.01",
     "no_scale": '--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"',
-    "bad_scale": '--scale: "{text}" does not give both scales; write torque and angle per mm above zero, such as '
-    '"5 N·m/mm, 1 deg/mm"',
-    "bad_area": '--areas: "{text}" is no area; give numbers in mm² separated by commas, such as "+295, -685, +390"',
+    "bad_scale": '--scale: "{text}" does not give both scales; write torque and angle per mm above zero, '
+    'such as "5 N·m/mm, 1 deg/mm"',
+    "bad_area": '--areas: "{text}" is no area; give numbers in mm² separated by commas, such as "+295, -685, '
+    '+390"',
     "no_number": '{option}: "{text}" is no number; write it with a point and without a unit, such as 0.9',
     "not_above_zero": '{option} is "{text}"; give a value above zero',
     "not_finite": "{option}: {text} is not finite everywhere in the cycle; check divisions and roots",
     "mass_and_gyration": "--mass and --gyration belong together; give both, or --inertia",
     "bad_shape": '{option}: "{text}" says nothing about it; write KEY=VALUE with the keys {keys}',
-    "no_mean_torque": "the mean of --torque over the cycle is {mean}, so it does no work that a motor or a flywheel "
-    "could be laid out for; give the driving torque, which is positive on the average",
+    "no_mean_torque": "the mean of --torque over the cycle is {mean}, so it does no work that a motor or a "
+    "flywheel could be laid out for; give the driving torque, which is positive on the average",
 }

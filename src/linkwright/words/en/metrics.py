@@ -25,8 +25,8 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "column.unit": "unit",
     "column.at": "at input",
     "transmission_angle.label": "smallest transmission angle",
-    "transmission_angle.meaning": "Acute angle between coupler and output link (rod and normal of the guide): the "
-    "nearer to 90°, the better the force is passed on.",
+    "transmission_angle.meaning": "Acute angle between coupler and output link (rod and normal of the "
+    "guide): the nearer to 90°, the better the force is passed on.",
     "transmission_angle.low": "the transmission angle falls to {value}, below the recommended {limit}",
     "transmission_angle_of_stroke.label": "smallest transmission angle of the stroke",
     "transmission_angle_of_stroke.meaning": "Smallest transmission angle while the output moves from one limit "
@@ -36,9 +36,10 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "transmission angle.",
     "pressure_angle.high": "the pressure angle rises to {value}, above the recommended {limit}",
     "singularity.label": "distance from a singular position",
-    "singularity.meaning": "Smallest determinant of a group's closure equations, 1 at best, 0 where the group is "
-    "singular.",
-    "singularity.near": "group {group} passes close to a singular position at {at}: forces grow very large there",
+    "singularity.meaning": "Smallest determinant of a group's closure equations, 1 at best, 0 where the "
+    "group is singular.",
+    "singularity.near": "group {group} passes close to a singular position at {at}: forces grow very large "
+    "there",
     "stroke.label": "stroke",
     "stroke.meaning": "Travel of a block between its outermost positions.",
     "swing_angle.label": "swing angle",
@@ -46,14 +47,16 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "limit_position.label": "limit position",
     "limit_position.meaning": "Angle or displacement at which an output reverses, and the input there.",
     "quick_return_ratio.label": "quick-return ratio",
-    "quick_return_ratio.meaning": "Time of the slow stroke over time of the fast stroke at uniform input speed.",
+    "quick_return_ratio.meaning": "Time of the slow stroke over time of the fast stroke at uniform input "
+    "speed.",
     "crank_angle_between_limits.label": "crank angle between limits",
-    "crank_angle_between_limits.meaning": "Acute angle between the crank's directions in the two limit positions.",
+    "crank_angle_between_limits.meaning": "Acute angle between the crank's directions in the two limit "
+    "positions.",
     "velocity_ratio.label": "largest velocity ratio",
     "velocity_ratio.meaning": "Rate of the output over rate of the input where it is largest in size.",
     "mechanical_advantage.label": "smallest mechanical advantage",
-    "mechanical_advantage.meaning": "Output force or torque per input torque or force without losses, where it is "
-    "smallest.",
+    "mechanical_advantage.meaning": "Output force or torque per input torque or force without losses, where "
+    "it is smallest.",
     "peak_input_torque.label": "peak input torque",
     "peak_input_torque.meaning": "Largest torque (force) that a driver must supply.",
     "rms_input_torque.label": "RMS input torque",
@@ -67,8 +70,8 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "rms_reaction.label": "RMS reaction",
     "rms_reaction.meaning": "Root mean square over time of the force that a joint transmits.",
     "bearing_pv.label": "bearing force times sliding speed",
-    "bearing_pv.meaning": "Pin force times pin radius times relative angular velocity; divided by the projected area "
-    "of the bearing it is its p·v value.",
+    "bearing_pv.meaning": "Pin force times pin radius times relative angular velocity; divided by the "
+    "projected area of the bearing it is its p·v value.",
     "bearing_pv.mean": "with a pin radius of {radius}; mean over the cycle {mean}",
     "peak_acceleration.label": "peak acceleration",
     "peak_acceleration.meaning": "Largest acceleration of an output or a free point.",
@@ -79,20 +82,21 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "peak_shaking_moment.label": "peak shaking moment",
     "peak_shaking_moment.meaning": "Largest moment of the inertia forces about the frame's origin.",
     "grashof.label": "Grashof margin",
-    "grashof.meaning": "Sum of the two middle lengths minus sum of the shortest and longest of a four-bar loop; "
-    "positive where the shortest link can turn fully.",
-    "grashof.crank_rocker": "crank-rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the shortest link {shortest} is "
-    "next to the frame",
+    "grashof.meaning": "Sum of the two middle lengths minus sum of the shortest and longest of a four-bar "
+    "loop; positive where the shortest link can turn fully.",
+    "grashof.crank_rocker": "crank-rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the shortest link "
+    "{shortest} is next to the frame",
     "grashof.double_crank": "double crank: s + l < p + q ({s} + {l} < {p} + {q}) and the frame is shortest",
-    "grashof.double_rocker": "double rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the coupler {shortest} is "
-    "shortest",
-    "grashof.change_point": "change point: s + l = p + q ({s} + {l} = {p} + {q}), so the links can come into one "
-    "line and the motion is not determined there",
+    "grashof.double_rocker": "double rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the coupler "
+    "{shortest} is shortest",
+    "grashof.change_point": "change point: s + l = p + q ({s} + {l} = {p} + {q}), so the links can come into "
+    "one line and the motion is not determined there",
     "grashof.triple_rocker": "triple rocker: s + l > p + q ({s} + {l} > {p} + {q}), so no link can turn fully",
     "coupler_curve_length.label": "length of the point's path",
     "coupler_curve_length.meaning": "Length of the closed path of a coupler point.",
     "coupler_curve_area.label": "area of the point's path",
-    "coupler_curve_area.meaning": "Area within the closed path of a coupler point, counter-clockwise loops positive.",
+    "coupler_curve_area.meaning": "Area within the closed path of a coupler point, counter-clockwise loops "
+    "positive.",
     "double_point.label": "double points of the path",
     "double_point.meaning": "Places where the path of a coupler point crosses itself.",
     "double_point.at": "double point at ({x}, {y})",
@@ -104,11 +108,12 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "instant_centre.at": "at ({x}, {y})",
     "instant_centre.infinite": "at infinity: the two links do not turn against each other",
     "swept_area.label": "area needed (convex hull)",
-    "swept_area.meaning": "Area of the convex hull of all points over all positions, an upper bound of the swept "
-    "area.",
+    "swept_area.meaning": "Area of the convex hull of all points over all positions, an upper bound of the "
+    "swept area.",
     "swept_area.box": "{width} wide, {height} high",
     "range_of_motion.label": "range of motion of the input",
-    "range_of_motion.meaning": "Extent of the input within the cycle over which the mechanism can be assembled.",
+    "range_of_motion.meaning": "Extent of the input within the cycle over which the mechanism can be "
+    "assembled.",
     "range_of_motion.from_to": "from {start} to {end}",
     "dead_point.label": "dead point",
     "dead_point.meaning": "Input at which a driving link cannot move the mechanism.",

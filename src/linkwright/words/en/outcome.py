@@ -8,13 +8,14 @@ WORDS = {
     "singular": "group {signature} ({links}) is at a singular position (dead point or change point), where its "
     "motion is not determined by the driver",
     "apart": "group {signature} ({links}) cannot be assembled: {reason}",
-    "rrr_far": "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: {missing} missing",
+    "rrr_far": "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: {missing} "
+    "missing",
     "rrr_near": "the outer pins are {distance} apart, links of {first} and {second} need at least {reach}: "
     "{missing} too close",
     "rrp_far": "the outer pin is {height} from the path of the slider's pin, the link reaches {length}: "
     "{missing} missing",
-    "rpr_near": "the outer pins are {distance} apart, the guide holds them {offset} apart across its direction: "
-    "{missing} too close",
+    "rpr_near": "the outer pins are {distance} apart, the guide holds them {offset} apart across its "
+    "direction: {missing} too close",
     "rpp_parallel": "the two slides are parallel (sine of the angle between them {sine})",
     "prp_parallel": "the two guides are parallel (sine of the angle between them {sine})",
 }

@@ -64,8 +64,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "at": "at {place}",
     "effort_range": "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
     "effort_mean": ", mean {mean} {unit}",
-    "power_check": "Check: driver power from joint forces and from all powers differ by {residual} W at most (of "
-    "{size} W)",
+    "power_check": "Check: driver power from joint forces and from all powers differ by {residual} W at most "
+    "(of {size} W)",
     "balance_check": "Check: forces on every link balance within {residual} N (of {size} N)",
     "left_out": 'Left out for width: {names}. See them with --columns "{one}.*"; --output FILE.csv writes all '
     "{total} columns.",
@@ -77,6 +77,7 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "too_many": "--steps is {steps}; take {most} at most",
     "no_driver": 'there is no driver "{name}"',
     "no_input": "the model has no driver, so there is no input to set",
-    "uneven": "--at: the drivers have lists of different lengths ({counts}); give as many values for each, or one",
+    "uneven": "--at: the drivers have lists of different lengths ({counts}); give as many values for each, "
+    "or one",
     "no_column": 'no column is called "{pattern}"; there are columns of {owners}',
 }

@@ -2,10 +2,10 @@
 
 WORDS = {
     "counts": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic",
-    "counts_weld": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
-    "{welds} weld",
-    "counts_welds": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
-    "{welds} welds",
+    "counts_weld": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} "
+    "prismatic; {welds} weld",
+    "counts_welds": "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} "
+    "prismatic; {welds} welds",
     "mobility": "Mobility F = 3n - 2p = 3·{links} - 2·{pairs} = {mobility}",
     "mobility_welded": "Mobility F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}",
     "redundant": "The guides {guides} close a loop in which rotation is already prevented: each such demand is "

@@ -11,9 +11,10 @@ linkwright study gallery:jaw_crusher_sixbar --vary "pitman.length=1.2..1.3 m:11"
 linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700, 900 kg" \\
     --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
 linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256""",
-    "vary_help": 'what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a grid',
-    "metrics_help": "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs in quotes "
-    '("driver.effort rms", "C.velocity max")',
+    "vary_help": 'what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a '
+    "grid",
+    "metrics_help": "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs in "
+    'quotes ("driver.effort rms", "C.velocity max")',
     "sampling_help": "grid: every combination (default); sobol: evenly spread designs between the ends",
     "samples_help": "designs of a Sobol sequence (default 64)",
     "seed_help": "seed of the Sobol sequence (default 0)",

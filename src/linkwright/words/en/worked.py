@@ -3,12 +3,13 @@
 WORDS = {
     "title": "{name}: worked solution of one position",
     "links": "Links: {links}.",
-    "convention": "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, v_Ax, a_Ax: "
-    "place, velocity, acceleration of point A; φ, ω, α: angle of a link's x axis and its rates; l, u, w: coordinates "
-    "of a point in the axes of its link, from the first point named to the second (l along the x axis); s, s', s'': "
-    "displacement of a block and its rates; atan2(y, x): angle of the vector (x, y) in its own quadrant.",
-    "digits": "Every line: symbol = formula = numbers put in = result. Numbers put in have as many digits as the "
-    "result needs.",
+    "convention": "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, v_Ax, "
+    "a_Ax: place, velocity, acceleration of point A; φ, ω, α: angle of a link's x axis and its rates; l, u, "
+    "w: coordinates of a point in the axes of its link, from the first point named to the second (l along "
+    "the x axis); s, s', s'': displacement of a block and its rates; atan2(y, x): angle of the vector (x, y) "
+    "in its own quadrant.",
+    "digits": "Every line: symbol = formula = numbers put in = result. Numbers put in have as many digits as "
+    "the result needs.",
     "help": "the worked solution of the position (of each one named with --at or --times): every equation, the "
     "numbers put in, the result",
     "input": "Input",
@@ -26,7 +27,8 @@ WORDS = {
     "mode_rrr_minus": "{b} lies on the right of the ray {p}→{q}: the root with -d⊥ = (d_y, -d_x).",
     "mode_rrp_plus": "{b} lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ.",
     "mode_rrp_minus": "{b} lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ.",
-    "mode_rpr_plus": "The block lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ.",
+    "mode_rpr_plus": "The block lies ahead of the foot of the perpendicular from {p}, seen along the guide: "
+    "+ρ.",
     "mode_rpr_minus": "The block lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ.",
     "zero_slide": "{name}: where {b} would be with the displacement 0.",
     "newton": "No closed form. The chains are cut at {joints}; Newton's method on the closure equations gives",
@@ -34,8 +36,8 @@ WORDS = {
     "velocity_closure": "Both ends at {joints} have the same velocity:",
     "velocity_closure_guide": "Both ends at {joints} have the same velocity (for a guide: across it):",
     "acceleration_closure": "Both ends at {joints} have the same acceleration:",
-    "acceleration_closure_guide": "Both ends at {joints} have the same acceleration (for a guide: across it, with "
-    "Coriolis' part):",
+    "acceleration_closure_guide": "Both ends at {joints} have the same acceleration (for a guide: across it, "
+    "with Coriolis' part):",
     "part_tangential": "Tangential part α × r of {label}:",
     "part_centripetal": "Centripetal part -ω² r of {label}:",
     "part_coriolis": "Coriolis' part 2 ω s' n⊥ of {label}:",
@@ -51,7 +53,8 @@ WORDS = {
     "loads": "Loads",
     "load_idle": "{name}: does not act in this position.",
     "load_acts": "{name}, on link {link}:",
-    "friction_acts": "friction in {joint}, on link {link} (coefficient times the joint's force, found by iteration):",
+    "friction_acts": "friction in {joint}, on link {link} (coefficient times the joint's force, found by "
+    "iteration):",
     "forces_of_driven": "Forces of the driven link: {links}",
     "forces_of": "Forces of group {signature}: {links}",
     "cut_forces": "The force at {joints} first; the equations are such that no other joint force enters.",

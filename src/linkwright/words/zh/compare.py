@@ -41,7 +41,8 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "pivot": "支座反力：{parts}。",
     "pivot_of": "{label} 的支座 {joint} 最大反力 {most}（输入 {at} 处，方向 {direction}），最小 {least}",
     "torque": "平衡力矩：{parts}。",
-    "torque_of": "{label} 在 {low} 与 {high} 之间，均方根 {root}；由运动副反力与由功率求得的结果相差不超过 {gap}",
+    "torque_of": "{label} 在 {low} 与 {high} 之间，均方根 {root}；由运动副反力与由功率求得的结果相差不超过 "
+    "{gap}",
     "against_nothing": "{name}：{mine}，而 {other} 为 {theirs}",
     "flywheels": "速度不均匀系数为 {fluctuation} 时曲柄轴上的飞轮：{parts}。",
     "flywheel_of": "{label} 的最大盈亏功为 {energy}，平均功率 {power}，所需转动惯量 {inertia}",

@@ -23,7 +23,8 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
     "paths_help": "循环内点的轨迹：C,jaw.D",
     "velocities_help": "这些点的速度；不写名称则为全部",
     "accelerations_help": "这些点的加速度；不写名称则为全部",
-    "forces_help": "载荷和这些运动副的反力（B：作用在最后一个构件上；rocker.B：作用在该构件上）；不写名称则为全部",
+    "forces_help": "载荷和这些运动副的反力（B：作用在最后一个构件上；rocker.B：作用在该构件上）；"
+    "不写名称则为全部",
     "static_help": "不计惯性力",
     "centres_help": "标出质心",
     "dimensions_help": "构件（pitman）或两点之间（O1:O3）的尺寸线；不写名称则为全部长度",

@@ -6,4 +6,5 @@ WORDS = {
     "note": "提示：{body}",
     "with_remedy": "{message}；{remedy}",
     "comma": "、",
+    "and": "{first}和{last}",
 }

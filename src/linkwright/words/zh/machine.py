@@ -75,7 +75,8 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     "needs_speed": "设计飞轮或求速度不均匀系数需要平均转速；请加上 --speed，例如 --speed 180rpm",
     "shape_needs_fluctuation": "确定飞轮尺寸需要速度不均匀系数；请加上 --fluctuation，例如 --fluctuation 0.01",
     "no_scale": '--areas 需要力矩图的比例尺：--scale "5 N·m/mm, 1 deg/mm"',
-    "bad_scale": '--scale：“{text}”没有给出两个比例尺；请写出每 mm 的力矩和转角（大于零），例如 "5 N·m/mm, 1 deg/mm"',
+    "bad_scale": '--scale：“{text}”没有给出两个比例尺；请写出每 mm 的力矩和转角（大于零），例如 "5 N·m/mm, 1 '
+    'deg/mm"',
     "bad_area": '--areas：“{text}”不是面积；请给出以逗号分隔的 mm² 数值，例如 "+295, -685, +390"',
     "no_number": "{option}：“{text}”不是数；请用小数点书写，不带单位，例如 0.9",
     "not_above_zero": '{option} 为 "{text}"；请给出大于零的值',

@@ -8,7 +8,8 @@ WORDS = {
     "固接 {welds} 处",
     "mobility": "自由度 F = 3n - 2p = 3·{links} - 2·{pairs} = {mobility}",
     "mobility_welded": "自由度 F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}",
-    "redundant": "移动副 {guides} 所在的回路中，构件的转动已受约束：其转动约束为虚约束，因此自由度为 {mobility}。",
+    "redundant": "移动副 {guides} 所在的回路中，构件的转动已受约束：其转动约束为虚约束，因此自由度为 "
+    "{mobility}。",
     "at_rest": "自由度为 0 且没有原动件：这是承受载荷的静止结构。",
     "determined": "自由度等于原动件数（{count}）：机构具有确定的运动。",
     "determined_several": "自由度等于原动件数（{count}）：机构具有确定的运动。",
