@@ -88,6 +88,15 @@ def offered(name: str, known: Iterable[str]) -> Sentence:
     return Sentence("names.there_is", names=names) if names else Sentence("names.there_is_none")
 
 
+def listed(name: str, known: Iterable[str], word: str = "there_is") -> Sentence:
+    """What was probably meant, and all that exist; ``word``: ``there_is``, ``known`` or ``one_of``."""
+    names = tuple(dict.fromkeys(known))
+    offer = nearest(name[:100], names)
+    if offer is not None:
+        return Sentence(f"names.near_{word}", offer=offer, names=names)
+    return Sentence(f"names.all_{word}", names=names) if names else Sentence("names.nothing_there")
+
+
 def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
     """The sentence for a name that does not exist; ``noun`` is a key of the catalogue's ``nouns``."""
     return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))

@@ -6,13 +6,14 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.model.compose import compose
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.nodes import Entry, Mapping, Node, Scalar, Sequence
 from linkwright.model.write import flow
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.whole_files import write_whole
+from linkwright.words.sentence import Sentence
 
 _AXES = {"x": "0", "y": "1"}
 ReadText = Callable[[str, str], tuple[Mechanism | None, list[Finding]]]
@@ -53,9 +54,10 @@ class Document:
                 if rest[0] == path[-1] and rest[0] not in ("x", "y", "0", "1"):
                     self._insert(node, rest[0], value)
                     return
-        offer = nearest(address, self.mechanism.dimensions())
         raise LinkwrightError(
-            f'the file has no place for "{address}"' + (f'; did you mean "{offer}"?' if offer else "")
+            with_remedy(
+                Sentence("model.no_place", address=address), offered(address, self.mechanism.dimensions())
+            )
         )
 
     def save(self, path: str | Path) -> None:

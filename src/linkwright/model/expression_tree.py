@@ -10,6 +10,7 @@ from typing import Any
 
 from linkwright import units
 from linkwright.errors import QuantityError
+from linkwright.words.sentence import Sentence
 
 ARITY: Mapping[str, int] = {
     "sin": 1,
@@ -156,7 +157,7 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
             return units.times(
                 dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1
             )
-    word = "added to" if node.sign == "+" else "subtracted from"
+    word = "added" if node.sign == "+" else "subtracted"
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
 
@@ -173,8 +174,8 @@ def _common_dimension(
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE
     raise QuantityError(
-        f"{units.name_of(right)} cannot be {word} {units.name_of(left)}",
-        "give both the same dimension",
+        Sentence(f"model.cannot_be_{word}", right=units.name_of(right), left=units.name_of(left)),
+        Sentence("model.same_dimension"),
         column=column,
         code="wrong-dimension",
     )
@@ -185,7 +186,10 @@ def _power_dimension(
 ) -> units.Dimension:
     if dimension_of(exponent, kinds) != units.NONE:
         raise QuantityError(
-            "an exponent has a unit", "use a plain number", column=column, code="wrong-dimension"
+            Sentence("model.exponent_unit"),
+            Sentence("model.plain_number"),
+            column=column,
+            code="wrong-dimension",
         )
     kind = dimension_of(base, kinds)
     if kind == units.NONE:
@@ -193,8 +197,8 @@ def _power_dimension(
     power = exponent.operand if isinstance(exponent, Negative) else exponent
     if not isinstance(power, Number):
         raise QuantityError(
-            "a quantity with a unit has an exponent that is not a number",
-            "write the number",
+            Sentence("model.exponent_no_number"),
+            Sentence("model.write_the_number"),
             column=column,
             code="wrong-dimension",
         )
@@ -205,7 +209,7 @@ def _call_dimension(
     function: str, arguments: tuple[Node, ...], kinds: Mapping[str, units.Dimension], column: int
 ) -> units.Dimension:
     if function in ("min", "max", "atan2"):
-        word = "compared with" if function != "atan2" else "set against"
+        word = "compared" if function != "atan2" else "opposed"
         kind = _common_dimension(arguments, kinds, column, word)
         return _ANGLE if function == "atan2" else kind
     kind = dimension_of(arguments[0], kinds)
@@ -217,10 +221,10 @@ def _call_dimension(
         return units.NONE
     allowed = (units.NONE, _ANGLE) if function in _FROM_ANGLE else (units.NONE,)
     if kind not in allowed:
-        needed = "an angle" if function in _FROM_ANGLE else "a dimensionless number"
+        needed = Sentence(f"nouns.a_{'angle' if function in _FROM_ANGLE else 'dimensionless'}")
         raise QuantityError(
-            f"{function} is taken of {units.name_of(kind)}, where {needed} is needed",
-            "divide by a quantity of the same dimension",
+            Sentence("model.taken_of", function=function, kind=units.name_of(kind), needed=needed),
+            Sentence("model.divide_same"),
             column=column,
             code="wrong-dimension",
         )

@@ -28,7 +28,8 @@ from linkwright.model.expression_tree import (
     evaluate,
     scalar_functions,
 )
-from linkwright.registry import nearest
+from linkwright.registry import nearest, offered
+from linkwright.words.sentence import Sentence
 
 MAX_LENGTH, MAX_DEPTH = 1000, 40
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
@@ -84,13 +85,17 @@ class Expression:
             value = float(evaluate(self.tree, values, scalar_functions()))
         except ZeroDivisionError:
             raise QuantityError(
-                f'"{self.text}" divides by zero', "change the values", code="not-finite"
+                Sentence("model.divides_by_zero", text=self.text),
+                Sentence("model.change_values"),
+                code="not-finite",
             ) from None
         except (ValueError, OverflowError, TypeError):
             value = math.nan
         if not math.isfinite(value):
             raise QuantityError(
-                f'"{self.text}" has no finite real value', "change the values", code="not-finite"
+                Sentence("model.no_real_value", text=self.text),
+                Sentence("model.change_values"),
+                code="not-finite",
             )
         return value
 
@@ -140,8 +145,8 @@ def parse(text: str, variables: Collection[str] = ()) -> Expression:
     plain = text.replace("−", "-").strip()
     if len(plain) > MAX_LENGTH:
         raise ExpressionError(
-            f"the expression has {len(plain)} characters",
-            f"at most {MAX_LENGTH}; split it with named parameters",
+            Sentence("model.expression_long", count=len(plain)),
+            Sentence("model.expression_most", most=MAX_LENGTH),
             plain[:60] + "…",
             0,
         )
@@ -203,8 +208,8 @@ def require(expression: Expression, dimension: str, kinds: Mapping[str, units.Di
         return
     if kind == units.NONE and dimension == "angle":
         raise QuantityError(
-            f'"{expression.text}" has no unit',
-            f'an angle is needed: "({expression.text})*rad"',
+            Sentence("units.no_unit", text=expression.text),
+            Sentence("model.needs_angle", text=expression.text),
             code="missing-unit",
         )
     units.require(kind, dimension, expression.text)
@@ -247,8 +252,8 @@ class _Parser:
             if found is None or found.lastgroup is None:
                 column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
                 raise self._error(
-                    f'"{self.text[column]}" is not part of an expression',
-                    "use numbers with units, names, + - * / ^ and parentheses",
+                    Sentence("model.no_part", text=self.text[column]),
+                    Sentence("model.use_in_expressions"),
                     column,
                 )
             token = found.group(found.lastgroup)
@@ -263,14 +268,18 @@ class _Parser:
         tree = self._binary(0)
         kind, token, column = self.tokens[self.at]
         if kind != "end":
-            remedy = "write * between factors" if kind in ("name", "number") or token == "(" else "remove it"
-            raise self._error(f'"{token}" is not expected here', remedy, column)
+            remedy = (
+                Sentence("model.write_factor_sign")
+                if kind in ("name", "number") or token == "("
+                else Sentence("model.remove_it")
+            )
+            raise self._error(Sentence("model.unexpected", token=token), remedy, column)
         return tree
 
     def _binary(self, binding: int) -> Node:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise self._error("the expression is nested too deep", "split it with named parameters", 0)
+            raise self._error(Sentence("model.too_deep"), Sentence("model.split_it"), 0)
         left = self._powers(self._prefix())
         while True:
             kind, token, column = self.tokens[self.at]
@@ -303,12 +312,12 @@ class _Parser:
             inner = self._binary(0)
             self._close(column)
             return inner
-        what = "the expression ends too early" if kind == "end" else f'"{token}" is not expected here'
-        raise self._error(what, "a number, a name or a parenthesis is needed", column)
+        what = Sentence("model.ends_early") if kind == "end" else Sentence("model.unexpected", token=token)
+        raise self._error(what, Sentence("model.operand_needed"), column)
 
     def _close(self, opened: int) -> None:
         if self.tokens[self.at][1] != ")":
-            raise self._error("a parenthesis is not closed", 'add ")"', opened)
+            raise self._error(Sentence("model.open_parenthesis"), Sentence("model.add_parenthesis"), opened)
         self.at += 1
 
     def _number(self, token: str, column: int) -> Node:
@@ -323,7 +332,9 @@ class _Parser:
         if name not in units.UNITS and not turning:
             if name in self.variables:
                 raise self._error(
-                    f'a factor "{token} {name}" without a sign', f'write "{token}*{name}"', place
+                    Sentence("model.no_sign", token=token, name=name),
+                    Sentence("model.write_product", token=token, name=name),
+                    place,
                 )
             error = units.unknown_unit(name)
             raise self._error(error.message, error.remedy, place, "unknown-unit")
@@ -369,8 +380,8 @@ class _Parser:
         if self.text[column] == "*":
             if name in self.variables and name != "t":
                 raise self._error(
-                    f'"{name}" is a unit and a parameter',
-                    f'write "·{name}" for the unit, or put the parameter first',
+                    Sentence("model.unit_and_parameter", name=name),
+                    Sentence("model.tell_unit", name=name),
                     place,
                     "ambiguous",
                 )
@@ -390,23 +401,20 @@ class _Parser:
             factor, dimension = units.UNITS[name]
             return Number(factor, dimension, column)
         offer = nearest(name, [*self.variables, *CONSTANTS])
-        known = (
-            ", ".join(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
-            or "none is defined"
-        )
+        known = tuple(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
+        remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
         raise self._error(
-            f'unknown name "{name}"',
-            f'did you mean "{offer}"?' if offer else f"define it under parameters (known: {known})",
+            Sentence("model.unknown_name", name=name),
+            Sentence("names.did_you_mean", offer=offer) if offer else remedy,
             column,
             "unknown-name",
         )
 
     def _call(self, name: str, column: int) -> Node:
         if name not in ARITY:
-            offer = nearest(name, list(ARITY))
             raise self._error(
-                f'unknown function "{name}"',
-                f'did you mean "{offer}"?' if offer else f"one of: {', '.join(ARITY)}",
+                Sentence("model.unknown_function", name=name),
+                offered(name, ARITY),
                 column,
                 "unknown-name",
             )
@@ -418,8 +426,8 @@ class _Parser:
         self._close(column)
         if len(arguments) != ARITY[name]:
             raise self._error(
-                f"{name} takes {ARITY[name]} argument(s), {len(arguments)} are given",
-                "separate arguments by commas, decimals by points",
+                Sentence("model.argument_count", name=name, needed=ARITY[name], given=len(arguments)),
+                Sentence("model.separate_arguments"),
                 column,
             )
         return Call(name, tuple(arguments), column)

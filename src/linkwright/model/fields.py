@@ -92,7 +92,13 @@ class Quantity(Field):
             return value
         limit = self._limit()
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
-        reader.error(node, place, f"{shown} is {self._fault(value)}", f"give {limit}", "range")
+        reader.error(
+            node,
+            place,
+            Sentence("model.is_faulty", shown=shown, fault=self._fault(value)),
+            Sentence("model.give_limit", limit=limit),
+            "range",
+        )
         return None
 
     def _admits(self, value: float) -> bool:
@@ -104,18 +110,30 @@ class Quantity(Field):
 
     def _fault(self, value: float) -> str:
         if value == 0:
-            return "zero"
-        return "negative" if value < 0 and not (self.minimum or self.above) else "too small"
+            return Sentence("model.zero")
+        return Sentence(
+            "model.negative" if value < 0 and not (self.minimum or self.above) else "model.too_small"
+        )
 
     def _limit(self) -> str:
         noun = Sentence(f"nouns.a_{self.dimension}")
         if self.above is not None:
-            return f"{noun} above {units.format(self.above, self.dimension) if self.above else 'zero'}"
-        if self.minimum is not None:
-            return (
-                f"{noun} of {units.format(self.minimum, self.dimension) if self.minimum else 'zero'} or more"
+            return Sentence(
+                "model.above",
+                noun=noun,
+                limit=units.format(self.above, self.dimension)
+                if self.above
+                else Sentence("model.length_zero"),
             )
-        return f"{noun} other than zero"
+        if self.minimum is not None:
+            return Sentence(
+                "model.or_more",
+                noun=noun,
+                limit=units.format(self.minimum, self.dimension)
+                if self.minimum
+                else Sentence("model.length_zero"),
+            )
+        return Sentence("model.not_zero", noun=noun)
 
     def shape(self) -> Schema:
         return quantity_schema(self.dimension)
@@ -221,7 +239,11 @@ class Count(Field):
         if text is None or text.strip() == str(self.only):
             return self.only
         reader.error(
-            node, place, f'version "{text}" is not known', f"write {place.key}: {self.only}", "version"
+            node,
+            place,
+            Sentence("model.unknown_version", text=text),
+            Sentence("model.write_version", key_=place.key, only=self.only),
+            "version",
         )
         return None
 
@@ -270,7 +292,7 @@ class TimeTable(Field):
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
     ) -> TimeTableValues | None:
-        with reader.plain_numbers("a driver's table"):
+        with reader.plain_numbers(Sentence("model.plain_driver_table")):
             values = reader.table(node, place, self._fields())
         if values is None or values.get("time") is None or values.get("position") is None:
             return None
@@ -288,9 +310,8 @@ class TimeTable(Field):
             reader.error(
                 node,
                 place,
-                "a periodic table must end where it begins"
-                + (" (or whole turns further)" if self.dimension == "angle" else ""),
-                "make the last position equal to the first",
+                Sentence("model.periodic_turns" if self.dimension == "angle" else "model.periodic_ends"),
+                Sentence("model.last_as_first"),
                 "table",
             )
             return None

@@ -13,6 +13,7 @@ from linkwright.model.nodes import Node, Scalar
 from linkwright.model.read_model import read_model
 from linkwright.model.write import dump
 from linkwright.registry import nearest
+from linkwright.words.sentence import Sentence
 
 __all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
 
@@ -79,7 +80,9 @@ def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
         for remark in remarks
     ]
     if root is None or (isinstance(root, Scalar) and root.empty):
-        empty = Finding("error", f"{name}:1:1", "", "the file is empty", "begin with format: 1", "empty")
+        empty = Finding(
+            "error", f"{name}:1:1", "", Sentence("model.empty"), Sentence("model.begin_with"), "empty"
+        )
         return None, findings or [empty]
     return root, findings
 
@@ -99,15 +102,15 @@ def read_source(source: str | Path) -> tuple[str, str]:
     path = Path(source)
     try:
         if path.is_dir():
-            raise _refuse(path, "this is a folder", "name a model file in it", "not-a-file")
+            raise _refuse(path, Sentence("model.folder"), Sentence("model.name_file_in"), "not-a-file")
         if not path.exists():
-            raise _refuse(path, "there is no such file", _near_file(path), "no-file")
+            raise _refuse(path, Sentence("model.no_file"), _near_file(path), "no-file")
         size = path.stat().st_size
         if size > MAX_BYTES:
             raise _refuse(
                 path,
-                f"the file has {size / 1e6:.1f} MB",
-                f"a model has at most {MAX_BYTES / 1e6:.0f} MB",
+                Sentence("model.file_size", size=size / 1000000.0),
+                Sentence("model.most_size", most=MAX_BYTES / 1000000.0),
                 "size",
             )
         with path.open("rb") as stream:
@@ -115,10 +118,12 @@ def read_source(source: str | Path) -> tuple[str, str]:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _refuse(
-            path, f"the file cannot be read ({reason})", "check its name and permissions", "no-file"
+            path, Sentence("model.unreadable", reason=reason), Sentence("model.check_permissions"), "no-file"
         ) from None
     if len(content) > MAX_BYTES:
-        raise _refuse(path, "the source has no end", f"a model has at most {MAX_BYTES / 1e6:.0f} MB", "size")
+        raise _refuse(
+            path, Sentence("model.no_end"), Sentence("model.most_size", most=MAX_BYTES / 1000000.0), "size"
+        )
     return decode(content, path.name), path.name
 
 
@@ -130,20 +135,33 @@ def _near_file(path: Path) -> str:
     folder = path.parent
     names = [entry.name for entry in list(folder.iterdir())[:1000]] if folder.is_dir() else []
     if not folder.is_dir():
-        return f'there is no folder "{folder}" either'
+        return Sentence("model.no_folder", folder=folder)
     near = nearest(path.name, names)
     if near is None and path.name in gallery_names():
-        return f'for the model of the gallery write "{GALLERY}{path.name}"'
-    return f'did you mean "{near}"?' if near else "check the path"
+        return Sentence("model.write_gallery", gallery=GALLERY, name=path.name)
+    return Sentence("names.did_you_mean", offer=near) if near else Sentence("model.check_path")
 
 
 def _read_gallery(name: str) -> tuple[str, str]:
     names = gallery_names()
     if name not in names:
         near = nearest(name, names)
-        remedy = f'did you mean "{GALLERY}{near}"?' if near else f"one of: {', '.join(names)}"
+        remedy = (
+            Sentence("names.did_you_mean", offer=f"{GALLERY}{near}")
+            if near
+            else Sentence("names.one_of", names=tuple(names))
+        )
         raise ModelError(
-            [Finding("error", GALLERY + name, "", f'the gallery has no model "{name}"', remedy, "no-file")]
+            [
+                Finding(
+                    "error",
+                    GALLERY + name,
+                    "",
+                    Sentence("model.no_gallery_model", name=name),
+                    remedy,
+                    "no-file",
+                )
+            ]
         )
     content = (resources.files("linkwright") / "gallery" / f"{name}.yaml").read_bytes()
     return decode(content, f"{name}.yaml"), f"{name}.yaml"
@@ -152,7 +170,9 @@ def _read_gallery(name: str) -> tuple[str, str]:
 def decode(content: bytes, name: str) -> str:
     """Text of a file's bytes; raises ModelError with the place of the first byte that is not UTF-8."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise ModelError([Finding("error", name, "", "the file is UTF-16", "save it as UTF-8", "encoding")])
+        raise ModelError(
+            [Finding("error", name, "", Sentence("model.utf16"), Sentence("model.save_utf8"), "encoding")]
+        )
     if b"\x00" in content:
         raise ModelError(
             [
@@ -160,8 +180,8 @@ def decode(content: bytes, name: str) -> str:
                     "error",
                     name,
                     "",
-                    f"the file is not text (a zero byte at offset {content.index(0)})",
-                    "name a model file, YAML or JSON in UTF-8",
+                    Sentence("model.not_text", offset=content.index(0)),
+                    Sentence("model.name_text_file"),
                     "encoding",
                 )
             ]
@@ -178,8 +198,8 @@ def decode(content: bytes, name: str) -> str:
                     "error",
                     f"{name}:{line}:{column}",
                     "",
-                    f"the file is not UTF-8: byte 0x{byte:02x} at offset {error.start}",
-                    "save it as UTF-8",
+                    Sentence("model.not_utf8", byte=byte, start=error.start),
+                    Sentence("model.save_utf8"),
                     "encoding",
                 )
             ]

@@ -13,8 +13,9 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.loads.base import Load
 from linkwright.model.geometry import centre, local_points, point_addresses, second_point_address
-from linkwright.registry import nearest
+from linkwright.registry import nearest, no_such
 from linkwright.units import Dimension
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.expressions import Expression
@@ -210,8 +211,7 @@ class Mechanism:
         if name == "frame":
             return self.frame
         if name not in self.links:
-            offer = nearest(name, ["frame", *self.links])
-            raise RequestError(f'there is no link "{name}"' + (f'; did you mean "{offer}"?' if offer else ""))
+            raise RequestError(no_such("link", name, ["frame", *self.links]))
         return self.links[name]
 
     @cached_property
@@ -232,21 +232,21 @@ class Mechanism:
 
     def _unknown(self, address: str) -> LinkwrightError:
         offer = nearest(address, self._dimensions)
-        hint = f'did you mean "{offer}"?' if offer else "see the addresses in dimensions()"
-        return LinkwrightError(f'the mechanism has no dimension "{address}"; {hint}')
+        hint = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("model.see_addresses")
+        return LinkwrightError(Sentence("model.no_dimension", address=address, hint=hint))
 
     def _checked(self, address: str, value: float) -> float:
         if address not in self._dimensions:
             raise self._unknown(address)
         value = float(value)
         if not math.isfinite(value):
-            raise RequestError(f"{address} is set to {value}; give a finite number")
+            raise RequestError(Sentence("model.set_not_finite", address=address, value=value))
         last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
         owner = address.split(".", maxsplit=1)[0]
         if owner in self.links and last in ("length", "lengths") and value <= 0:
-            raise RequestError(f"{address} is set to {value:g} m; a length must be positive")
+            raise RequestError(Sentence("model.set_length", address=address, value=value))
         if owner in self.links and last in ("mass", "inertia") and value < 0:
-            raise RequestError(f"{address} is set to {value:g}; it must not be negative")
+            raise RequestError(Sentence("model.set_negative", address=address, value=value))
         return value
 
     def __repr__(self) -> str:

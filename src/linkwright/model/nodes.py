@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from linkwright.words.sentence import Sentence
+
 MAX_DEPTH, MAX_NODES = 40, 30_000
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 
@@ -85,9 +87,9 @@ class Remark:
 def noun(node: Node | None) -> str:
     """What the node is, in words, for messages."""
     if isinstance(node, Mapping):
-        return "a mapping (key: value)"
+        return Sentence("model.a_mapping")
     if isinstance(node, Sequence):
-        return "a list"
+        return Sentence("model.a_list")
     if node is None or (isinstance(node, Scalar) and node.empty):
-        return "nothing"
-    return "a single value"
+        return Sentence("model.nothing")
+    return Sentence("model.a_value")

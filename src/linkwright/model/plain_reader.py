@@ -11,7 +11,8 @@ from linkwright.errors import Finding, Severity
 from linkwright.model.fields import Field
 from linkwright.model.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.registry import nearest
+from linkwright.registry import listed, nearest
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.reader import Reader
@@ -83,8 +84,8 @@ class PlainReader:
         self.error(
             node,
             place,
-            f"{noun(node)} stands where a mapping (key: value) is needed",
-            "write {key: value, …} or indented lines key: value",
+            Sentence("model.where_mapping", node=noun(node)),
+            Sentence("model.write_mapping"),
             "type",
         )
         return None
@@ -93,16 +94,22 @@ class PlainReader:
         """The items of a list, of a given count where there is one; ``form`` is an example."""
         if not isinstance(node, Sequence):
             self.error(
-                node, place, f"{noun(node)} stands where a list is needed", f"write it as {form}", "type"
+                node,
+                place,
+                Sentence("model.where_list", node=noun(node)),
+                Sentence("model.write_as", form=form),
+                "type",
             )
             return None
         if count is None or len(node.items) == count:
             return node.items
         texts = [item.text if isinstance(item, Scalar) else "" for item in node.items]
         comma = len(texts) > count and any(re.fullmatch(r"[+-]?\d+", text) and text != "0" for text in texts)
-        remedy = f"write it as {form}" + (", with decimal points, not commas" if comma else "")
+        remedy = Sentence("model.decimal_points" if comma else "model.write_as", form=form)
         code = "decimal-comma" if comma else "count"
-        self.error(node, place, f"{len(node.items)} values stand where {count} are needed", remedy, code)
+        self.error(
+            node, place, Sentence("model.value_count", given=len(node.items), count=count), remedy, code
+        )
         return None
 
     def text(self, node: Node, place: Place | str) -> str | None:
@@ -110,7 +117,7 @@ class PlainReader:
         if isinstance(node, Scalar) and not node.empty:
             return node.text
         self.error(
-            node, place, f"{noun(node)} stands where a text is needed", "write a name or a text", "type"
+            node, place, Sentence("model.where_text", node=noun(node)), Sentence("model.write_name"), "type"
         )
         return None
 
@@ -124,8 +131,8 @@ class PlainReader:
         self.error(
             node,
             place,
-            f'"{text}" cannot be the name of a {what}',
-            f'names begin with a letter and hold letters, digits, _ and -: "{right}"',
+            Sentence("model.bad_name", text=text, what=Sentence(f"nouns.{what}")),
+            Sentence("model.name_rule", right=right),
             "name",
         )
         return None
@@ -135,13 +142,11 @@ class PlainReader:
         text = self.text(node, place)
         if text is None or text in choices:
             return text
-        offer = nearest(text, choices)
-        hint = f'did you mean "{offer}"? ' if offer else ""
         self.error(
             node,
             place,
-            f'"{text}" is not known here',
-            f"{hint}(one of: {', '.join(choices)})",
+            Sentence("model.unknown_word", text=text),
+            listed(text, choices, "one_of"),
             "unknown-word",
         )
         return None
@@ -160,8 +165,8 @@ class PlainReader:
                 self.error(
                     mapping,
                     place.child(key),
-                    f'the key "{key}" is missing',
-                    fields[name].doc or "add it",
+                    Sentence("model.missing_key", key_=key),
+                    fields[name].doc or Sentence("model.add_it"),
                     "missing-key",
                 )
             elif value is not None:
@@ -188,12 +193,16 @@ class PlainReader:
                 split.add(before.key.text)
                 continue
             offer = nearest(key[:100], [each for each in known if each not in present] or known)
-            remedy = f'did you mean "{offer}"? ' if offer else ""
+            remedy = (
+                Sentence("names.near_known", offer=offer, names=tuple(known))
+                if offer
+                else Sentence("names.all_known", names=tuple(known))
+            )
             self.error(
                 entry.key,
                 place.child(key),
-                f'unknown key "{key[:100]}"',
-                f"{remedy}(known: {', '.join(known)})",
+                Sentence("model.unknown_key", key_=key[:100]),
+                remedy,
                 "unknown-key",
             )
         return split
@@ -207,8 +216,8 @@ class PlainReader:
         self.error(
             whole,
             place.child(before.key.text),
-            f'decimal comma in "{whole.text},{rest}"',
-            f'write a point: "{whole.text}.{rest}"',
+            Sentence("model.comma_split", whole=whole.text, rest=rest),
+            Sentence("model.write_point", whole=whole.text, rest=rest),
             "decimal-comma",
         )
         return True

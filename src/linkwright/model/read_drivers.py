@@ -14,6 +14,7 @@ from linkwright.model.nodes import Node
 from linkwright.model.plain_reader import Place
 from linkwright.model.reader import Reader
 from linkwright.model.reference_fields import JointName, LinkName
+from linkwright.words.sentence import Sentence, together
 
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc="the link that is turned"),
@@ -38,7 +39,7 @@ def read_drivers(reader: Reader, root: MappingNode) -> dict[str, Driver]:
     """The drivers by name; a single one is named ``driver``."""
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
-        reader.error(several, "drivers", "driver and drivers are both given", "keep one of them", "choice")
+        reader.error(several, "drivers", Sentence("model.both_drivers"), Sentence("model.keep_one"), "choice")
     found: dict[str, Driver] = {}
     if one is not None:
         _add(reader, found, one, "driver", Place("driver", "driver"))
@@ -49,8 +50,8 @@ def read_drivers(reader: Reader, root: MappingNode) -> dict[str, Driver]:
             reader.error(
                 entry.key,
                 f"drivers.{name}",
-                f'a link or joint has the name "{name}" already',
-                "rename the driver",
+                Sentence("model.name_taken", name=name),
+                Sentence("model.rename_driver"),
                 "duplicate",
             )
         elif name is not None:
@@ -70,8 +71,8 @@ def _add(reader: Reader, found: dict[str, Driver], node: Node, name: str, place:
             reader.error(
                 node,
                 place,
-                f'the driver "{other.name}" drives the same coordinate',
-                "remove one",
+                Sentence("model.same_coordinate", name=other.name),
+                Sentence("model.remove_one"),
                 "duplicate",
             )
     found[name] = driver
@@ -84,7 +85,7 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
     before = reader.error_count
     turns, slides = mapping.get("turn") is not None, mapping.get("slide") is not None
     if turns and slides:
-        reader.error(node, place, "turn and slide are both given", "keep one of them", "choice")
+        reader.error(node, place, Sentence("model.turn_and_slide"), Sentence("model.keep_one"), "choice")
         return None
     rotary = not slides
     way = TURN_FIELDS if rotary else SLIDE_FIELDS
@@ -95,8 +96,8 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
         reader.error(
             node,
             place,
-            "what the driver drives is missing",
-            "add turn: LINK and about: PIN, or slide: JOINT",
+            Sentence("model.nothing_driven"),
+            Sentence("model.add_turn"),
             "missing-key",
         )
         return None
@@ -119,16 +120,20 @@ def _read_law(
     chosen = [key for key in laws if node.get(key) is not None]
     if len(chosen) != 1:
         speed = "170 rpm" if rotary else "0.1 m/s"
-        message = f"{' and '.join(chosen)} are both given" if chosen else "the driver has no law"
+        message = Sentence("model.both_laws", laws=together(chosen)) if chosen else Sentence("model.no_law")
         reader.error(
-            node, place, message, f"give exactly one of {', '.join(laws)}, such as speed: {speed}", "choice"
+            node, place, message, Sentence("model.give_law", laws=tuple(laws), speed=speed), "choice"
         )
         return None
     key = chosen[0]
     foreign = [name for each in laws.values() for name in each if name in given and name not in laws[key]]
     for name in foreign:
         reader.error(
-            node.get(name), place.child(name), f'"{name}" does not go with {key}', "remove it", "choice"
+            node.get(name),
+            place.child(name),
+            Sentence("model.does_not_go", name=name, key_=key),
+            Sentence("model.remove_it"),
+            "choice",
         )
     if foreign or given.get(key) is None:
         return None
@@ -152,8 +157,8 @@ def _revolute(
         reader.error(
             node.get("about"),
             place.child("about"),
-            f'the link "{link}" has no pin at "{pin}"',
-            f"its pins: {', '.join(mine) or 'none'}",
+            Sentence("model.no_pin_at", link=link, pin=pin),
+            Sentence("model.its_pins", pins=tuple(mine)) if mine else Sentence("model.no_pins"),
             "reference",
         )
         return None
@@ -164,8 +169,8 @@ def _revolute(
             reader.error(
                 node,
                 place.child("relative_to"),
-                f'several links are on the pin "{pin}"',
-                f"add relative_to: one of {', '.join(rest)}",
+                Sentence("model.several_on_pin", pin=pin),
+                Sentence("model.add_relative", rest=tuple(rest)),
                 "ambiguous",
             )
             return None
@@ -173,8 +178,8 @@ def _revolute(
         reader.error(
             node.get("relative_to"),
             place.child("relative_to"),
-            f'"{other}" is not another link on "{pin}"',
-            f"one of: {', '.join(rest)}",
+            Sentence("model.not_on_pin", other=other, pin=pin),
+            Sentence("names.one_of", names=tuple(rest)),
             "reference",
         )
         return None
@@ -200,8 +205,10 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
         reader.error(
             node,
             "cycle",
-            f"{' and '.join(given) or 'nothing'} is given",
-            "write one of {duration: 2 s}, {from: 0 deg, to: 90 deg}, {turns: 1}",
+            Sentence("model.is_given", given=together(list(given)))
+            if given
+            else Sentence("model.nothing_given"),
+            Sentence("model.write_cycle"),
             "choice",
         )
         return None
@@ -215,20 +222,26 @@ def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: La
     word = "turns" if "turns" in given else "from and to"
     if not isinstance(law, ConstantSpeed):
         reader.error(
-            node, "cycle", f"{word} needs a first driver of constant speed", "give duration", "choice"
+            node,
+            "cycle",
+            Sentence("model.needs_constant", word=word),
+            Sentence("model.give_duration"),
+            "choice",
         )
     elif law.speed == 0:
-        reader.error(node, "cycle", f"{word} needs a speed other than zero", "give duration", "choice")
+        reader.error(
+            node, "cycle", Sentence("model.needs_speed", word=word), Sentence("model.give_duration"), "choice"
+        )
     elif "turns" in given and not law.rotary:
         reader.error(
-            node, "cycle", "the first driver does not turn", "give duration, or from and to", "choice"
+            node, "cycle", Sentence("model.does_not_turn"), Sentence("model.give_duration_or"), "choice"
         )
     elif "from" in given and (given["to"] - given["from"]) * law.speed <= 0:
         reader.error(
             node,
             "cycle",
-            "the driver does not move from the first value to the last",
-            "exchange from and to, or turn the sign of the speed",
+            Sentence("model.wrong_way"),
+            Sentence("model.exchange_or_turn"),
             "range",
         )
 

@@ -18,6 +18,7 @@ from linkwright.model.nodes import Node, Scalar, Sequence
 from linkwright.model.plain_reader import Place
 from linkwright.model.reader import Reader
 from linkwright.model.reference_fields import LinkName, PointName
+from linkwright.words.sentence import Sentence, together
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,13 @@ class LinkNames(Field):
         if first is None or second is None:
             return None
         if first == second:
-            reader.error(node, place, f'both links are "{first}"', "name two different links", "reference")
+            reader.error(
+                node,
+                place,
+                Sentence("model.both_links", first=first),
+                Sentence("model.two_links"),
+                "reference",
+            )
             return None
         return first, second
 
@@ -153,16 +160,16 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
             reader.error(
                 entry.key,
                 f"joints.{name}",
-                f'the pin at the point "{name}" has this name already',
-                "rename the joint",
+                Sentence("model.pin_has_name", name=name),
+                Sentence("model.rename_joint"),
                 "duplicate",
             )
         elif name in links:
             reader.error(
                 entry.key,
                 f"joints.{name}",
-                f'a link has the name "{name}" already',
-                "rename one",
+                Sentence("model.link_has_name", name=name),
+                Sentence("model.rename_one"),
                 "duplicate",
             )
         joints[name] = joint
@@ -179,8 +186,8 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
         reader.error(
             node,
             place.child("kind"),
-            "the joint has no kind",
-            f"add kind: one of {', '.join(JOINTS)}",
+            Sentence("model.joint_no_kind"),
+            Sentence("model.add_kind", kinds=tuple(JOINTS)),
             "missing-key",
         )
         return None
@@ -222,8 +229,8 @@ def _prismatic(
         reader.error(
             node.get("block"),
             place.child("block"),
-            f'guide and block are both "{guide}"',
-            "name two different links",
+            Sentence("model.guide_is_block", guide=guide),
+            Sentence("model.two_links"),
             "reference",
         )
         return None
@@ -233,8 +240,8 @@ def _prismatic(
         reader.error(
             node.get("at"),
             place.child("at"),
-            f'"{point}" names a point of the guide and of the block, and {", ".join(others)} has it too',
-            "rename the point of the guide",
+            Sentence("model.point_on_both", point=point, others=tuple(others)),
+            Sentence("model.rename_point"),
             "ambiguous",
         )
         return None
@@ -251,8 +258,8 @@ def _prismatic(
         reader.error(
             node.get("direction"),
             place.child("direction"),
-            f"{' and '.join(direction)} are at the same place",
-            "name two points apart from each other",
+            Sentence("model.same_place", points=together(direction)),
+            Sentence("model.points_apart"),
             "range",
         )
     return joint.aligned(links[guide].points)

@@ -14,6 +14,7 @@ from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
 from linkwright.model.plain_reader import NAME, Place
 from linkwright.model.reader import Reader
+from linkwright.words.sentence import Sentence, together
 
 _PAIR = Quantities("length", ("x", "y"))
 
@@ -58,7 +59,11 @@ class LinkPoints(Field):
             name = reader.name(item, place.child(str(index)), "point")
             if name in names:
                 reader.error(
-                    item, place, f'the point "{name}" is listed twice', "remove one or rename it", "duplicate"
+                    item,
+                    place,
+                    Sentence("model.point_twice", name=name),
+                    Sentence("model.remove_or_rename"),
+                    "duplicate",
                 )
             elif name is not None:
                 names.append(name)
@@ -109,17 +114,15 @@ def scan_points(node: Node | None) -> tuple[str, ...]:
 def read_frame(reader: Reader, node: Node | None) -> Link:
     """The frame with its points."""
     if node is None:
-        reader.error(
-            None, "frame", "the model has no frame", "add frame: {points: {O1: [0 m, 0 m]}}", "missing-key"
-        )
+        reader.error(None, "frame", Sentence("model.no_frame"), Sentence("model.add_frame"), "missing-key")
         return Link("frame", "coordinates", {})
     points = node.get("points") if isinstance(node, MappingNode) else None
     if isinstance(points, Sequence):
         reader.error(
             points,
             "frame.points",
-            "the frame's points have no coordinates",
-            "write points: {O1: [0 m, 0 m], …}",
+            Sentence("model.frame_no_coordinates"),
+            Sentence("model.write_points"),
             "type",
         )
         return Link("frame", "coordinates", {})
@@ -132,7 +135,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     """Coordinates of the assembled drawing in frame axes."""
     if node is None:
         return {}
-    with reader.plain_numbers("a drawing"):
+    with reader.plain_numbers(Sentence("model.plain_drawing")):
         found = Coordinates().read(reader, node, Place("drawing", "drawing"), {}) or {}
     everywhere = list(dict.fromkeys(point for points in reader.names.links.values() for point in points))
     drawing: dict[str, Vec] = {}
@@ -145,8 +148,8 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
             reader.error(
                 value,
                 f"drawing.{name}",
-                f'"{name}" is a point of the frame and stands elsewhere there',
-                "leave it out of the drawing",
+                Sentence("model.frame_elsewhere", name=name),
+                Sentence("model.leave_out"),
                 "conflict",
             )
         drawing[name] = place
@@ -159,8 +162,8 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
         reader.error(
             None,
             "links",
-            "the model has no links",
-            "add links: {crank: {points: [O1, A], length: 0.1 m}}",
+            Sentence("model.no_links"),
+            Sentence("model.add_links"),
             "missing-key",
         )
         return {}
@@ -171,8 +174,8 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
         reader.error(
             node,
             "links",
-            "there is no link",
-            "add one, such as crank: {points: [O1, A], length: 0.1 m}",
+            Sentence("model.no_link"),
+            Sentence("model.add_link"),
             "missing-key",
         )
     links: dict[str, Link] = {}
@@ -183,8 +186,8 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
             reader.error(
                 entry.key,
                 f"links.{name}",
-                f'"{name}" cannot be the name of a link',
-                "choose another name",
+                Sentence("model.link_name", name=name),
+                Sentence("model.other_name"),
                 "name",
             )
         elif name is not None:
@@ -204,7 +207,11 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     if not points:
         if reader.error_count == before:
             reader.error(
-                node, place.child("points"), "the link has no points", "list them: [A, B]", "missing-key"
+                node,
+                place.child("points"),
+                Sentence("model.no_points"),
+                Sentence("model.list_points"),
+                "missing-key",
             )
         return None
     assert isinstance(node, MappingNode)
@@ -217,8 +224,8 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
             reader.error(
                 node.get("also"),
                 place.child("also"),
-                f'the point "{point}" is given twice',
-                "remove one",
+                Sentence("model.point_given_twice", point=point),
+                Sentence("model.remove_one"),
                 "duplicate",
             )
         coordinates[point] = position
@@ -247,20 +254,20 @@ def _place_points(
     wanted = None
     if isinstance(points, dict):
         if sizes:
-            wanted = f"{sizes[0]} stands next to coordinates", "remove it, or list the points as [A, B]"
+            wanted = Sentence("model.beside_coordinates", size=sizes[0]), Sentence("model.remove_or_list")
         else:
             return "coordinates", dict(points), ()
     elif len(points) == 1:
         if sizes:
-            wanted = f"a link with one point has a {sizes[0]}", "list its two points, or remove it"
+            wanted = Sentence("model.one_point", size=sizes[0]), Sentence("model.list_two")
         else:
             return "point", {points[0]: (0.0, 0.0)}, ()
     elif sizes == ["length"]:
         if len(points) == 2:
             return "length", {points[0]: (0.0, 0.0), points[1]: (given["length"], 0.0)}, (given["length"],)
         wanted = (
-            f"{len(points)} points, but one length",
-            "keep two in points and put the others under also: {P: [x, y]}, or give lengths and angle",
+            Sentence("model.one_length", count=len(points)),
+            Sentence("model.two_in_points"),
         )
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)
@@ -268,8 +275,8 @@ def _place_points(
         return _bent(reader, node, place, given)
     else:
         wanted = (
-            f"{' and '.join(sizes)} with {len(points)} points",
-            "two points take length; three take lengths: [l1, l2] and angle; others go under also",
+            Sentence("model.sizes_with_points", sizes=together(sizes), count=len(points)),
+            Sentence("model.sizes_rule"),
         )
     reader.error(node.get(sizes[0]), place.child(sizes[0]), *wanted, "geometry")
     return None
@@ -281,8 +288,8 @@ def _bent(reader: Reader, node: MappingNode, place: Place, given: Mapping[str, A
         reader.error(
             node.get("lengths"),
             place.child("lengths"),
-            "a length is zero or negative",
-            "give lengths above zero",
+            Sentence("model.bad_length"),
+            Sentence("model.lengths_above"),
             "range",
         )
         return None
@@ -297,12 +304,12 @@ def _from_drawing(
 ) -> _Placed | None:
     missing = [point for point in points if point not in drawing]
     if missing:
-        form = "length: 0.5 m" if len(points) == 2 else "lengths: [0.3 m, 0.4 m] and angle: 30 deg"
+        form = Sentence("model.form_length" if len(points) == 2 else "model.form_lengths")
         reader.error(
             node,
             place,
-            f"the link has no dimensions, and the drawing no place of {', '.join(missing)}",
-            f"give {form}, coordinates of its points, or add {', '.join(missing)} to drawing",
+            Sentence("model.no_dimensions", missing=tuple(missing)),
+            Sentence("model.give_dimensions", form=form, missing=tuple(missing)),
             "missing-key",
         )
         return None
@@ -310,8 +317,8 @@ def _from_drawing(
         reader.error(
             node,
             place,
-            f"{points[0]} and {points[1]} are at the same place in the drawing",
-            "move one",
+            Sentence("model.same_in_drawing", first=points[0], second=points[1]),
+            Sentence("model.move_one"),
             "range",
         )
         return None
@@ -325,8 +332,8 @@ def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, V
             reader.error(
                 node,
                 place,
-                f"the points {seen[position]} and {name} are at the same place",
-                "give them different coordinates unless that is meant",
+                Sentence("model.points_same", seen=seen[position], name=name),
+                Sentence("model.different_coordinates"),
                 "coincident",
                 severity="warning",
             )

@@ -22,6 +22,7 @@ from linkwright.model.read_joints import read_joints, scan_joints
 from linkwright.model.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.model.reader import Reader
 from linkwright.model.whole import check_whole
+from linkwright.words.sentence import Sentence
 
 FORMAT = 1
 SECTIONS = (
@@ -146,18 +147,20 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
     name = place.address
     reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
-        what = "a function or a reserved word" if name in reserved else "not a word of letters, digits and _"
+        what = Sentence("model.reserved" if name in reserved else "model.no_word")
         reader.error(
             key,
             place,
-            f'"{name}" cannot name a parameter: it is {what}',
-            f'rename it, such as "{name[:1]}_1"' if name in reserved else 'rename it, such as "l_1"',
+            Sentence("model.bad_parameter", name=name, what=what),
+            Sentence("model.rename_first", first=name[:1])
+            if name in reserved
+            else Sentence("model.rename_l"),
             "name",
         )
         return None
     if name in reader.names.links or reader.names.joints.get(name, "revolute") != "revolute":
         reader.error(
-            key, place, f'a link or joint has the name "{name}" already', "rename one of them", "duplicate"
+            key, place, Sentence("model.name_taken", name=name), Sentence("model.rename_one"), "duplicate"
         )
         return None
     text = reader.quantity_text(node, place, "1.25 m")
@@ -172,7 +175,13 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
     except QuantityError as error:
         later = sorted(each for each in waiting if re.search(rf"(?<!\w){re.escape(each)}(?!\w)", text))
         if later and error.code == "unknown-name":
-            reader.error(node, place, f'"{later[0]}" is defined below', "move it above", "unknown-name")
+            reader.error(
+                node,
+                place,
+                Sentence("model.defined_below", name=later[0]),
+                Sentence("model.move_above"),
+                "unknown-name",
+            )
         else:
             reader.quantity_error(error, node, place, text)
         return None

@@ -17,7 +17,8 @@ from linkwright.model.nodes import Node, Scalar, noun
 from linkwright.model.plain_reader import NUMBER, Place, PlainReader
 from linkwright.model.reference_fields import LinkPoint
 from linkwright.model.signal_fields import Output, resolve_output
-from linkwright.registry import nearest
+from linkwright.registry import listed, nearest
+from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
@@ -88,8 +89,8 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place,
-                f'"{value.text}" uses a parameter, which {self._plain} cannot follow',
-                "write the number with its unit",
+                Sentence("model.no_parameter", text=value.text, what=self._plain),
+                Sentence("model.number_with_unit"),
                 "expression",
             )
             return None
@@ -106,16 +107,16 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place,
-                f'"{text[:40]}…" has {len(text)} characters',
-                f'write it as in "{example}"',
+                Sentence("model.text_long", text=text[:40], count=len(text)),
+                Sentence("units.as_in", example=example),
                 "type",
             )
             return None
         self.error(
             node,
             place,
-            f"{noun(node)} stands where a quantity is needed",
-            f'write it as in "{example}"',
+            Sentence("model.where_quantity", node=noun(node)),
+            Sentence("units.as_in", example=example),
             "type",
         )
         return None
@@ -200,12 +201,12 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place,
-                f"{len(xs)} values of {x_name}, but {len(ys)} of {y_name}",
-                "give as many",
+                Sentence("model.counts_differ", xs=len(xs), x_name=x_name, ys=len(ys), y_name=y_name),
+                Sentence("model.as_many"),
                 "table",
             )
         elif len(xs) < 2:
-            self.error(node, place, "a table needs two rows or more", "add rows", "table")
+            self.error(node, place, Sentence("model.two_rows"), Sentence("model.add_rows"), "table")
         else:
             falling = [index for index in range(1, len(xs)) if xs[index] <= xs[index - 1]]
             if not falling:
@@ -213,8 +214,8 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place.child(x_name),
-                f"value {falling[0] + 1} is not larger than the one before it",
-                f"give {x_name} in increasing order",
+                Sentence("model.not_larger", place=falling[0] + 1),
+                Sentence("model.increasing", x_name=x_name),
                 "table",
             )
         return False
@@ -229,18 +230,17 @@ class Reader(PlainReader):
                 self.error(
                     node,
                     place,
-                    f'there is no pin "{name}": only {owners[0]} has a point of this name',
-                    "name the point alike on a second link",
+                    Sentence("model.lone_pin", name=name, owner=owners[0]),
+                    Sentence("model.name_alike"),
                     "unknown-name",
                 )
             return False
-        offer = nearest(name[:100], candidates)
-        hint = f'did you mean "{offer}"? ' if offer else ""
+        noun_of = what if isinstance(what, Sentence) else Sentence(f"nouns.{what}")
         self.error(
             node,
             place,
-            f'there is no {what} "{name}"',
-            f"{hint}(there is: {', '.join(candidates) or 'none'})",
+            Sentence("model.no_such", what=noun_of, name=name),
+            listed(name, candidates),
             "unknown-name",
         )
         return False
@@ -255,12 +255,12 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place,
-                f'the link "{link}" has no point "{name}"',
-                f"it is on {', '.join(others)}; points of {link}: {', '.join(points) or 'none'}",
+                Sentence("model.no_point_on", link=link, name=name),
+                Sentence("model.it_is_on", others=tuple(others), link=link, points=tuple(points)),
                 "unknown-name",
             )
             return False
-        return self.known(node, place, f"point on {link}:", name, points)
+        return self.known(node, place, Sentence("model.point_on", link=link), name, points)
 
     def ray(self, node: Node, place: Place, link: str | None) -> tuple[str, str] | None:
         """Two different points [P, Q] of a link."""
@@ -276,7 +276,13 @@ class Reader(PlainReader):
         if first is None or second is None:
             return None
         if first == second:
-            self.error(node, place, f'both points are "{first}"', "name two different points", "reference")
+            self.error(
+                node,
+                place,
+                Sentence("model.both_points", first=first),
+                Sentence("model.two_points"),
+                "reference",
+            )
             return None
         return first, second
 
@@ -296,8 +302,8 @@ class Reader(PlainReader):
             self.error(
                 node,
                 place,
-                f'the point "{text}" is on several links that are not joined there',
-                f"write one of {', '.join(f'{owner}.{text}' for owner in owners)}",
+                Sentence("model.ambiguous", text=text),
+                Sentence("model.write_one_of", names=tuple(f"{owner}.{text}" for owner in owners)),
                 "ambiguous",
             )
             return None
@@ -317,9 +323,10 @@ class Reader(PlainReader):
         self.error(
             node,
             place,
-            f'there is no output "{text}"',
-            (f'did you mean "{offer}"? ' if offer else "")
-            + "(a link's name for its angle, POINT.x, POINT.y, or a prismatic joint's name)",
+            Sentence("model.no_output", text=text),
+            Sentence("model.names_an_output", hint=Sentence("names.did_you_mean", offer=offer))
+            if offer
+            else Sentence("model.output_forms"),
             "unknown-name",
         )
         return None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.model.fields import Field, Schema
 from linkwright.model.nodes import Node
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.plain_reader import Place
@@ -36,7 +37,9 @@ class LinkName(Field):
         if name is None or not reader.known(node, place, "link", name, list(reader.names.links)):
             return None
         if self.moving and name == "frame":
-            reader.error(node, place, "the frame does not move", "name a moving link", "reference")
+            reader.error(
+                node, place, Sentence("model.frame_at_rest"), Sentence("model.moving_link"), "reference"
+            )
             return None
         return name
 
@@ -111,7 +114,13 @@ class PointReferences(Field):
         if any(point is None for point in found):
             return None
         if found[0] == found[1]:
-            reader.error(node, place, f"both points are {found[0]}", "name two different points", "reference")
+            reader.error(
+                node,
+                place,
+                Sentence("model.both_points", first=found[0]),
+                Sentence("model.two_points"),
+                "reference",
+            )
             return None
         return tuple(found)
 
@@ -142,8 +151,8 @@ class JointName(Field):
             reader.error(
                 node,
                 place,
-                f'the joint "{name}" is {kind}',
-                f"name a joint that is {' or '.join(self.kinds)}",
+                Sentence("model.joint_is", name=name, kind=Sentence(f"model.{kind}")),
+                Sentence("model.name_joint", kinds=tuple(Sentence(f"model.{each}") for each in self.kinds)),
                 "reference",
             )
             return None

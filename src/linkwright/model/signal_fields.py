@@ -107,7 +107,7 @@ class TableField(Field):
         across = "angle"
         if isinstance(node, MappingNode):
             over, across = reader.over(node, place)
-        with reader.plain_numbers("a table"):
+        with reader.plain_numbers(Sentence("model.plain_table")):
             values = reader.table(node, place, self._fields(across))
         if values is None or over is None or values.get("x") is None or values.get("y") is None:
             return None
@@ -183,9 +183,8 @@ class PhaseField(Field):
             reader.error(
                 node,
                 place,
-                f"{'several forms' if chosen else 'no form'} of a phase",
-                "write one of {input: [a, b]}, {moving: OUTPUT, direction: increasing}, "
-                "{of: OUTPUT, from: max, to: min}",
+                Sentence("model.several_forms" if chosen else "model.no_form"),
+                Sentence("model.write_phase"),
                 "choice",
             )
             return None
@@ -238,7 +237,7 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     if "input" in values:
         start, end = values["input"]
         if start == end:
-            reader.error(node, place, "the phase begins where it ends", "give two different values", "range")
+            reader.error(node, place, Sentence("model.phase_empty"), Sentence("model.two_values"), "range")
             return None
         return InputPhase(start, end, reader.input_dimension())
     if "moving" in values:
@@ -247,8 +246,8 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
         reader.error(
             node,
             place,
-            f"from and to are both {values['from']}",
-            "go from max to min or from min to max",
+            Sentence("model.from_is_to", end=values["from"]),
+            Sentence("model.max_to_min"),
             "range",
         )
         return None

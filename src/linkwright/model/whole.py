@@ -11,6 +11,7 @@ from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
 from linkwright.model.reader import Reader
 from linkwright.units import number
+from linkwright.words.sentence import Sentence
 
 
 def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -44,8 +45,8 @@ def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             reader.error(
                 section.get(name),
                 f"parameters.{name}",
-                f'the parameter "{name}" is used nowhere',
-                "use or remove it",
+                Sentence("model.parameter_unused", name=name),
+                Sentence("model.use_or_remove"),
                 "unused",
                 severity="warning",
             )
@@ -60,8 +61,8 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
             reader.error(
                 node,
                 key,
-                f'the link "{name}" is used nowhere: no other link has one of its points ({points})',
-                "name a shared point alike on both links, or remove the link",
+                Sentence("model.link_unused", name=name, points=points),
+                Sentence("model.share_point"),
                 "unused",
             )
         elif len(link.points) == 1 and not any(
@@ -70,8 +71,8 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
             reader.error(
                 node,
                 key,
-                f'the link "{name}" has one point and is in no prismatic joint',
-                "add a second point with a length, or a prismatic joint with it as block",
+                Sentence("model.lone_point", name=name),
+                Sentence("model.second_point"),
                 "one-point",
             )
 
@@ -93,8 +94,8 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
         reader.error(
             _link_node(root, joined[0]),
             f"links.{joined[0]}",
-            f"{', '.join(joined)} are not connected to the frame",
-            "share a point with the frame or with a link that is connected",
+            Sentence("model.unconnected", links=tuple(joined)),
+            Sentence("model.connect"),
             "not-connected",
         )
 
@@ -111,8 +112,8 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
                 reader.error(
                     _link_node(root, name),
                     f"links.{name}.points",
-                    f'"{point}" is on this link only, and there is a point "{alike[0]}"',
-                    "write both alike if one point is meant",
+                    Sentence("model.lone_spelling", point=point, alike=alike[0]),
+                    Sentence("model.write_alike"),
                     "near-name",
                     severity="warning",
                 )
@@ -129,13 +130,13 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         if link.mass:
             radius = math.sqrt(link.inertia / link.mass)
-            said = f"with {number(link.mass, 6)} kg the radius of gyration is {number(radius, 4)} m"
-            problem = f"{said}, more than twice the link's size of {number(size, 4)} m"
+            said = Sentence("model.gyration", mass=number(link.mass, 6), radius=number(radius, 4))
+            problem = Sentence("model.gyration_large", said=said, size=number(size, 4))
         else:
-            problem = "a link without mass has a moment of inertia"
+            problem = Sentence("model.inertia_without_mass")
         node = _link_node(root, name)
         at = node.get("inertia") if isinstance(node, MappingNode) else None
-        remedy = "check its unit (kg·m²), the mass, and that it is about the mass centre"
+        remedy = Sentence("model.check_inertia")
         reader.error(at or node, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
 
 

@@ -4,5 +4,6 @@ WORDS = {
     "is_folder": '"{path}" is a folder; name a file',
     "no_folder": 'there is no folder "{path}"; create it first',
     "exists": '"{path}" exists; choose another name, or replace it with {remedy}',
-    "cannot_write": 'the file "{path}" cannot be written ({reason}); choose another name or a folder of your own',
+    "cannot_write": 'the file "{path}" cannot be written ({reason}); choose another name or a folder of your '
+    "own",
 }
