@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from tests.reference.adapter import driver_values, guide_direction, link_points, reference_motion
+from tests.reference.agreement import slide_coordinate
 from tests.reference.formulas import (
     damper,
     force_in_link,
@@ -47,7 +48,12 @@ class _Course:
     def output(self, output: Any) -> tuple[Array, Array]:
         if output.kind == "angle":
             return self.motion.angle(output.owner)[:2]
-        raise NotImplementedError(f"output {output}")
+        if output.kind == "displacement":
+            return slide_coordinate(self.mechanism, self.motion, self.mechanism.joints[output.owner])[:2]
+        link, point = output.owner.rsplit(".", 1)
+        place, rate, _ = self.motion.point(link, link_points(self.mechanism, link)[point])
+        axis = "xy".index(output.kind)
+        return place[:, axis], rate[:, axis]
 
     def magnitude(self, load: Any) -> Array:
         """Size (n,) of the load: number, expression or ramp, zero outside its phase."""
@@ -58,9 +64,23 @@ class _Course:
             size = np.full(len(self.time), load.magnitude)
         elif load.magnitude is not None:
             size = self._expression(load.magnitude)
+        elif load.table is not None:
+            size = self._table(load.table)
         else:
-            raise NotImplementedError(f"tables of loads ({load.name})")
+            size = np.ones(len(self.time))
         return np.where(inside, size, 0.0)
+
+    def _table(self, table: Any) -> Array:
+        if table.over == "time":
+            across = self.time
+        elif table.over == "input":
+            across = self.input
+        else:
+            across = self.output(table.over)[0]
+        if table.across == "angle":
+            across = table.x[0] + (across - table.x[0]) % (2 * pi)
+        size: Array = np.interp(across, table.x, table.y)
+        return size
 
     def _expression(self, expression: Any) -> Array:
         values: dict[str, Any] = {**self.mechanism.parameters, "input": self.input}
@@ -72,14 +92,19 @@ class _Course:
         if phase is None:
             return np.ones(len(self.time), dtype=bool), np.full(len(self.time), np.nan)
         if hasattr(phase, "direction"):
-            rate = self.output(phase.output)[1]
-            return (rate > 0 if phase.direction == "increasing" else rate < 0), np.full(
-                len(self.time), np.nan
-            )
+            rate = self.output(phase.output)[1] * (1.0 if phase.direction == "increasing" else -1.0)
+            still = 1e-9 * np.nanmax(np.abs(self.motion.qd))
+            return rate > still, np.full(len(self.time), np.nan)
+        if not hasattr(phase, "output") and not self._turning():
+            return (self.input >= phase.start) & (self.input <= phase.end), np.full(len(self.time), np.nan)
         begin, end = (phase.start, phase.end) if not hasattr(phase, "output") else self._limits(phase)
         way = float(np.sign(self.rate[0])) if hasattr(phase, "output") else float(np.sign(end - begin))
         progress = ((self.input - begin) * way % (2 * pi)) / ((end - begin) * way % (2 * pi))
         return progress <= 1.0, progress
+
+    def _turning(self) -> bool:
+        driver = next(iter(self.mechanism.drivers.values()))
+        return bool(self.mechanism.joints[driver.joint].kind == "revolute")
 
     def _limits(self, phase: Any) -> tuple[float, float]:
         """Inputs at the largest and the smallest angle of a link over one turn of a constant-speed driver."""
@@ -110,6 +135,8 @@ class _Course:
 
 def _force(mechanism: Any, load: Any, course: _Course) -> Load:
     at, size = link_points(mechanism, load.on)[load.at], course.magnitude(load)
+    if load.components is not None:
+        return force_in_space(load.on, at, np.outer(size, load.components))
     if load.direction is not None:
         return force_in_space(load.on, at, np.outer(size, (np.cos(load.direction), np.sin(load.direction))))
     angle = _angle_in_link(mechanism, load)

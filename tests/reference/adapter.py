@@ -26,7 +26,7 @@ from tests.reference.multibody import (
     turn,
     weld,
 )
-from tests.reference.placing import place_by_groups
+from tests.reference.placing import fulfils_words, place_by_groups
 
 Mechanism = Any
 
@@ -103,8 +103,8 @@ def reference_motion(mechanism: Mechanism, time: Array) -> Motion:
 
 def starting_position(mechanism: Mechanism, system: Multibody, u0: Array) -> tuple[Array, Array]:
     """An assembled position and its driver coordinates: that of the drawing, or one at u0 by the words."""
-    drawn = drawn_position(mechanism, system, u0) if mechanism.drawing and not mechanism.assembly else None
-    if drawn is None:
+    drawn = drawn_position(mechanism, system, u0) if mechanism.drawing else None
+    if drawn is None or not _as_the_words_say(mechanism, system, drawn):
         return place_by_groups(mechanism, system, u0), u0
     values = system.residual(drawn, np.zeros(system.drivers))
     rows = [int(np.flatnonzero(system.selection[:, k])[0]) for k in range(system.drivers)]
@@ -112,6 +112,15 @@ def starting_position(mechanism: Mechanism, system: Multibody, u0: Array) -> tup
     turning = np.array([row in system.row_angle for row in rows])
     u = np.where(turning, u + 2 * np.pi * np.round((u0 - u) / (2 * np.pi)), u)
     return system.assemble(drawn, u), u
+
+
+def _as_the_words_say(mechanism: Mechanism, system: Multibody, drawn: Array) -> bool:
+    """Whether the drawn position fulfils all words that the file gives."""
+    poses = {
+        name: (float(q[0]), float(q[1]), float(q[2])) for name, q in zip(system.index, drawn, strict=True)
+    }
+    inner = (mechanism.joints[name].joined for name in mechanism.assembly)
+    return all(fulfils_words(mechanism, poses, [k for k in links if k != FRAME]) for links in inner)
 
 
 def drawn_position(mechanism: Mechanism, system: Multibody, u0: Array) -> Array | None:

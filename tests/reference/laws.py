@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -70,13 +71,18 @@ FUNCTIONS = {"sqrt": _sqrt, "sin": _sin, "cos": _cos, "exp": _exp}
 
 def taylor(text: str, values: Mapping[str, float | Array], t: Array) -> Taylor:
     """The expression `text` of t (s) and named values, with its derivatives at the times t."""
-    unit = "|".join(sorted(map(re.escape, UNITS), key=len, reverse=True))
-    numbers = r"(?<![\w.])(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)"
-    prepared = re.sub(rf"{numbers}\s+({unit})\b", lambda m: f"({m[1]}*{UNITS[m[2]]!r})", text)
     one = np.ones_like(t)
     names = {name: Taylor(value * one, 0 * one, 0 * one) for name, value in {**values, "pi": math.pi}.items()}
     names["t"] = Taylor(t, one, 0 * one)
-    return _value(ast.parse(prepared.replace("^", "**"), mode="eval").body, names, one)
+    return _value(_parsed(text), names, one)
+
+
+@lru_cache(maxsize=100)
+def _parsed(text: str) -> ast.expr:
+    unit = "|".join(sorted(map(re.escape, UNITS), key=len, reverse=True))
+    numbers = r"(?<![\w.])(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)"
+    prepared = re.sub(rf"{numbers}\s+({unit})\b", lambda m: f"({m[1]}*{UNITS[m[2]]!r})", text)
+    return ast.parse(prepared.replace("^", "**"), mode="eval").body
 
 
 def _value(node: ast.expr, names: Mapping[str, Taylor], one: Array) -> Taylor:
@@ -120,14 +126,25 @@ def law_values(law: Any, t: Array) -> Taylor:
 
 
 def _table(times: Array, positions: Array, interpolation: str, t: Array) -> Taylor:
+    value, first, second, drift = _pieces(tuple(times), tuple(positions), interpolation)
+    return Taylor(value(t) + drift * (t - times[0]), first(t) + drift, second(t))
+
+
+@lru_cache(maxsize=100)
+def _pieces(times: tuple[float, ...], positions: tuple[float, ...], interpolation: str) -> Any:
+    """Piecewise polynomials of value, slope and curvature, and the slope of what is added to them."""
+    x, y, drift = np.array(times), np.array(positions), 0.0
     if interpolation == "linear":
-        slope = np.diff(positions) / np.diff(times)
-        pieces = PPoly(np.array([slope, positions[:-1]]), times)
-        return Taylor(pieces(t), pieces(t, 1), 0 * t)
-    if interpolation == "periodic":
-        drift = (positions[-1] - positions[0]) / (times[-1] - times[0])
-        rest = positions - drift * (times - times[0])
-        spline = CubicSpline(times, np.append(rest[:-1], rest[0]), bc_type="periodic")
-        return Taylor(spline(t) + drift * (t - times[0]), spline(t, 1) + drift, spline(t, 2))
-    spline = CubicSpline(times, positions)
-    return Taylor(spline(t), spline(t, 1), spline(t, 2))
+        pieces: Any = PPoly(np.array([np.diff(y) / np.diff(x), y[:-1]]), x)
+    elif interpolation == "periodic":
+        drift = (y[-1] - y[0]) / (x[-1] - x[0])
+        rest = y - drift * (x - x[0])
+        pieces = CubicSpline(x, np.append(rest[:-1], rest[0]), bc_type="periodic")
+    else:
+        pieces = CubicSpline(x, y)
+    return pieces, pieces.derivative(1), pieces.derivative(2), drift
+
+
+def kinks(law: Any) -> list[float]:
+    """Times at which the law's velocity jumps."""
+    return list(law.times[1:-1]) if getattr(law, "interpolation", "") == "linear" else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from tests.reference.draft import Awkward, Draft
-from tests.reference.random_mechanisms import PlacedLink, world
+from tests.reference.random_mechanisms import DriverLaw, PlacedLink, world
 
 
 def random_loads(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> dict[str, str]:
@@ -78,3 +78,31 @@ def _pressure(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
     joint = d.pick([slide.name for slide in d.slides])
     size = d.pick(["bore: 40 mm", "area: 0.002 m²", "bore: 60 mm, pushes: backward"])
     return f"{{kind: pressure, joint: {joint}, {size}, magnitude: {_rounded(d, -90, 90)} kPa}}"
+
+
+def cyclic_loads(
+    d: Draft, links: dict[str, PlacedLink], order: list[str], laws: list[DriverLaw], duration: float | None
+) -> dict[str, str]:
+    """Sometimes a force whose size changes over the cycle: expression, table, phase, with all three directions."""
+    if not d.chance(0.5):
+        return {}
+    on = d.pick(order)
+    point, size = d.pick(list(links[on].points)), _rounded(d, -200, 200)
+    ways = [f"magnitude: {size} N, {_phase(d, order, laws)}", f"components: [{size} N, 12.5 N]"]
+    turning = "input" if laws[0].kind == "turn" else "3*input/(1 m)"
+    ways += [f'magnitude: "{size} N*cos({turning}) + 7 N"', f'magnitude: "{size} N*sin(7*t/(1 s))"']
+    if duration is not None:
+        times, values = [0.0, 0.4 * duration, duration], [_rounded(d, -99, 99) for _ in range(3)]
+        x, y = (", ".join(f"{v!r} {unit}" for v in row) for row, unit in ((times, "s"), (values, "N")))
+        ways += [f"table: {{over: time, x: [{x}], y: [{y}]}}"]
+    way = d.pick(ways)
+    turned = "" if way.startswith("components") else f"direction: {_rounded(d, -180, 180)} deg, "
+    return {"work": f"{{kind: force, on: {on}, at: {point}, {turned}{way}}}"}
+
+
+def _phase(d: Draft, order: list[str], laws: list[DriverLaw]) -> str:
+    if d.chance(0.5):
+        return f"phase: {{moving: {d.pick(order)}, direction: {d.pick(['increasing', 'decreasing'])}}}"
+    unit, reach = ("rad", 3.0) if laws[0].kind == "turn" else ("m", 0.3)
+    low = laws[0].start + _rounded(d, -reach / 2, reach / 4)
+    return f"phase: {{input: [{low!r} {unit}, {low + _rounded(d, 0.1 * reach, reach)!r} {unit}]}}"

@@ -157,18 +157,18 @@ def _finished(d: Draft, seed: int, masses: bool, with_loads: bool) -> RandomCase
     order = [name for name in d.links if name != FRAME]
     if d.chance(0.3):
         d.rng.shuffle(order)
-    links = {name: _placed_link(d, name) for name in order}
+    links = {name: placed_link(d, name) for name in order}
     for name, link in links.items():
         if masses and d.chance(0.8):
-            _give_mass(d, link)
+            give_mass(d, link)
         if len(link.points) == 1 and not any(name in (s.guide, s.block) for s in d.slides):
             raise Awkward
     if len(order) > 10:
         raise Awkward
     links[FRAME] = PlacedLink(FRAME, "coordinates", (0.0, 0.0, 0.0), dict(d.links[FRAME]), 0)
-    system = _system(d, links, order)
+    system = system_of(d, links, order)
     start = np.array([links[name].pose for name in [FRAME, *order]])
-    laws = _laws(d, links)
+    laws = constant_speeds(d, links)
     case = RandomCase(seed, "", system, start, links, laws, (0.0, 0.0), tuple(k for k, *_ in d.dyads))
     case.span = _reachable_span(d, case)
     from tests.reference.random_loads import random_loads
@@ -180,7 +180,7 @@ def _finished(d: Draft, seed: int, masses: bool, with_loads: bool) -> RandomCase
     return case
 
 
-def _placed_link(d: Draft, name: str) -> PlacedLink:
+def placed_link(d: Draft, name: str) -> PlacedLink:
     """Chooses axes and the way of writing; the local coordinates carry the file's exact numbers."""
     world = d.links[name]
     names = list(world)
@@ -225,7 +225,7 @@ def _one_point_axes(d: Draft, name: str) -> float:
     return d.angle()
 
 
-def _give_mass(d: Draft, link: PlacedLink) -> None:
+def give_mass(d: Draft, link: PlacedLink) -> None:
     link.mass = float(round(d.rng.uniform(0.2, 20.0), 3))
     link.inertia = float(round(d.rng.uniform(0.01, 2.0), 4)) if d.chance(0.8) else 0.0
     if d.chance(0.5):
@@ -255,7 +255,7 @@ def world(link: PlacedLink, point: str) -> Vec:
     return x + cos(phi) * a - sin(phi) * b, y + sin(phi) * a + cos(phi) * b
 
 
-def _system(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> Multibody:
+def system_of(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> Multibody:
     parts: list[Constraint] = []
     names = list(dict.fromkeys(p for name in [FRAME, *order] for p in links[name].points))
     welded = {w.at: w.b for w in d.welds}
@@ -280,7 +280,7 @@ def _system(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> Multibo
     return Multibody(bodies, parts, len(d.drives))
 
 
-def _laws(d: Draft, links: dict[str, PlacedLink]) -> list[DriverLaw]:
+def constant_speeds(d: Draft, links: dict[str, PlacedLink]) -> list[DriverLaw]:
     laws = []
     for drive in d.drives:
         sign = 1.0 if d.chance(0.6) else -1.0

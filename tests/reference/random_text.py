@@ -2,16 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees
 
 from tests.reference.draft import Draft, Slide
 from tests.reference.multibody import FRAME, Vec
-from tests.reference.random_mechanisms import PlacedLink, RandomCase, local_direction, offset, world
+from tests.reference.random_mechanisms import (
+    DriverLaw,
+    PlacedLink,
+    RandomCase,
+    local_direction,
+    offset,
+    world,
+)
 
 
-def file_text(d: Draft, case: RandomCase) -> str:
+def file_text(
+    d: Draft,
+    case: RandomCase,
+    *,
+    drivers: list[str] | None = None,
+    cycle: str | None = "",
+    parameters: Mapping[str, str] | None = None,
+) -> str:
+    """The file; `drivers` are the laws (default: the case's constant speeds), `cycle` its line (None: none)."""
     words = _assembly_words(d, case) if d.by_words else {}
-    lines = ["format: 1", f"name: Random mechanism {case.seed}", "frame:"]
+    lines = ["format: 1", f"name: Random mechanism {case.seed}"]
+    lines += (
+        [f"parameters: {{{', '.join(f'{k}: {v}' for k, v in parameters.items())}}}"] if parameters else []
+    )
+    lines += ["frame:"]
     lines += [f"  points: {_points(case.links[FRAME].points, list(case.links[FRAME].points))}", "links:"]
     lines += [f"  {link.name}: {_link(link)}" for link in case.links.values() if link.name != FRAME]
     if d.slides or d.welds:
@@ -22,7 +42,8 @@ def file_text(d: Draft, case: RandomCase) -> str:
         lines += [f"assembly: {{{', '.join(f'{k}: {v}' for k, v in words.items())}}}"]
     if not d.by_words:
         lines += [f"drawing: {_drawing(case)}"]
-    lines += [*_drivers(case), _cycle(case)]
+    lines += _drivers(case, drivers or [_constant_speed(law) for law in case.laws])
+    lines += [_cycle(case)] if cycle == "" else [cycle] if cycle else []
     lines += ["gravity: [0, -9.81 m/s²]"] if d.chance(0.7) else []
     if case.loads:
         lines += ["loads:"] + [f"  {name}: {load}" for name, load in case.loads.items()]
@@ -105,15 +126,18 @@ def _side(d: Draft, inner: str, first: str, last: str) -> str:
     return "left" if turn > 0 else "right"
 
 
-def _drivers(case: RandomCase) -> list[str]:
+def _constant_speed(law: DriverLaw) -> str:
+    unit = "rad" if law.kind == "turn" else "m"
+    return f"speed: {_number(law.speed, unit + '/s')}, start: {_number(law.start, unit)}"
+
+
+def _drivers(case: RandomCase, laws: list[str]) -> list[str]:
     parts = []
-    for law in case.laws:
-        unit = "rad" if law.kind == "turn" else "m"
-        rate = f"speed: {_number(law.speed, unit + '/s')}, start: {_number(law.start, unit)}"
+    for law, given in zip(case.laws, laws, strict=True):
         if law.kind == "turn":
-            parts.append(f"{{turn: {law.link}, about: {law.joint}, relative_to: {law.relative_to}, {rate}}}")
+            parts.append(f"{{turn: {law.link}, about: {law.joint}, relative_to: {law.relative_to}, {given}}}")
         else:
-            parts.append(f"{{slide: {law.joint}, {rate}}}")
+            parts.append(f"{{slide: {law.joint}, {given}}}")
     if len(parts) == 1:
         return [f"driver: {parts[0]}"]
     return ["drivers:"] + [f"  {law.name}: {part}" for law, part in zip(case.laws, parts, strict=True)]

@@ -1,0 +1,113 @@
+"""Random mechanisms without reserve, the branch that is followed independently, and the judge itself.
+
+`python -m tests.random_mechanisms` judges as many as wanted.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.reference import judge
+from tests.reference.adapter import driver_values, reference_system, starting_position
+from tests.reference.branch import Follower
+from tests.reference.general_case import general_case
+from tests.reference.judge import AGREES, LIMIT, judged
+from tests.reference.laws import kinks
+
+import linkwright as lw
+
+
+def test_everything_comes_up() -> None:
+    texts = [general_case(seed).text for seed in range(300)]
+    models = [lw.loads(text) for text in texts]
+    drivers = Counter(len(m.drivers) for m in models)
+    assert min(drivers[n] for n in (1, 2, 3)) >= 20
+    laws = Counter(type(d.law).__name__ for m in models for d in m.drivers.values())
+    assert min(laws[name] for name in ("ConstantSpeed", "ExpressionLaw", "TableLaw")) >= 50
+    inner = [d for m in models for d in m.drivers.values() if "frame" not in (d.link, d.relative_to)]
+    assert {m.joints[d.joint].kind for m in models for d in m.drivers.values() if d in inner} == {
+        "revolute", "prismatic",
+    }  # fmt: skip
+    loads = {load.kind for m in models for load in m.loads.values()}
+    assert loads == {"force", "torque", "spring", "damper", "torsion_spring", "torsion_damper", "pressure"}
+    for words in (
+        "interpolation: linear",
+        "interpolation: periodic",
+        "swingd0",
+        "kind: weld",
+        "moving:",
+        "input:",
+    ):
+        assert sum(words in text for text in texts) >= 3, words
+    sizes = Counter(len(group.links) for m in models for group in lw.structure(m).groups)
+    assert sizes[4] >= 20 and sum(n for size, n in sizes.items() if size > 4) >= 10
+
+
+def test_the_same_seed_gives_the_same_text() -> None:
+    assert general_case(5).text == general_case(5).text != general_case(6).text
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_branch_keeps_its_sign_and_its_smoothness(seed: int) -> None:
+    """Positions fulfil the constraints; a branch followed with a fifth of the step ends in the same positions."""
+    mechanism: Any = lw.loads(general_case(seed).text)
+    if any(kinks(d.law) for d in mechanism.drivers.values()):
+        return
+    system = reference_system(mechanism)
+    start, u0 = starting_position(mechanism, system, driver_values(mechanism, np.zeros(1))[0][0])
+    u = driver_values(mechanism, np.zeros(1))[0][0]
+
+    def law(t: float) -> tuple[Any, Any, Any]:
+        f, d, dd = driver_values(mechanism, np.array([t]))
+        return f[0] - u + u0, d[0], dd[0]
+
+    times = np.linspace(0.0, 0.3, 5)
+    coarse, fine = (Follower(system, law, care).follow(start, 0.0, times, 0.3) for care in (1.0, 5.0))
+    assert len(coarse.q) == len(fine.q) >= 1
+    signs = {float(np.linalg.slogdet(system.jacobian(q)[:, 3:])[0]) for q in coarse.q}
+    assert len(signs) == 1
+    for a, b, t in zip(coarse.q, fine.q, times, strict=False):
+        assert np.abs(system.residual(a, law(float(t))[0])).max() < 1e-10
+        assert a == pytest.approx(b, abs=1e-8)
+
+
+SLIDER_CRANK = """
+format: 1
+name: slider-crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg}
+  rod: {points: [A, B], length: 0.7 m, mass: 2 kg}
+  piston: {points: [B], mass: 3 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+drawing: {A: [0.2 m, 0 m], B: [0.9 m, 0 m]}
+driver: {turn: crank, about: O, speed: 3 rad/s}
+"""
+TOO_SHORT = SLIDER_CRANK.replace("0.7 m", "0.15 m").replace("0.9 m", "0.35 m")
+
+
+def test_the_judge_knows_right_from_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A right result agrees; the other assembly, a refused position, an invented one, a wrong rate do not."""
+    assert judged(SLIDER_CRANK, 12).kind == AGREES
+    assert judged(TOO_SHORT, 12).kind == LIMIT
+    solve = lw.solve_motion
+
+    def from_another(text: str) -> None:
+        other = lw.loads(text)
+        monkeypatch.setattr(lw, "solve_motion", lambda _, **given: solve(other, **given))
+
+    from_another(SLIDER_CRANK.replace("B: [0.9 m", "B: [-0.5 m"))
+    assert judged(SLIDER_CRANK, 12).kind == "other branch"
+    from_another(TOO_SHORT)
+    assert judged(SLIDER_CRANK, 12).kind in ("refused", "other branch")
+    from_another(SLIDER_CRANK)
+    assert judged(TOO_SHORT, 12).kind in ("beyond a limit", "other branch")
+    from_another(SLIDER_CRANK.replace("0.7 m,", "0.7000001 m,"))
+    assert judged(SLIDER_CRANK, 12).kind == "wrong number"
+    monkeypatch.undo()
+    assert judged(SLIDER_CRANK.replace("3 rad/s", "3 rad"), 12).kind == "not read"
+    monkeypatch.setattr(judge, "_allowed", lambda condition: 0.0 * condition)
+    assert judged(SLIDER_CRANK, 12).kind == "wrong number"
