@@ -181,7 +181,7 @@ def test_what_follows_the_positions_takes_any_reduction_by_name(backend: str, ca
     names = [f"y.{kind}" for kind in PLAIN] + ["y.at_max.z", "z.at_min.y", VALID_COUNT]
     f = Trace()
     after = Program.of(
-        f, {f"twice {name}": f.parameter(name) * 2.0 for name in names} | {"a": f.parameter("a")}
+        f, {f"twice {name}": f.parameter(name) * 2.0 for name in names} | {"own": f.parameter("a")}
     )
     xs = np.random.default_rng(2).uniform(-1.0, 1.0, 29)
     reductions = [Reduction.named(name) for name in names[:-1]]
@@ -197,7 +197,7 @@ def test_what_follows_the_positions_takes_any_reduction_by_name(backend: str, ca
     )
     for name in names:
         np.testing.assert_allclose(got[f"twice {name}"], 2.0 * got[name], rtol=1e-15)
-    np.testing.assert_array_equal(got["a"], [1.0, -2.0, math.nan])
+    np.testing.assert_array_equal(got["own"], [1.0, -2.0, math.nan])
     assert math.isnan(got["y.max"][2])
 
 

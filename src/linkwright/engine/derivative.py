@@ -25,7 +25,7 @@ def forward(program: Program, wrt: Sequence[str]) -> Program:
     """
     _check_inputs(program, wrt, (*program.parameters, *program.positions, *program.fields))
     replay = Replay(program)
-    outputs: dict[str, Scalar | bool] = {name: replay.values[i] for name, i in program.outputs}
+    outputs = replay.outputs
     for name in wrt:
         found = tangents(replay, name)
         for output, index in numeric_outputs(program):
@@ -113,7 +113,7 @@ def _extreme(program: Program, term: Term, wrt: tuple[str, ...], valid: str | No
 def _spread(part: SummedPart, wrt: tuple[str, ...]) -> SummedPart:
     """The same part with zeros as derivatives by parameters that it does not have."""
     replay = Replay(part.after)
-    outputs: dict[str, Scalar | bool] = {name: replay.values[i] for name, i in part.after.outputs}
+    outputs = replay.outputs
     missing = {derivative_name(name): 0.0 for name in wrt if derivative_name(name) not in outputs}
     return SummedPart(part.along, Program.of(replay.trace, {**outputs, **missing}), wrt, part.valid)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,7 @@ from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
-from linkwright.engine.reductions import Accumulation, Reduction
+from linkwright.engine.reductions import Accumulation, Results
 from linkwright.engine.table import Tables, given_tables
 from linkwright.engine.threads import spread_over
 
@@ -24,38 +24,26 @@ __all__ = ["CompiledProgram", "available", "compile_program"]
 
 Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
-Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 _NONE: Arrays = {}
 #: Most configurations (designs times positions) of one call; a call cannot be interrupted.
 _LONGEST_CALL = 1 << 20
 _CALLS_PER_THREAD = 4
 
 
-def compile_program(
-    program: Program,
-    reductions: Sequence[Reduction] | None = None,
-    valid: str | None = None,
-    after: Program | None = None,
-) -> CompiledProgram | None:
+def compile_program(program: Program, accumulation: Accumulation | None = None) -> CompiledProgram | None:
     """The program as machine code, or None where llvmlite is missing.
 
-    Without ``reductions`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
-    them they are summed up inside the loop (:meth:`CompiledProgram.sweep`), over the positions
-    where the truth output ``valid`` holds; ``after`` is evaluated once per design when they are
-    through (see :class:`~linkwright.engine.reductions.Accumulation`). Machine code is kept in
-    memory and on disk. Raises ValueError for unknown outputs.
+    Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
+    one, of this program, its reductions are found inside the loop (:meth:`CompiledProgram.sweep`).
+    Machine code is kept in memory and on disk. Raises ValueError for unknown outputs.
     """
     if not available():
         return None
-    wanted = None if reductions is None else tuple(reductions)
-    key = (wanted, valid, id(after))
-    return _compiled.get(program, key, lambda: _compile(program, wanted, valid, after))
+    owner = program if accumulation is None else accumulation
+    return _compiled.get(owner, None, lambda: _compile(program, accumulation))
 
 
-def _compile(
-    program: Program, reductions: tuple[Reduction, ...] | None, valid: str | None, after: Program | None
-) -> CompiledProgram:
-    accumulation = None if reductions is None else Accumulation(program, reductions, valid, after)
+def _compile(program: Program, accumulation: Accumulation | None) -> CompiledProgram:
     needed = program if accumulation is None else accumulation.needed
     if needed.states and not needed.next_states:
         names = ", ".join(needed.states)
@@ -66,7 +54,7 @@ def _compile(
     return CompiledProgram(needed, accumulation, code, width)
 
 
-_compiled: Recent[Program, CompiledProgram] = Recent(64)
+_compiled: Recent[Program | Accumulation, CompiledProgram] = Recent(64)
 
 
 class CompiledProgram:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
-from linkwright.engine.replay import Replay
+from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Scalar, Trace
 
 Kind = Literal[
@@ -147,17 +147,13 @@ class Accumulation:
         """``after`` as formulas of the accumulators, named by their places, instead of the reductions."""
         if self.after is None:
             return None
-        replay = Replay(self.after, (), Trace())
-        t = replay.trace
+        t = Trace()
         count = t.parameter(VALID_COUNT)
-        for index, node in enumerate(self.after.nodes):
-            reduction = self._read.get(node.name) if node.op == "parameter" else None
-            if reduction is None:
-                replay.write(index)
-            else:
-                place = self.steps.index(reduction.steps[-1])
-                replay.values[index] = reduction.value(t, t.parameter(f"{PLACE}{place}"), count)
-        return Program.of(t, {name: replay.values[i] for name, i in self.after.outputs})
+        found = {
+            name: reduction.value(t, t.parameter(f"{PLACE}{self.steps.index(reduction.steps[-1])}"), count)
+            for name, reduction in self._read.items()
+        }
+        return Program.of(t, inlined(self.after, t, found))
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 
 from linkwright.engine.functions import FUNCTIONS
@@ -15,20 +15,29 @@ _BINARY = {"add", "sub", "mul", "div"}
 
 
 class Replay:
-    """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written (None: all)."""
+    """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written (None: all).
+
+    ``inputs``: what stands for inputs of these names; the other inputs stay what they are.
+    """
 
     def __init__(
-        self, program: Program, chosen: Iterable[int] | None = None, trace: Trace | None = None
+        self,
+        program: Program,
+        chosen: Iterable[int] | None = None,
+        trace: Trace | None = None,
+        inputs: Mapping[str, Scalar] | None = None,
     ) -> None:
         self.trace = Trace() if trace is None else trace
         self.program = program
         self.values: dict[int, Scalar] = {}
+        self._given = inputs or {}
         for index in range(len(program.nodes)) if chosen is None else chosen:
-            self.write(index)
+            self.values[index] = self._written(program.nodes[index])
 
-    def write(self, index: int) -> None:
-        """Write one line, whose arguments are there."""
-        self.values[index] = self._written(self.program.nodes[index])
+    @property
+    def outputs(self) -> dict[str, Scalar | bool]:
+        """The program's outputs by name, where all lines are written."""
+        return {name: self.values[i] for name, i in self.program.outputs}
 
     def _written(self, node: Node) -> Scalar:
         t = self.trace
@@ -55,7 +64,9 @@ class Replay:
             return t.select(_truth(args[0]), args[1], args[2])
         return self._input(node)
 
-    def _input(self, node: Node) -> Value:
+    def _input(self, node: Node) -> Scalar:
+        if node.name in self._given:
+            return self._given[node.name]
         t = self.trace
         make = {"parameter": t.parameter, "position": t.position, "field": t.field_input, "state": t.state}
         return make[node.op](node.name)
@@ -86,3 +97,11 @@ def depending(program: Program, names: Iterable[str]) -> set[int]:
 def operations(program: Program, chosen: set[int]) -> Iterator[int]:
     """The chosen lines that are operations, last first."""
     return (i for i in range(len(program.nodes) - 1, -1, -1) if i in chosen and program.nodes[i].args)
+
+
+def inlined(program: Program, trace: Trace, inputs: Mapping[str, Scalar]) -> dict[str, Scalar | bool]:
+    """The outputs of a program written into a trace, with values of that trace for some of its inputs.
+
+    So a motion traced over positions becomes one at a state, a cycle value, or another function of them.
+    """
+    return Replay(program, trace=trace, inputs=inputs).outputs

@@ -1,0 +1,159 @@
+"""Cycle programs: stages over the positions of every design, joined by numbers found on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.reductions import Results
+from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
+from linkwright.engine.table import Tables
+from linkwright.engine.threads import chunks, cores
+
+Floats = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+#: Configurations between two reports of progress; fewer where stages keep fields.
+_REPORT, _REPORT_WITH_FIELDS = 1 << 23, 1 << 20
+
+
+@dataclass(frozen=True, eq=False)
+class CycleProgram:
+    """Stages in their order; a stage takes dimensions and the results of stages before it.
+
+    ``dimensions``: the parameters that no stage finds, in the order of the columns that
+    :meth:`evaluate` takes; by default as they appear. Raises ValueError for a name found twice, or taken
+    before it is found.
+    """
+
+    stages: tuple[Stage, ...]
+    dimensions: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        found: set[str] = set()
+        later = {name for stage in self.stages for name in stage.results}
+        taken: dict[str, None] = {}
+        for stage in self.stages:
+            early = [name for name in stage.parameters if name in later and name not in found]
+            if early:
+                raise ValueError(f"the cycle values {', '.join(early)} are taken before they are found")
+            taken |= dict.fromkeys(name for name in stage.parameters if name not in found)
+            twice = [name for name in stage.results if name in found or name in self.dimensions]
+            if twice:
+                raise ValueError(f"more than one stage finds {', '.join(twice)}")
+            found |= set(stage.results)
+        missing = [name for name in taken if name not in self.dimensions]
+        if self.dimensions and missing:
+            raise ValueError(f"the parameters {', '.join(missing)} are neither dimensions nor cycle values")
+        object.__setattr__(self, "dimensions", self.dimensions or tuple(taken))
+
+    @cached_property
+    def results(self) -> tuple[str, ...]:
+        """Names of all cycle values."""
+        return tuple(name for stage in self.stages for name in stage.results)
+
+    def evaluate(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+        progress: Progress | None = None,
+    ) -> Results:
+        """Results of all stages, (designs,) per name.
+
+        ``table``: (designs, dimensions); ``positions``: (n,) per name; ``fields``: (designs, n) per
+        name; ``tables``: those that the programs look up. ``threads``: None for all cores; results do not
+        depend on it. ``progress(done, designs)`` is called now and then; what it raises stops the
+        evaluation, as the keyboard's interrupt does. ``backend`` ``auto`` compiles where that pays and
+        llvmlite is there. Memory does not grow with the designs, but for fields and results. Raises
+        ValueError for unknown back ends, missing inputs and wrong shapes.
+        """
+        if backend not in BACKENDS:
+            raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
+        numbers = np.ascontiguousarray(table, dtype=np.float64)
+        if numbers.ndim != 2 or numbers.shape[1] != len(self.dimensions):
+            wanted = ", ".join(self.dimensions)
+            raise ValueError(f"the table must have the columns {wanted}, not the shape {numbers.shape}")
+        given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
+        n = self._length(positions or {}, given)
+        run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
+        report = _REPORT_WITH_FIELDS if any(stage.keep for stage in self.stages) else _REPORT
+        parts: list[Results] = []
+        for first, end in chunks(len(numbers), max(1, report // max(n, 1))):
+            rows = {name: array[first:end] for name, array in given.items()}
+            parts.append(self._block(numbers[first:end], rows, run))
+            if progress is not None:
+                progress(end, len(numbers))
+        if not parts:
+            return self._block(numbers, given, run)
+        if len(parts) == 1:
+            return parts[0]
+        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+    def _block(self, numbers: Floats, fields: dict[str, Floats], run: Run) -> Results:
+        """All stages of some designs."""
+        known = _Known(self.dimensions, numbers, dict(fields))
+        failed = np.zeros(len(numbers), dtype=np.bool_)
+        for stage in self.stages:
+            own = run if stage.steps is None else Run({}, stage.steps, run.tables, run.threads, run.backend)
+            needed, kept = stage.accumulation.needed, stage.kept
+            table, start = known.table(stage.accumulation.parameters), known.starts(stage, needed.states)
+            results, missed = stage.evaluate(table, known.fields, start, own)
+            failed |= missed
+            blank(results, failed)
+            if stage.keep:
+                table, start = known.table(kept.parameters), known.starts(stage, kept.states)
+                known.fields |= stage.fields(table, known.fields, start, own)
+            known.values |= results
+        return known.values
+
+    def _length(self, positions: Arrays, fields: Mapping[str, Floats]) -> int:
+        lengths = {int(np.shape(array)[-1]) for array in (*positions.values(), *fields.values())}
+        if not lengths and all(stage.steps is not None for stage in self.stages):
+            return max(stage.steps or 1 for stage in self.stages)
+        if len(lengths) != 1:
+            raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
+        return lengths.pop()
+
+
+@dataclass
+class _Known:
+    """What is known of some designs so far."""
+
+    dimensions: tuple[str, ...]
+    numbers: Floats
+    fields: dict[str, Floats]
+    values: Results = field(default_factory=dict)
+
+    def table(self, names: tuple[str, ...]) -> Floats:
+        """(designs, names), without a copy where these are the dimensions."""
+        if names == self.dimensions:
+            return self.numbers
+        if not any(name in self.values for name in names):
+            return np.ascontiguousarray(self.numbers[:, [self.dimensions.index(name) for name in names]])
+        table = np.empty((len(self.numbers), len(names)))
+        for column, name in enumerate(names):
+            table[:, column] = self.column(name)
+        return table
+
+    def column(self, name: str) -> NDArray[np.float64] | NDArray[np.int64]:
+        """A cycle value or a dimension."""
+        return self.values[name] if name in self.values else self.numbers[:, self.dimensions.index(name)]
+
+    def starts(self, stage: Stage, states: tuple[str, ...]) -> Floats | None:
+        """First values of the named states, (designs, states)."""
+        if not states or not stage.starts:
+            return None
+        start = np.empty((len(self.numbers), len(states)))
+        for column, name in enumerate(states):
+            source = stage.starts[name]
+            start[:, column] = self.column(source) if isinstance(source, str) else source
+        return start

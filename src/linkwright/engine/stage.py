@@ -1,0 +1,203 @@
+"""One stage of a cycle program: a program at all positions of some designs, and what is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.numpy_backend import numpy_program
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import VALID_COUNT, Accumulation, Reduction, Results, accumulate
+from linkwright.engine.table import Tables
+from linkwright.engine.threads import spread_over
+
+if TYPE_CHECKING:
+    from linkwright.engine.llvm_backend import CompiledProgram
+
+Backend = Literal["auto", "numpy", "llvm"]
+BACKENDS: tuple[Backend, ...] = ("auto", "numpy", "llvm")
+Floats = NDArray[np.float64]
+Arrays = Mapping[str, ArrayLike]
+
+#: Below this number of configurations NumPy has answered before a program is compiled.
+_WORTH_COMPILING = 20_000
+_NUMPY_CHUNK = 1 << 18
+
+
+@dataclass(frozen=True)
+class Run:
+    """How and over what a stage is evaluated: ``length`` positions, ``threads`` threads."""
+
+    positions: Arrays
+    length: int
+    tables: Tables | None
+    threads: int
+    backend: Backend
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A program over the positions; its results are cycle values, which later stages take as parameters.
+
+    ``reductions``: by the name of the result. ``after``: a program per design behind them, whose outputs
+    are results (see :class:`~linkwright.engine.reductions.Accumulation`). ``valid``: the truth output that
+    says which positions enter; without an output of this name all do. ``count``: the name of the result
+    that is the number of valid positions, if wanted. ``complete``: a design with a position that is not
+    valid has no results from here on: NaN, or -1 for position numbers and counts.
+
+    ``steps``: the stage has no positions but is an iteration of so many steps; a program with states takes
+    their first values from ``starts``: a dimension, a cycle value, or a number, by the name of the state.
+    ``keep``: outputs that later stages take as fields of the same name.
+    """
+
+    program: Program
+    reductions: Mapping[str, Reduction] = field(default_factory=dict)
+    after: Program | None = None
+    valid: str | None = "valid"
+    count: str = ""
+    complete: bool = False
+    steps: int | None = None
+    starts: Mapping[str, str | float] = field(default_factory=dict)
+    keep: tuple[str, ...] = ()
+
+    @cached_property
+    def accumulation(self) -> Accumulation:
+        """The accumulators of the stage. Raises ValueError for outputs and kinds that do not exist."""
+        judged = self.valid if self.valid in self.program.output_names else None
+        return Accumulation(self.program, tuple(self.reductions.values()), judged, self.after)
+
+    @cached_property
+    def kept(self) -> Program:
+        """The program of the outputs that later stages take as fields."""
+        return self.program.only(list(self.keep))
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """Names of the results."""
+        following = self.after.output_names if self.after is not None else ()
+        return (*self.reductions, *following, *([self.count] if self.count else []))
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """What it takes of every design."""
+        started = [self.starts[name] for name in self.program.states if name in self.starts]
+        kept = self.kept.parameters if self.keep else ()
+        named = [name for name in started if isinstance(name, str)]
+        return tuple(dict.fromkeys([*self.accumulation.parameters, *kept, *named]))
+
+    def evaluate(
+        self, table: Floats, fields: Mapping[str, Floats], start: Floats | None, run: Run
+    ) -> tuple[Results, NDArray[np.bool_]]:
+        """Results of some designs, and which of them have none from here on.
+
+        ``table``: in the order of ``accumulation.parameters``; ``start``: of ``accumulation.needed.states``.
+        """
+        own = {name: fields[name] for name in self.accumulation.needed.fields if name in fields}
+        found = reduced(self.accumulation, table, own, start, run)
+        results = {name: found[r.name] for name, r in self.reductions.items()}
+        results |= {name: found[name] for name in (self.after.output_names if self.after else ())}
+        if self.count:
+            results[self.count] = found[VALID_COUNT]
+        valid = np.asarray(found[VALID_COUNT])
+        return results, (valid != run.length) if self.complete else np.zeros(len(valid), dtype=np.bool_)
+
+    def fields(
+        self, table: Floats, fields: Mapping[str, Floats], start: Floats | None, run: Run
+    ) -> dict[str, Floats]:
+        """The outputs to keep, (designs, n) each; inputs in the order of ``kept.parameters``, ``.states``."""
+        compiled = _compiled(self.kept, None, run, len(table))
+        if compiled is not None:
+            found = compiled.store(
+                table,
+                run.positions,
+                fields,
+                start=start,
+                threads=run.threads,
+                length=run.length,
+                tables=run.tables,
+            )
+        else:
+            found = numpy_program(self.kept).run_designs(
+                table, run.positions, fields, start=start, length=run.length, tables=run.tables
+            )
+        return {name: found[:, place] for place, name in enumerate(self.keep)}
+
+
+def blank(results: Results, failed: NDArray[np.bool_]) -> None:
+    """Take the results of failed designs away (in place)."""
+    if failed.any():
+        for values in results.values():
+            values[failed] = np.nan if values.dtype == np.float64 else -1
+
+
+def reduced(
+    accumulation: Accumulation, table: Floats, fields: Arrays, start: Floats | None, run: Run
+) -> Results:
+    """Reductions of some designs, by their own names, on the back end that is asked for."""
+    compiled = _compiled(accumulation.program, accumulation, run, len(table))
+    if compiled is None:
+        return _by_numpy(accumulation, table, fields, start, run)
+    return compiled.sweep(
+        table,
+        run.positions,
+        fields,
+        start=start,
+        threads=run.threads,
+        length=run.length,
+        tables=run.tables,
+    )
+
+
+def _compiled(
+    program: Program, accumulation: Accumulation | None, run: Run, designs: int
+) -> CompiledProgram | None:
+    if run.backend == "numpy" or (run.backend == "auto" and designs * run.length < _WORTH_COMPILING):
+        return None
+    from linkwright.engine.llvm_backend import compile_program
+
+    compiled = compile_program(program, accumulation)
+    if compiled is None and run.backend == "llvm":
+        raise ValueError("llvmlite cannot be loaded: install it, or use the numpy back end")
+    return compiled
+
+
+def _by_numpy(
+    accumulation: Accumulation, table: Floats, fields: Arrays, start: Floats | None, run: Run
+) -> Results:
+    """In blocks that fit the cache."""
+    evaluator = numpy_program(accumulation.needed)
+    names = accumulation.needed.output_names
+    sums, n = accumulation.start(len(table)), run.length
+    count = len(accumulation.needed.parameters)
+
+    def work(first: int, end: int) -> None:
+        rows = {name: np.asarray(array)[first:end] for name, array in fields.items()}
+        own = None if start is None else start[first:end]
+        part, numbers = sums[first:end], table[first:end, :count]
+        blocks = evaluator.blocks(numbers, run.positions, rows, start=own, length=n, tables=run.tables)
+        for designs, columns, outputs in blocks:
+            with np.errstate(all="ignore"):
+                accumulate(accumulation, part[designs], outputs, names, columns.start)
+
+    spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), run.threads, work)
+    if accumulation.following is not None:
+        _follow(accumulation, accumulation.following, table, sums, run)
+    return accumulation.finish(sums, n)
+
+
+def _follow(accumulation: Accumulation, following: Program, table: Floats, sums: Floats, run: Run) -> None:
+    """Evaluate what follows the positions into its columns of ``sums``."""
+    inputs = np.empty((len(table), len(following.parameters)))
+    for column, name in enumerate(following.parameters):
+        origin, place = accumulation.source(name)
+        if origin == "count":
+            inputs[:, column] = run.length
+        else:
+            inputs[:, column] = (table if origin == "parameter" else sums)[:, place]
+    outputs = numpy_program(following).run_designs(inputs, {}, length=1, tables=run.tables)
+    sums[:, len(accumulation.steps) :] = outputs[:, :, 0]

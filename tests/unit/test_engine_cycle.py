@@ -1,0 +1,178 @@
+"""Cycle programs against closed forms: stages, extremes between positions, kept outputs, validity."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.llvm_backend import available
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.replay import inlined
+from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.trace import Scalar, Trace, Value, cos, select, sin, slope, sqrt
+
+Floats = NDArray[np.float64]
+BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
+COUNT = 36
+INPUT = {"q": np.arange(COUNT) * math.tau / COUNT}
+
+
+def stroke_of(q: Scalar, r: Scalar, rod: Scalar, e: Scalar) -> tuple[Scalar, Scalar]:
+    """Place of the slider of an offset slider crank, and what must not be negative for it to be assembled."""
+    square = rod * rod - (r * sin(q) - e) * (r * sin(q) - e)
+    return r * cos(q) + sqrt(square), square
+
+
+def dimensions(t: Trace) -> tuple[Value, Value, Value]:
+    return t.parameter("r"), t.parameter("l"), t.parameter("e")
+
+
+def coarse() -> Stage:
+    """Extremes at the positions, and where they are."""
+    t = Trace()
+    q = t.position("q")
+    x, square = stroke_of(q, *dimensions(t))
+    program = Program.of(t, {"x": x, "q": q, "valid": square >= 0.0})
+    found = {"out.near": Reduction("q", "at_max", "x"), "in.near": Reduction("q", "at_min", "x")}
+    return Stage(program, {**found, "x.mean": Reduction("x", "mean")}, complete=True, count="valid.count")
+
+
+def refined(name: str) -> Stage:
+    """Where the slider stands still, by Newton's steps kept within half a step of the positions."""
+    t = Trace()
+    q, near = t.state("q"), t.parameter(f"{name}.near")
+    x, _ = stroke_of(q, *dimensions(t))
+    rate = slope(x, {q: 1.0})
+    newton = q - rate / slope(rate, {q: 1.0})
+    width = math.tau / COUNT
+    following = select((near - width < newton) & (newton < near + width), newton, q)
+    program = Program.of(t, {"q": q, "x": x, "rate": rate}, {"q": following})
+    found = {f"{name}.{output}": Reduction(output, "last") for output in ("q", "x", "rate")}
+    return Stage(program, found, steps=7, starts={"q": f"{name}.near"})
+
+
+def numbers() -> Stage:
+    """What is made of both limit positions."""
+    t = Trace()
+    stroke = t.parameter("out.x") - t.parameter("in.x")
+    return Stage(Program.of(t, {"stroke": stroke}), {"stroke": Reduction("stroke", "first")}, steps=1)
+
+
+def share_above_middle() -> Stage:
+    """A second look at the positions, with a number found before: how often the slider is beyond the middle."""
+    t = Trace()
+    x, _ = stroke_of(t.position("q"), *dimensions(t))
+    beyond = x > t.parameter("in.x") + 0.5 * t.parameter("stroke")
+    return Stage(Program.of(t, {"beyond": beyond}), {"beyond": Reduction("beyond", "count")})
+
+
+def whole() -> CycleProgram:
+    stages = (coarse(), refined("out"), refined("in"), numbers(), share_above_middle())
+    return CycleProgram(stages, ("r", "l", "e"))
+
+
+def designs(count: int) -> Floats:
+    rng = np.random.default_rng(count)
+    r = rng.uniform(0.5, 1.5, count)
+    return np.stack([r, r * rng.uniform(1.8, 4.0, count), r * rng.uniform(-0.5, 0.5, count)], axis=1)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("count", [1, 8, 19])
+def test_limit_positions_and_stroke_equal_their_closed_form(backend: Backend, count: int) -> None:
+    """Crank and rod in line: x = sqrt((l ± r)² − e²) at the angles asin(e/(l ± r)) (any book)."""
+    table = designs(count)
+    got = whole().evaluate(table, INPUT, backend=backend)
+    r, rod, e = table.T
+    out, back = np.sqrt((rod + r) ** 2 - e**2), np.sqrt((rod - r) ** 2 - e**2)
+    np.testing.assert_allclose(got["out.x"], out, rtol=1e-14)
+    np.testing.assert_allclose(got["in.x"], back, rtol=1e-14)
+    np.testing.assert_allclose(got["stroke"], out - back, rtol=1e-13)
+    at = np.mod(got["out.q"] + 1.0, math.tau) - 1.0
+    np.testing.assert_allclose(at, np.arcsin(e / (rod + r)), atol=1e-13)
+    np.testing.assert_allclose(got["in.q"], math.pi + np.arcsin(e / (rod - r)), atol=1e-13)
+    assert np.abs(got["out.rate"]).max() < 1e-13
+    x = r[:, None] * np.cos(INPUT["q"]) + np.sqrt(
+        rod[:, None] ** 2 - (r[:, None] * np.sin(INPUT["q"]) - e[:, None]) ** 2
+    )
+    np.testing.assert_allclose(got["x.mean"], x.mean(axis=1), rtol=1e-13)
+    np.testing.assert_array_equal(got["beyond"], (x > 0.5 * (out + back)[:, None]).sum(axis=1))
+    assert (got["valid.count"] == COUNT).all()
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_design_that_cannot_turn_has_no_results(backend: Backend) -> None:
+    table = designs(9)
+    table[4, 1] = 0.9 * table[4, 0]
+    got = whole().evaluate(table, INPUT, backend=backend)
+    want = whole().evaluate(np.delete(table, 4, axis=0), INPUT, backend=backend)
+    for name in whole().results:
+        np.testing.assert_array_equal(np.delete(got[name], 4), want[name])
+        assert math.isnan(got[name][4]) or got[name][4] == -1, name
+    assert math.isnan(got["stroke"][4])
+    assert got["beyond"][4] == -1
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_outputs_are_kept_as_fields_for_later_stages(backend: Backend) -> None:
+    t = Trace()
+    s = t.state("s") + t.position("q") * t.parameter("a")
+    sums = Stage(Program.of(t, {"sum": s}, {"s": s}), keep=("sum",), starts={"s": 0.5})
+    t = Trace()
+    twice = t.field_input("sum") * 2.0
+    last = Stage(
+        Program.of(t, {"twice": twice}), {"end": Reduction("twice", "last"), "top": Reduction("twice", "max")}
+    )
+    a = np.array([[1.0], [-2.0], [0.25]])
+    got = CycleProgram((sums, last)).evaluate(a, INPUT, backend=backend)
+    want = 2.0 * (0.5 + np.cumsum(INPUT["q"]) * a)
+    np.testing.assert_allclose(got["end"], want[:, -1], rtol=1e-13)
+    np.testing.assert_allclose(got["top"], want.max(axis=1), rtol=1e-13)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_results_depend_neither_on_threads_nor_on_the_other_designs(backend: Backend) -> None:
+    table = designs(2000)
+    cycle, done = whole(), []
+    one = cycle.evaluate(table, INPUT, threads=1, backend=backend)
+    two = cycle.evaluate(table, INPUT, threads=3, backend=backend, progress=lambda d, n: done.append((d, n)))
+    part = cycle.evaluate(table[700:717], INPUT, backend=backend)
+    for name, values in one.items():
+        np.testing.assert_array_equal(values, two[name])
+        np.testing.assert_array_equal(values[700:717], part[name])
+    assert done == [(2000, 2000)]
+    empty = cycle.evaluate(table[:0], INPUT, backend=backend)
+    assert all(values.shape == (0,) for values in empty.values())
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_program_over_positions_is_written_again_at_a_number_found_before(backend: Backend) -> None:
+    t = Trace()
+    x, square = stroke_of(t.position("q"), *dimensions(t))
+    along = Program.of(t, {"x": x, "valid": square >= 0.0})
+    t = Trace()
+    there = inlined(along, t, {"q": t.parameter("out.near") + 0.25, "e": 0.0})
+    again = Stage(Program.of(t, {"x": there["x"]}), {"there": Reduction("x", "first")}, steps=1)
+    table = designs(9)
+    got = CycleProgram((coarse(), again), ("r", "l", "e")).evaluate(table, INPUT, backend=backend)
+    want = [
+        stroke_of(q + 0.25, r, rod, 0.0)[0] for q, (r, rod, _) in zip(got["out.near"], table, strict=True)
+    ]
+    np.testing.assert_allclose(got["there"], want, rtol=1e-14)
+
+
+def test_names_that_do_not_fit_together_are_refused() -> None:
+    with pytest.raises(ValueError, match="more than one stage finds"):
+        CycleProgram((coarse(), coarse()))
+    with pytest.raises(ValueError, match=r"out\.near are taken before they are found"):
+        CycleProgram((refined("out"), coarse()))
+    with pytest.raises(ValueError, match="parameters e are neither"):
+        CycleProgram((coarse(),), ("r", "l"))
+    with pytest.raises(ValueError, match="columns r, l, e"):
+        whole().evaluate(np.zeros((3, 2)), INPUT)
+    assert CycleProgram((coarse(), refined("in"))).dimensions == ("r", "l", "e")
