@@ -17,6 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
@@ -83,11 +84,11 @@ def is_way(positions: Positions) -> bool:
     return positions.closed or max(steps, default=0.0) <= LARGEST_STEP
 
 
-def passages(solver: MotionSolver, positions: Positions, states: Mapping[str, Floats]) -> list[Passage]:
+def passages(solver: MotionSolver, positions: Positions, followed: Followed | None) -> list[Passage]:
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not is_way(positions):
         return []
-    return _Search(solver, positions, states).found()
+    return _Search(solver, positions, followed).found()
 
 
 def way(solver: MotionSolver, positions: Positions) -> Way:
@@ -127,11 +128,11 @@ def modal(solver: MotionSolver) -> list[str]:
 class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
-    def __init__(self, solver: MotionSolver, positions: Positions, states: Mapping[str, Floats]) -> None:
+    def __init__(self, solver: MotionSolver, positions: Positions, followed: Followed | None) -> None:
         self.base = solver.with_flips(())
         self.solver = self.base
         self.positions = positions
-        self.states = states
+        self.followed = followed
         self.passing: list[Passage] = []
 
     @cached_property
@@ -165,9 +166,9 @@ class _Search:
         rows = self._evaluate(names, np.arange(float(self.positions.count)), at_positions=True)
         found = []
         for (group, pin), name, row in zip(groups.items(), names, rows, strict=True):
-            sign = np.where(row < 0.0, -1.0, 1.0)
+            sign = np.where(np.isfinite(row), np.where(row < 0.0, -1.0, 1.0), 0.0)
             following = np.append(sign[1:], sign[0] if self.positions.closed else sign[-1])
-            for i in np.flatnonzero(sign != following):
+            for i in np.flatnonzero(sign * following < 0.0):
                 place = self._crossing(name, float(i))
                 ends = self._evaluate((f"p:{pin}.x", f"p:{pin}.y"), np.array([place - 1e-6, place + 1e-6]))
                 if not np.hypot(*(ends[:, 1] - ends[:, 0])) < mechanism_size(self.base.mechanism):
@@ -262,10 +263,10 @@ class _Search:
         n = self.positions.count
         turn = places % n if self.positions.closed else np.clip(places, 0.0, n - 1.0)
         positions = self.positions if at_positions else self.way(turn)
-        states = self.states
-        if states and not at_positions:
-            index = np.arange(n + 1.0)
-            states = {name: np.interp(turn, index, np.append(row, row[0])) for name, row in states.items()}
+        states: Mapping[str, Floats] = {}
+        if self.followed is not None:
+            q = np.stack([row[0] for row in positions.coordinates.values()], axis=1)
+            states = self.followed.states if at_positions else self.followed.between(turn, q)
         modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.manner.flipping}
         return self.solver.evaluate(names, positions, states, modes)
 

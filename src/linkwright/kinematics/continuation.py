@@ -1,160 +1,460 @@
-"""Chain coordinates of groups without closed form, followed from the drawing through all positions."""
+"""Groups without closed form, followed from the drawing through all positions."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.engine.program import Program
+from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.kinematics.assembly import Assembly, AssemblyError
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.assembly import AssemblyError
+from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, straight
+from linkwright.kinematics.certificate import distance_to_others
+from linkwright.kinematics.closed_loops import ClosedLoops, iterated
+from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.groups import state_name
-from linkwright.kinematics.size import mechanism_size
-from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.model.mechanism import Mechanism
-from linkwright.structure.group import Structure
 
-#: Newton steps of one attempt, and the largest change of a coordinate (rad, or part of the mechanism's size)
-#: that one attempt may bring, so that it does not slip into another assembly mode.
-ITERATIONS = 4
-LARGEST_CHANGE = 0.15
-CONVERGED = 1e-22
-SMALLEST_SHARE = 1.0 / 4096
+if TYPE_CHECKING:
+    from linkwright.kinematics.design import Design
+    from linkwright.kinematics.solver import MotionSolver
+
+#: Parts of the time of a way at which laws that are no straight lines are compared with their cubics.
+CHECKS = 720
+#: What a drawing may leave open (share of the size) to count as exact.
+EXACT = 1e-13
 
 
-@dataclass
-class Follower:
-    """Follows the coordinates step by step; a step that fails is halved."""
+@dataclass(frozen=True)
+class Stop:
+    """Where a way ends: the drivers' coordinates (d,), and the name of the group that becomes singular."""
 
-    mechanism: Mechanism
-    structure: Structure
-    assembly: Assembly
-    parameters: Mapping[str, float]
-    free: frozenset[str] = frozenset()
+    inputs: Floats
+    group: str
 
-    def __post_init__(self) -> None:
-        self.motion = trace_motion(
-            self.mechanism, self.structure, free=self.free, rates=False, iterations=ITERATIONS
+
+@dataclass(frozen=True)
+class Followed:
+    """The way of the groups without closed form through n positions.
+
+    ``inputs`` (n, d): the drivers' coordinates; ``states``: their chain coordinates (n,) by name, NaN where the way
+    is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops; ``certified`` (n,): whether it
+    is proved that the assembly is the one of the drawing; ``margin`` (n,): no other assembly lies nearer (rad, or
+    share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the way to a position ends, -1 for none;
+    ``returns``: whether a closed cycle comes back to its first assembly (None: not closed or not passed).
+    """
+
+    follower: Follower
+    inputs: Floats
+    states: Mapping[str, Floats]
+    coordinates: Floats
+    certified: NDArray[np.bool_]
+    margin: Floats
+    stops: tuple[Stop, ...]
+    stop_of: NDArray[np.intp]
+    returns: bool | None
+
+    def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
+        """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, d).
+
+        NaN where one of the two neighbours is not reached.
+        """
+        n, follower = len(self.inputs), self.follower
+        a = np.minimum(np.floor(places).astype(int), n - 1)
+        b = (a + 1) % n if self.returns else np.minimum(a + 1, n - 1)
+        found = np.full((len(places), follower.loops.n), math.nan)
+        known = np.flatnonzero(
+            np.isfinite(self.coordinates[a]).all(axis=1) & np.isfinite(self.coordinates[b]).all(axis=1)
         )
-        self.program = _follow_program(self.motion)
-        self.scalar = ScalarProgram(self.program)
-        self.size = mechanism_size(self.mechanism)
-        self.values = [self.parameters[name] for name in self.program.parameters]
-        self.names = self.program.states
-        self.linear = {
-            f"{state_name(group, step)}.s"
-            for group in self.structure.groups
-            if all(step.kind == "prismatic" for step in group.unknowns)
-            for step in group.unknowns
-        }
+        if len(known):
+            found[known], sure = self._read(a[known], b[known], (places - a)[known], inputs[known])
+            for i in np.unique(a[known[~sure]]):
+                these = known[~sure & (a[known] == i)]
+                found[these] = self._walked(int(i), int(b[these[0]]), places[these] - i, inputs[these])
+        return follower.states(found)
 
-    def follow(self, positions: Positions) -> dict[str, Floats]:
-        """States (n,) by name at every position; NaN where the way to it is barred."""
-        n = positions.count
-        found = np.full((len(self.names), n), math.nan)
-        first = self._from_drawing(positions)
-        if first is None:
-            return dict(zip(self.names, found, strict=True))
-        found[:, 0] = first
-        reached = self._walk(positions, found, range(1, n))
-        if positions.closed and reached < n - 1:
-            self._walk(positions, found, range(n - 1, reached, -1))
-        return dict(zip(self.names, found, strict=True))
+    def _read(
+        self, a: NDArray[np.intp], b: NDArray[np.intp], share: Floats, q: Floats
+    ) -> tuple[Floats, NDArray[np.bool_]]:
+        """Unknowns (m, n) from the cubics between neighbours, corrected by Newton's method; whether the correction is
+        small against the way between the neighbours."""
+        follower, loops = self.follower, self.follower.loops
+        start, end = (np.concatenate([self.coordinates[i], self.inputs[i]], axis=1) for i in (a, b))
+        end = start + follower.nearest_way(end - start)
+        way = end - start
+        slopes = [loops.tangents(y, way[:, loops.n :]) for y in (start, end)]
+        t = share[:, None]
+        near = start + (3.0 - 2.0 * t) * t * t * way
+        near[:, : loops.n] += t * (1.0 - t) ** 2 * slopes[0] - t * t * (1.0 - t) * slopes[1]
+        near[:, loops.n :] += follower.nearest_drive(q - near[:, loops.n :])
+        exact, last = loops.polished(near, 4)
+        moved = (np.abs(exact - near)[:, : loops.n] / loops.scale).max(axis=1)
+        room = CORRECTION * (np.abs(way[:, : loops.n]) / loops.scale).max(axis=1) + 1e-9
+        return exact[:, : loops.n], (moved <= room) & (last < 1e-9)
 
-    def _walk(self, positions: Positions, found: Floats, order: Sequence[int]) -> int:
-        """Fills columns in the given order, from column 0 on, until the way is barred; the last one reached."""
-        here = 0
-        state = [float(x) for x in found[:, 0]]
-        for there in order:
-            moved = self.step(positions, here, there, state)
-            if moved is None:
-                break
-            state = moved
-            found[:, there] = state
-            here = there
-        return here
+    def _walked(self, a: int, b: int, share: Floats, q: Floats) -> Floats:
+        """Unknowns (m, n) between two neighbours, followed from the first towards the second."""
+        follower, loops = self.follower, self.follower.loops
+        goal = self.inputs[a] + follower.nearest_drive(self.inputs[b] - self.inputs[a])
+        q = self.inputs[a] + follower.nearest_drive(q - self.inputs[a])
+        order = np.argsort(share, kind="stable")
+        places, back = np.unique(share[order], return_inverse=True)
+        way = replace(straight(self.inputs[a], goal, follower.unit), places=places)
+        branch = follow(loops, way, self.coordinates[a])
+        found = np.full((len(share), loops.n), math.nan)
+        reached = back < len(branch.found)
+        rows = branch.found[back[reached]].copy()
+        rows[:, loops.n :] = q[order][reached]
+        found[order[reached]] = loops.polished(rows, 4)[0][:, : loops.n]
+        return found
 
-    def step(self, positions: Positions, a: int, b: int, state: list[float]) -> list[float] | None:
-        """From position a to position b, in parts as small as it takes."""
-        done, share = 0.0, 1.0
-        while done < 1.0:
-            share = min(share, 1.0 - done)
-            moved = self._newton(_inputs(positions.between(a, b, done + share)), state)
-            if moved is None:
-                share /= 2
-                if share < SMALLEST_SHARE:
-                    return None
-                continue
-            state, done, share = moved, done + share, share * 2
-        return state
 
-    def _newton(
-        self, inputs: Mapping[str, float], state: list[float], limit: float = LARGEST_CHANGE
-    ) -> list[float] | None:
-        outputs, new = self._evaluate(inputs, state)
-        if outputs[0] >= CONVERGED:
-            outputs, new = self._evaluate(inputs, new)
-        if not outputs[0] < CONVERGED or not self._change(state, new) <= limit:
-            return None
-        return new
+class Follower:
+    """Follows the closed loops of one design of a mechanism."""
 
-    def _evaluate(
-        self, inputs: Mapping[str, float], state: Sequence[float]
-    ) -> tuple[list[float], list[float]]:
-        return self.scalar.step(self.values, [inputs[name] for name in self.program.positions], state)
+    def __init__(self, solver: MotionSolver, design: Design) -> None:
+        self.solver = solver
+        self.design = design
+        self.mechanism = design.mechanism
+        self.loops = ClosedLoops(self.mechanism, solver.structure)
+        self.groups = iterated(solver.structure)
+        rotary = [
+            solver.mechanism.joints[d.joint].kind == "revolute" for d in self.mechanism.drivers.values()
+        ]
+        self.rotary = np.array(rotary, dtype=bool)
+        self.unit = np.where(self.rotary, 1.0, self.loops.size)
 
-    def _change(self, old: Sequence[float], new: Sequence[float]) -> float:
-        largest = 0.0
-        for name, a, b in zip(self.names, old, new, strict=True):
-            if name in self.linear:
-                continue
-            scale = self.size if name.endswith(".s") else 1.0
-            change = abs(b - a) / scale
-            largest = max(largest, change) if change == change else math.inf
-        return largest
+    # states -----------------------------------------------------------------------------------
+    def states(self, coordinates: Floats) -> dict[str, Floats]:
+        """Chain coordinates by name (m,) from unknowns of the loops (m, n)."""
+        number = {key: i for i, key in enumerate(self.loops.unknowns)}
+        found: dict[str, Floats] = {}
+        for group in self.groups:
+            for step in group.unknowns:
+                name = state_name(group, step)
+                if step.kind == "prismatic":
+                    found[f"{name}.s"] = coordinates[:, number["slide", step.joint]]
+                else:
+                    angle = coordinates[:, number["turn", step.child]]
+                    found[f"{name}.x"], found[f"{name}.y"] = np.cos(angle), np.sin(angle)
+        return found
 
-    def _from_drawing(self, positions: Positions) -> list[float] | None:
-        """The state at the first position, reached from the drawing."""
-        inputs = self.assembly.inputs
-        drawn = _named(inputs)
-        state = [self.assembly.states[name] for name in self.names]
-        for _ in range(12):
-            outputs, new = self._evaluate(drawn, state)
-            state = new
-            if outputs[0] < CONVERGED:
-                break
-        else:
+    # the drawing --------------------------------------------------------------------------------
+    @cached_property
+    def drawn(self) -> Floats:
+        """Unknowns (n,) of the assembled mechanism that the drawing shows, at the drawing's inputs.
+
+        What the drawing leaves open, as its coordinates are rounded, is closed on a way of its own.
+
+        Raises:
+            AssemblyError: the drawing is too far from any assembly.
+        """
+        loops, inputs = self.loops, self.drawn_inputs
+        rough = self._rough()
+        gap = loops.gap(loops.turned(np.concatenate([rough, inputs])))
+        exact = None
+        if np.isfinite(gap).all():
+            if np.abs(gap).max() > EXACT * loops.size:
+                exact = self._closed(rough, gap)
+            if exact is None:
+                root = loops.newton(np.concatenate([rough, inputs]), 40)
+                exact = None if root is None else root[: loops.n]
+        if exact is None:
+            said = ", ".join(f"{name} = {q:.6g}" for name, q in zip(loops.drivers, inputs, strict=True))
             raise AssemblyError(
                 f"{self.mechanism.name!r}: the group without closed form cannot be put together near its drawing "
-                f"(input {', '.join(f'{name} = {q:.6g}' for name, q in inputs.items())}); check the drawing's "
-                "coordinates against the lengths"
+                f"(input {said}); check the drawing's coordinates against the lengths"
             )
-        start = {name: rows[0][:1] for name, rows in positions.coordinates.items()}
-        both = {
-            name: (np.array([inputs[name], first[0]]), np.zeros(2), np.zeros(2))
-            for name, first in start.items()
-        }
-        way = Positions(np.zeros(2), both, positions.rotary, False, None)
-        return self.step(way, 0, 1, state)
+        return exact
+
+    @property
+    def drawn_inputs(self) -> Floats:
+        """The drivers' coordinates in the drawing, (d,)."""
+        return np.array([self.solver.assembly.inputs[name] for name in self.loops.drivers])
+
+    def _closed(self, rough: Floats, gap: Floats) -> Floats | None:
+        loops, inputs = self.loops, self.drawn_inputs
+        opened = loops.with_gap(gap[: loops.K] + 1j * gap[loops.K :])
+        begin, end = np.append(inputs, 1.0), np.append(inputs, 0.0)
+        largest = float(np.abs(gap).max()) / loops.size
+        branch = follow(opened, straight(begin, end, np.append(self.unit, 1.0 / max(largest, 1e-9))), rough)
+        return branch.last[: loops.n] if branch.complete else None
+
+    def _rough(self) -> Floats:
+        """The unknowns as drawn; those of dyads by their closed form."""
+        solver, loops = self.solver, self.loops
+        own = {link for group in self.groups for link in group.links}
+        names = tuple(f"e:{n}.{axis}" for n in loops.links if n not in ("frame", *own) for axis in "xy")
+        slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
+        program = solver.program((*names, *(f"s:{key}" for key in slides))).program
+        inputs = _named(dict(zip(loops.drivers, self.drawn_inputs, strict=True)), self.rotary)
+        parameters, drawn = self.design.parameters, solver.assembly.states
+        outputs, _ = ScalarProgram(program).step(
+            [parameters[name] for name in program.parameters],
+            [inputs[name] for name in program.positions],
+            [drawn[name] for name in program.states],
+        )
+        value = dict(zip((*names, *slides), map(float, outputs), strict=True))
+        rough = []
+        for (kind, key), group in zip(loops.unknowns, loops.groups, strict=True):
+            if kind == "slide":
+                at = self._drawn_slide(key)
+                rough.append(value[key] if at is None else drawn[at])
+            elif key in own:
+                rough.append(self._angle(drawn, group, key))
+            else:
+                rough.append(math.atan2(value[f"e:{key}.y"], value[f"e:{key}.x"]))
+        return np.array(rough)
+
+    def _drawn_slide(self, joint: str) -> str | None:
+        for group in self.groups:
+            for step in group.unknowns:
+                if step.joint == joint:
+                    return f"{state_name(group, step)}.s"
+        return None
+
+    def _angle(self, drawn: Mapping[str, float], name: str, child: str) -> float:
+        group = next(group for group in self.groups if group.name == name)
+        state = state_name(group, next(step for step in group.unknowns if step.child == child))
+        return math.atan2(drawn[f"{state}.y"], drawn[f"{state}.x"])
+
+    # ways ---------------------------------------------------------------------------------------
+    def follow(self, positions: Positions, apart: bool = False) -> Followed:
+        """The way through all positions, from the drawing on; ``apart``: they are no cycle, but each for itself."""
+        return _Journey(self, positions, apart).followed()
+
+    def between(self, begin: Floats, end: Floats, start: Floats) -> Branch:
+        """The straight way from driver coordinates (d,) to others, from the unknowns ``start`` (n,)."""
+        return follow(self.loops, straight(begin, end, self.unit), start)
+
+    def nearest_drive(self, way: Floats) -> Floats:
+        """Differences of driver coordinates (…, d) without whole turns."""
+        return np.asarray(way - np.where(self.rotary, _turns(way), 0.0))
+
+    def nearest_way(self, way: Floats) -> Floats:
+        """Differences of coordinates (m, n + d) without whole turns."""
+        turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)
+        return np.asarray(way - np.where(turning, _turns(way), 0.0))
+
+    def moved(self, followed: Followed, index: int, positions: Positions) -> dict[str, float]:
+        """States at the second of two positions, of which the first is position ``index`` of a way; NaN if barred."""
+        q = np.stack([positions.coordinates[name][0] for name in self.loops.drivers], axis=1)
+        branch = self.between(q[0], q[1], followed.coordinates[index])
+        row = branch.last[None, : self.loops.n] if branch.complete else np.full((1, self.loops.n), np.nan)
+        return {name: float(value[0]) for name, value in self.states(row).items()}
 
 
-def _follow_program(motion: MotionTrace) -> Program:
-    total = 0.0
-    for placed in motion.placed.values():
-        total = total + placed.residual  # type: ignore[assignment]
-    return Program.of(motion.trace, {"residual": total}, motion.next_states)
+def _turns(way: Floats) -> Floats:
+    """Whole turns in angles, rad."""
+    return np.asarray(2.0 * np.pi * np.round(way / (2.0 * np.pi)))
 
 
-def _inputs(positions: Positions) -> dict[str, float]:
-    return {name: float(row[0]) for name, row in positions.arrays.items()}
-
-
-def _named(inputs: Mapping[str, float]) -> dict[str, float]:
+def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float]:
     values: dict[str, float] = {}
-    for name, q in inputs.items():
-        values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"slide:{name}": q}
+    for (name, q), turns in zip(inputs.items(), rotary, strict=True):
+        values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q)} if turns else {f"slide:{name}": q}
+        values |= {f"rate:{name}": 0.0, f"second:{name}": 0.0}
     return values
+
+
+class _Journey:
+    """The ways from the drawing through all positions, and what was found on them."""
+
+    def __init__(self, follower: Follower, positions: Positions, apart: bool) -> None:
+        self.follower, self.positions, self.apart = follower, positions, apart
+        loops = follower.loops
+        n = positions.count
+        rows = [positions.coordinates[name][0] for name in loops.drivers]
+        self.q = np.stack(rows, axis=1) if rows else np.zeros((n, 0))
+        self.coordinates = np.full((n, loops.n), math.nan)
+        self.certified = np.zeros(n, dtype=bool)
+        self.stops: list[Stop] = []
+        self.stop_of = np.full(n, -1)
+        self.returns: bool | None = None
+
+    def followed(self) -> Followed:
+        self._all()
+        follower, y = self.follower, np.concatenate([self.coordinates, self.q], axis=1)
+        margin = np.full(len(y), math.nan)
+        good = np.isfinite(self.coordinates).all(axis=1)
+        if good.any():
+            margin[good] = distance_to_others(follower.loops, y[good])
+        states = follower.states(self.coordinates)
+        stops = tuple(self.stops)
+        return Followed(
+            follower,
+            self.q,
+            states,
+            self.coordinates,
+            self.certified,
+            margin,
+            stops,
+            self.stop_of,
+            self.returns,
+        )
+
+    def _all(self) -> None:
+        follower = self.follower
+        start = self._leg(follower.drawn_inputs, follower.drawn, np.array([0]), True)
+        if start is not None and self.positions.count > 1 and self._lawful():
+            self._along_laws(start)
+        elif start is not None and self._in_line():
+            self._along_line(start)
+        elif start is not None or self.apart:
+            self._apart(start, 1)
+
+    def _lawful(self) -> bool:
+        """Whether the positions follow each other in time by the drivers' laws."""
+        time = self.positions.time
+        steps = np.diff(time)
+        if not ((steps > 0.0).all() or (steps < 0.0).all()):
+            return False
+        known = at_times(self.follower.mechanism, time).coordinates
+        return all(
+            np.allclose(q, known[name][0], rtol=1e-9, atol=1e-12)
+            for name, (q, *_) in self.positions.coordinates.items()
+        )
+
+    def _in_line(self) -> bool:
+        """Whether the drivers' coordinates follow each other on one straight line."""
+        if self.positions.count < 3 or self.positions.closed:
+            return False
+        share = self._shares()
+        on_line = self.q[0] + share[:, None] * (self.q[-1] - self.q[0])
+        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, self.q, rtol=1e-14, atol=1e-14))
+
+    def _shares(self) -> Floats:
+        way = self.q[-1] - self.q[0]
+        lead = int(np.argmax(np.abs(way / self.follower.unit)))
+        return np.asarray((self.q[:, lead] - self.q[0, lead]) / (way[lead] or 1.0))
+
+    def _along_line(self, start: tuple[Floats, bool]) -> None:
+        follower, n = self.follower, self.positions.count
+        way = straight(self.q[0], self.q[-1], follower.unit)
+        branch = follow(follower.loops, replace(way, places=self._shares()), start[0])
+        k = len(branch.found)
+        self.coordinates[:k] = branch.found[:, : follower.loops.n]
+        self.certified[:k] = branch.certified & start[1]
+        if not branch.complete and k < n:
+            self._stopped(branch, np.arange(k, n))
+            if self.apart:
+                self._apart((self.coordinates[k - 1], bool(self.certified[k - 1])), k)
+
+    # one leg ------------------------------------------------------------------------------------
+    def _leg(
+        self, begin: Floats, start: Floats, index: NDArray[np.intp], proved: bool
+    ) -> tuple[Floats, bool] | None:
+        """The straight way to one position; turning drivers go the shorter way, or else the other way round."""
+        follower, goal = self.follower, self.q[index[0]]
+        turn = np.where(follower.rotary, _turns(goal - begin), 0.0)
+        ways = [goal - turn]
+        if follower.rotary.sum() == 1:
+            there = goal - turn - begin
+            ways.append(
+                goal - turn - np.where(follower.rotary, 2 * np.pi * np.where(there < 0, -1.0, 1.0), 0.0)
+            )
+        first: Branch | None = None
+        for end in ways:
+            branch = follower.between(begin, end, start)
+            first = first or branch
+            if branch.complete:
+                n = follower.loops.n
+                self.coordinates[index[0]] = branch.last[:n]
+                self.certified[index[0]] = proved and bool(branch.certified.all())
+                return branch.last[:n], bool(self.certified[index[0]])
+        assert first is not None
+        self._stopped(first, index)
+        return None
+
+    def _apart(self, here: tuple[Floats, bool] | None, first: int) -> None:
+        """Positions one after the other, each from the last one that was reached."""
+        follower = self.follower
+        begin = self.q[first - 1] if here is not None else follower.drawn_inputs
+        state = here if here is not None else (follower.drawn, True)
+        for i in range(first, self.positions.count):
+            moved = self._leg(begin, state[0], np.array([i]), state[1])
+            if moved is not None:
+                begin, state = self.q[i], moved
+            elif not self.apart:
+                self.stop_of[i:] = self.stop_of[i]
+                return
+
+    def _stopped(self, branch: Branch, index: NDArray[np.intp]) -> None:
+        loops = self.follower.loops
+        last = branch.last
+        known = np.isfinite(last).all()
+        group = loops.weakest_group(last) if known else loops.groups[-1]
+        self.stops.append(Stop(last[loops.n :] if known else self.q[index[0]], group))
+        self.stop_of[index] = len(self.stops) - 1
+
+    # a way by the laws -----------------------------------------------------------------------------
+    def _along_laws(self, start: tuple[Floats, bool]) -> None:
+        positions = self.positions
+        time, n = positions.time, positions.count
+        around = positions.period if positions.closed else None
+        branch = self._way(start, time, time[0] + around if around else time[-1], np.arange(n), 0.0)
+        reached = int(np.isfinite(self.coordinates).all(axis=1).sum())
+        if branch.complete:
+            if around:
+                self.returns = self._same(branch.last, start[0])
+            return
+        rest = np.arange(reached, n)
+        self._stopped(branch, rest)
+        if self.apart:
+            self._apart((self.coordinates[reached - 1], bool(self.certified[reached - 1])), reached)
+        elif around and len(rest):
+            back = self._way(start, time - around, time[rest[0]] - around, np.append(rest, 0)[::-1], around)
+            behind = rest[~np.isfinite(self.coordinates[rest]).all(axis=1)]
+            if not back.complete and len(behind):
+                self._stopped(back, behind[-1:])
+
+    def _way(
+        self, start: tuple[Floats, bool], time: Floats, end: float, order: NDArray[np.intp], shift: float
+    ) -> Branch:
+        """From the first of the positions in ``order``, at their times, to the time ``end``."""
+        begin = float(self.positions.time[0])
+        times = np.where(order == 0, begin, time[order])
+        sense = 1.0 if end >= begin else -1.0
+        follower = self.follower
+        laws = [driver.law for driver in follower.mechanism.drivers.values()]
+        lap = self._lap(shift)
+
+        def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
+            t = sense * x
+            rows = [law.coordinate(t + shift) for law in laws]
+            q, first, second = (np.stack([row[k] for row in rows], axis=1) for k in range(3))
+            return q - lap, sense * first, second
+
+        checks: Floats = np.zeros(0)
+        samples = times * sense
+        if not all(isinstance(law, ConstantSpeed) for law in laws):
+            checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
+            samples = np.concatenate([samples, checks])
+        pace = float(np.abs(drive(samples)[1] / follower.unit).max(initial=0.0))
+        way = Way(drive, sense * begin, sense * end, sense * times, pace, checks)
+        branch = follow(follower.loops, way, start[0])
+        found = order[: len(branch.found)]
+        self.coordinates[found] = branch.found[:, : follower.loops.n]
+        self.certified[found] = branch.certified & start[1]
+        return branch
+
+    def _lap(self, shift: float) -> Floats:
+        """What the drivers' coordinates gain in one cycle, whole turns for a turning driver; (d,)."""
+        if not shift:
+            return np.zeros(self.q.shape[1])
+        begin = self.positions.time[:1]
+        laws = [driver.law for driver in self.follower.mechanism.drivers.values()]
+        return np.array([law.coordinate(begin + shift)[0][0] - law.coordinate(begin)[0][0] for law in laws])
+
+    def _same(self, last: Floats, first: Floats) -> bool:
+        """Whether a cycle ends in the assembly in which it began."""
+        loops = self.follower.loops
+        turning = np.array([kind == "turn" for kind, _ in loops.unknowns])
+        gap = last[: loops.n] - first
+        gap = np.where(turning, 2.0 * np.sin(gap / 2.0), gap / loops.scale)
+        return bool(np.abs(gap).max() < 1e-6)

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kinematics.closed_loops import iterated
 from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -15,9 +17,13 @@ if TYPE_CHECKING:
     from linkwright.structure.group import Group
 
 
+#: A position this near (rad, m) to where a way ends is itself singular.
+ON_LIMIT = 1e-6
+
+
 def explain(motion: Motion) -> list[Outcome]:
     """What became of every position of a motion."""
-    found = [Outcome(True)] * motion.steps
+    found = _solved(motion)
     failed = np.flatnonzero(~motion.ok)
     if not len(failed):
         return found
@@ -25,6 +31,42 @@ def explain(motion: Motion) -> list[Outcome]:
     for place, index in enumerate(failed):
         found[index] = facts.outcome(place, int(index))
     return found
+
+
+def _solved(motion: Motion) -> list[Outcome]:
+    """The outcomes as if every position were solved."""
+    way = motion.followed
+    if way is None:
+        return [Outcome(True)] * motion.steps
+    said = {True: Sentence("outcome.assembled"), False: Sentence("outcome.followed")}
+    return [
+        Outcome(True, said[bool(sure)], certified=bool(sure), margin=float(margin))
+        for sure, margin in zip(way.certified, way.margin, strict=True)
+    ]
+
+
+def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
+    """What the user should know about groups that are followed without proof, or do not come back to their start."""
+    way = motion.followed
+    if way is None:
+        return ()
+    said = []
+    unsure = np.flatnonzero(motion.ok & ~way.certified)
+    if len(unsure):
+        near = int(unsure[np.argmin(way.margin[unsure])])
+        groups = "; ".join(", ".join(group.links) for group in iterated(motion.structure))
+        said.append(
+            Sentence(
+                "passage.followed",
+                links=groups,
+                count=len(unsure),
+                where=_where(motion, near),
+                margin=number(float(way.margin[near]), 2),
+            )
+        )
+    if way.returns is False:
+        said.append(Sentence("passage.not_back"))
+    return tuple(said)
 
 
 class _Facts:
@@ -50,12 +92,29 @@ class _Facts:
         group = self.groups[int(abs(code)) - 1]
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
-            return Outcome(False, _of("lost", group), group.name, "unreachable")
+            return self._lost(group, index)
         if code < 0:
             return Outcome(False, _of("singular", group), group.name, "singular")
         facts = {name: float(self.values[f"fact:{group.name}|{name}"][place]) for name in placed.facts}
         reason = placed.dyad.explain(facts)
         return Outcome(False, _of("apart", group, reason=reason), group.name, "unreachable")
+
+    def _lost(self, group: Group, index: int) -> Outcome:
+        """A group without closed form: where the way to the position ends, and at which group."""
+        way = self.motion.followed
+        if way is None or way.stop_of[index] < 0:
+            return Outcome(False, _of("lost", group), group.name, "unreachable")
+        stop = way.stops[way.stop_of[index]]
+        group = next(each for each in self.groups if each.name == stop.group)
+        rows = self.motion.positions
+        names = list(rows.coordinates)
+        here = np.array([rows.coordinates[name][0][index] for name in names])
+        if np.abs(here - stop.inputs).max(initial=0.0) < ON_LIMIT * (1.0 + np.abs(here).max(initial=0.0)):
+            return Outcome(False, _of("singular", group), group.name, "singular")
+        where = ", ".join(
+            _shown(name, float(q), rows.rotary[name]) for name, q in zip(names, stop.inputs, strict=True)
+        )
+        return Outcome(False, _of("stopped", group, where=where), group.name, "unreachable")
 
 
 def _of(key: str, group: Group, **values: object) -> Sentence:
@@ -86,9 +145,11 @@ def refusal(motion: Motion) -> PositionError:
 
 
 def _where(motion: Motion, index: int) -> str:
-    parts = []
-    for name, q in motion.inputs.items():
-        rotary = motion.positions.rotary[name]
-        value = f"{np.degrees(q[index]):.6g}°" if rotary else f"{q[index]:.6g} m"
-        parts.append(f"{name} = {value}")
+    parts = [
+        _shown(name, float(q[index]), motion.positions.rotary[name]) for name, q in motion.inputs.items()
+    ]
     return "input " + ", ".join(parts) if parts else "its only position"
+
+
+def _shown(name: str, value: float, rotary: bool) -> str:
+    return f"{name} = " + (f"{np.degrees(value):.6g}°" if rotary else f"{value:.6g} m")

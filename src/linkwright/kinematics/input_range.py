@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
-from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.size import mechanism_size
@@ -30,6 +30,8 @@ COARSE = 1e-6
 #: What the search leaves: where a square comes to zero, and where continuation stalls near a singular Jacobian.
 ROUNDED = 4e-16
 CONTINUED = 1e-9
+#: How far before an end Newton's method for it begins, rad or share of the size.
+AHEAD = 1e-5
 
 
 @dataclass(frozen=True)
@@ -132,12 +134,16 @@ def range_sentence(mechanism: Mechanism) -> str:
 
 @dataclass(frozen=True)
 class _Stop:
-    """Between the coordinates ``good`` and ``bad``, the state and the signs of modes at ``good``."""
+    """Between the coordinates ``good`` and ``bad``; unknowns of the closed loops (n,), signs of modes at ``good``.
+
+    ``group``: the one that becomes singular at ``good``, where that is known.
+    """
 
     good: float
     bad: float
-    state: Mapping[str, float]
     modes: Mapping[str, float]
+    unknowns: Floats | None = None
+    group: str | None = None
 
 
 class _Search:
@@ -175,9 +181,10 @@ class _Search:
         around = np.stack([nominal + near, nominal - near], axis=1).ravel()
         for q in ([nominal], [drawn], around):
             positions = self.positions(np.asarray(q))
-            states = self.solver.states(positions)
-            if states and len(q) > 1:
+            followed = self.solver.follow(positions, apart=True)
+            if followed is not None and len(q) > 1:
                 continue
+            states = {} if followed is None else followed.states
             codes = self.solver.evaluate(("outcome",), positions, states, {})[0]
             good = np.flatnonzero((codes == 0) & _finite(states, len(q)))
             if len(good):
@@ -193,26 +200,56 @@ class _Search:
         stop = self._stop(direction)
         if stop is None:
             return None
-        rough = COARSE * (1.0 if self.rotary else self.size) if stop.state else 0.0
-        good, bad = self._narrowed(stop, rough)
+        stop = self._to_singular(stop)
+        unit = 1.0 if self.rotary else self.size
+        rough = COARSE * unit if stop.unknowns is not None else 0.0
+        good, bad = (stop.good, stop.bad) if stop.group else self._narrowed(stop, rough)
         group, how = self._reason(stop, good, bad)
         value = None
-        if stop.state and not self._closed_form(group):
-            value = fold(self.solver, self.positions(self._towards(stop.good, good)), self.driver)
+        if stop.unknowns is not None:
+            way = self._towards(stop, good - direction * AHEAD * unit)
+            value = fold(self.solver, self.positions(way), self.driver)
         if value is not None and min(good, bad) - rough <= value <= max(good, bad) + rough:
             precision = 1e-14 * (1.0 + abs(value))
+        elif stop.group:
+            value, precision = good, 2.0 * FLOOR * unit
         else:
-            good, bad = self._narrowed(replace(stop, good=good, bad=bad, state=self._state(stop, good)), 0.0)
-            rounding = CONTINUED if stop.state and not self._closed_form(group) else ROUNDED
+            good, bad = self._narrowed(
+                replace(stop, good=good, bad=bad, unknowns=self._unknowns(stop, good)), 0.0
+            )
+            rounding = ROUNDED if stop.unknowns is None else CONTINUED
             value, precision = good, abs(bad - good) + rounding * (1.0 + abs(good))
         return RangeEnd(value, f"group {group.signature} ({', '.join(group.links)})", how, precision)
+
+    def _to_singular(self, stop: _Stop) -> _Stop:
+        """Where the closed loops become singular before ``bad``: there, unless a dyad ends before."""
+        if stop.unknowns is None:
+            return stop
+        branch = self._branch(stop, stop.bad)
+        if branch.complete:
+            return stop
+        reached = stop.good + branch.reached * (stop.bad - stop.good)
+        if reached != stop.good and not self._fine(stop, np.array([reached]))[0]:
+            return replace(stop, bad=reached)
+        loops = self.solver.follower().loops
+        beyond = reached + math.copysign(
+            2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good
+        )
+        return replace(
+            stop,
+            good=reached,
+            bad=beyond,
+            unknowns=branch.last[: loops.n],
+            group=loops.weakest_group(branch.last),
+        )
 
     def _stop(self, direction: float) -> _Stop | None:
         step, span = (STEP, 2 * np.pi) if self.rotary else (SLIDE_STEP * self.size, FARTHEST * self.size)
         q = self.begin + direction * step * np.arange(round(span / step) + 1.0)
         positions = self.positions(q)
-        states = self.solver.states(positions)
-        found = passages(self.solver, positions, states)
+        followed = self.solver.follow(positions)
+        states = {} if followed is None else followed.states
+        found = passages(self.solver, positions, followed)
         modes = signs(found, self.solver.assembly.modes, len(q))
         codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
         mark_singular(codes, found, self.solver.structure)
@@ -225,30 +262,38 @@ class _Search:
                 last, bad = before, place
         if bad is None:
             return None
-        state = {name: float(row[last]) for name, row in states.items()}
-        return _Stop(
-            float(q[last]), float(bad), state, {name: float(row[last]) for name, row in modes.items()}
-        )
+        unknowns = None if followed is None else followed.coordinates[last]
+        signs_there = {name: float(row[last]) for name, row in modes.items()}
+        return _Stop(float(q[last]), float(bad), signs_there, unknowns)
 
     def _solver(self, modes: Mapping[str, object]) -> MotionSolver:
         return self.solver.with_flips(name.removeprefix("mode:") for name in modes) if modes else self.solver
 
     def _sines(self, positions: Positions, states: Mapping[str, Floats]) -> Floats:
         """Sines between guides of groups with one mode, positive as at the beginning; (groups, n)."""
-        placed = self.solver.motion.placed
-        names = tuple(f"fact:{name}|sine" for name, group in placed.items() if "sine" in group.facts)
+        names = self._guided()
         if not names:
             return np.ones((1, positions.count))
         rows = self.solver.evaluate(names, positions, states, {})
+        return np.asarray(rows * self._first_sines)
+
+    @cached_property
+    def _first_sines(self) -> Floats:
+        """Signs of these sines where the search begins, (groups, 1)."""
+        names = self._guided()
         first = self.positions(np.array([self.begin]))
-        return np.asarray(rows * np.sign(self.solver.evaluate(names, first, self.solver.states(first), {})))
+        return np.sign(self.solver.evaluate(names, first, self.solver.states(first), {}))
+
+    def _guided(self) -> tuple[str, ...]:
+        placed = self.solver.motion.placed
+        return tuple(f"fact:{name}|sine" for name, group in placed.items() if "sine" in group.facts)
 
     # refinement -----------------------------------------------------------------------------------
     def _narrowed(self, stop: _Stop, distance: float) -> tuple[float, float]:
         """The last coordinate that can be assembled and the first that cannot, next to each other, or within a
         distance."""
         good, bad = stop.good, stop.bad
-        count = 3 if stop.state else 17
+        count = 17 if stop.unknowns is None else 3
         for _ in range(60):
             q = np.linspace(good, bad, count)
             fine = self._fine(stop, q)
@@ -272,27 +317,29 @@ class _Search:
         return np.asarray(fine)
 
     def _states(self, stop: _Stop, q: Floats) -> dict[str, Floats]:
-        if not stop.state:
+        if stop.unknowns is None:
             return {}
-        follower, rows = self._follower, []
-        for there in q:
-            way = self.positions(np.array([stop.good, there]))
-            reached = follower.step(way, 0, 1, [stop.state[name] for name in follower.names])
-            rows.append(reached or [np.nan] * len(follower.names))
-        return dict(zip(follower.names, np.array(rows).T, strict=True))
+        follower = self.solver.follower()
+        n = follower.loops.n
+        branches = [self._branch(stop, float(there)) for there in q]
+        rows = [b.last[:n] if b.complete else np.full(n, np.nan) for b in branches]
+        return follower.states(np.array(rows))
 
-    def _towards(self, last: float, good: float) -> Floats:
-        """The way from the beginning over the last position of the search to the end."""
-        count = 1 + round(abs(last - self.begin) / (STEP if self.rotary else SLIDE_STEP * self.size))
-        return np.append(np.linspace(self.begin, last, count), good)
+    def _branch(self, stop: _Stop, there: float) -> Branch:
+        assert stop.unknowns is not None
+        rows = self.positions(np.array([stop.good, there])).coordinates
+        ends = np.stack([row[0] for row in rows.values()], axis=1)
+        return self.solver.follower().between(ends[0], ends[1], stop.unknowns)
 
-    def _state(self, stop: _Stop, q: float) -> dict[str, float]:
-        return {name: float(row[0]) for name, row in self._states(stop, np.array([q])).items()}
+    def _towards(self, stop: _Stop, end: float) -> Floats:
+        """The way from the beginning to an end where change points are passed; else the end alone."""
+        if not stop.modes:
+            return np.array([end])
+        count = 2 + round(abs(end - self.begin) / (STEP if self.rotary else SLIDE_STEP * self.size))
+        return np.linspace(self.begin, end, count)
 
-    @cached_property
-    def _follower(self) -> Follower:
-        solver = self.solver
-        return Follower(self.mechanism, solver.structure, solver.assembly, solver.nominal.parameters)
+    def _unknowns(self, stop: _Stop, q: float) -> Floats | None:
+        return None if stop.unknowns is None else self._branch(stop, q).last[: self.solver.follower().loops.n]
 
     # why --------------------------------------------------------------------------------------------
     def _reason(self, stop: _Stop, good: float, bad: float) -> tuple[Group, str]:
@@ -306,15 +353,13 @@ class _Search:
         quality = solver.evaluate(names, ends, states, modes)
         least = {name.removeprefix("quality:"): row[0] for name, row in zip(names, quality, strict=True)}
         stuck = min(least, key=least.__getitem__, default=None)
-        newton = [name for name, p in placed.items() if p.group.unknowns and p.dyad is None]
-        if stuck is None or (newton and not _finite(states, 2)[1] and least[stuck] > 1e-9):
-            return groups[newton[0]], "is singular"
+        stuck = stop.group or stuck
+        assert stuck is not None
+        if placed[stuck].dyad is None:
+            return groups[stuck], "is singular"
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
         return groups[stuck], _how(groups[stuck].signature, dict(zip(facts, map(float, row), strict=True)))
-
-    def _closed_form(self, group: Group) -> bool:
-        return self.solver.motion.placed[group.name].dyad is not None
 
 
 def _how(signature: str, facts: Mapping[str, float]) -> str:

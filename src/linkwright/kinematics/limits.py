@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
-from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
@@ -111,7 +110,7 @@ class Between:
         motion = self.motion
         if not motion.modes:
             return []
-        return [p for p in passages(motion.solver, motion.positions, motion.states) if p.touches]
+        return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.touches]
 
     @property
     def closes(self) -> bool:
@@ -160,16 +159,10 @@ class Between:
 
     def _moved(self, index: int, time: float) -> dict[str, float]:
         """States of groups without closed form, from a position to a time near it."""
-        follower = self._follower
-        state = [float(self.motion.states[name][index]) for name in follower.names]
-        way = at_times(self.motion.mechanism, [float(self.motion.time[index]), time])
-        reached = follower.step(way, 0, 1, state)
-        return dict(zip(follower.names, reached or [np.nan] * len(state), strict=True))
-
-    @cached_property
-    def _follower(self) -> Follower:
         motion = self.motion
-        return Follower(motion.mechanism, motion.structure, motion.solver.assembly, motion.design.parameters)
+        assert motion.followed is not None
+        way = at_times(motion.mechanism, [float(motion.time[index]), time])
+        return motion.solver.follower(motion.design).moved(motion.followed, index, way)
 
 
 @dataclass

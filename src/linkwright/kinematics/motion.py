@@ -25,6 +25,7 @@ from linkwright.structure import Structure
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.kinematics.continuation import Followed
     from linkwright.plot import Diagram
 
 
@@ -118,6 +119,7 @@ class Motion:
     rows: Rows = field(repr=False)
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
+    followed: Followed | None = None
 
     @property
     def mechanism(self) -> Mechanism:

@@ -30,7 +30,7 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
         return {}, ()
     begin = time_span(solver.mechanism)[0]
     turn = at_times(solver.mechanism, begin + duration * np.arange(STEPS) / STEPS, True, duration)
-    passing = passages(solver, turn, {})
+    passing = passages(solver, turn, None)
     if not passing or any(p.barred for p in passing):
         return {}, ()
     turns, share = np.divmod((positions.time - begin) / duration, 1.0)

@@ -17,7 +17,7 @@ from linkwright.kinematics.change_points import (
     signs,
 )
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
-from linkwright.kinematics.explain import refusal
+from linkwright.kinematics.explain import branch_notes, refusal
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.rows import Rows
@@ -82,15 +82,17 @@ class MotionRun:
 
     def solve(self, failures: str = "raise") -> Motion:
         """The motion, with change points passed smoothly."""
-        states = self.solver.states(self.positions)
+        followed = self.solver.follow(self.positions, apart=self.single)
+        states = {} if followed is None else followed.states
         modes, said = reached_modes(self.solver, self.positions) if self.single else ({}, ())
-        found = [] if modes else passages(self.solver, self.positions, states)
+        found = [] if modes else passages(self.solver, self.positions, followed)
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
         if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
         motion = self._evaluate(states, modes, found)
-        motion.notes += said
+        motion.followed = followed
+        motion.notes += said + branch_notes(motion)
         if failures == "raise" and not motion.ok.all():
             raise refusal(motion)
         return motion

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.assembly import Assembly, assemble
-from linkwright.kinematics.continuation import Follower
+from linkwright.kinematics.continuation import Followed, Follower
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
@@ -81,14 +81,24 @@ class MotionSolver:
         """The program for some outputs."""
         return self.programs.program(names)
 
+    @cached_property
+    def _own_follower(self) -> Follower:
+        return Follower(self, self.nominal)
+
+    def follower(self, design: Design | None = None) -> Follower:
+        """What follows the groups without closed form."""
+        return self._own_follower if design is None or design is self.nominal else Follower(self, design)
+
+    def follow(
+        self, positions: Positions, design: Design | None = None, apart: bool = False
+    ) -> Followed | None:
+        """The way of the groups without closed form, None if there are none; ``apart``: each position for itself."""
+        return self.follower(design).follow(positions, apart) if self.motion.next_states else None
+
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
-        if not self.motion.next_states:
-            return {}
-        parameters = (design or self.nominal).parameters
-        return Follower(self.mechanism, self.structure, self.assembly, parameters, self.manner.free).follow(
-            positions
-        )
+        followed = self.follow(positions, design)
+        return {} if followed is None else dict(followed.states)
 
     def evaluate(
         self,

@@ -80,7 +80,8 @@ def changes_of(columns: Mapping[str, Floats], index: int) -> dict[str, float]:
 def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
     """The motion of one design over the study's positions."""
     positions = traced.positions
-    states = solver.states(positions, design)
+    followed = solver.follow(positions, design)
+    states = {} if followed is None else followed.states
     names = tuple(solver.outputs.standard())
     values = solver.evaluate(names, positions, states, {}, design)
     barred = np.zeros(positions.count)
@@ -88,7 +89,7 @@ def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
         barred = np.where(np.isfinite(row), barred, 1.0)
     values[:-1, (values[-1] != 0.0) | (barred != 0.0)] = np.nan
     index = {name: i for i, name in enumerate(names)}
-    return Motion(solver, design, positions, states, {}, Rows(values, index), (), barred)
+    return Motion(solver, design, positions, states, {}, Rows(values, index), (), barred, followed)
 
 
 def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:

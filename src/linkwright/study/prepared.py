@@ -135,14 +135,17 @@ class Prepared:
         """Motion first, as loads or iterations need it."""
         for address in set(design.changes) - set(self.vary):
             self._refuse_fixed(address)
-        states = self.solver.states(self.positions, design)
+        followed = self.solver.follow(self.positions, design)
+        states = {} if followed is None else followed.states
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, {}, design)
         index = {name: i for i, name in enumerate(names)}
         barred = np.zeros(self.positions.count)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
-        motion = Motion(self.solver, design, self.positions, states, {}, Rows(values, index), (), barred)
+        motion = Motion(
+            self.solver, design, self.positions, states, {}, Rows(values, index), (), barred, followed
+        )
         if not motion.ok.all():
             if failures == "raise":
                 raise refusal(motion)

@@ -10,13 +10,17 @@ from numpy.typing import NDArray
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
-from linkwright.kinematics.continuation import CONVERGED, ITERATIONS, LARGEST_CHANGE
 from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.trace import trace_motion
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+#: Newton steps of one attempt, the square of the correction that they must come to, the largest change of a
+#: coordinate (rad, or part of the size) in one attempt, and the smallest share of the way.
+ITERATIONS = 4
+CONVERGED = 1e-22
+LARGEST_CHANGE = 0.15
 SMALLEST_SHARE = 1.0 / 1024
 
 

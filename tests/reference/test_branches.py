@@ -1,0 +1,78 @@
+"""Groups without closed form stay on the assembly of their drawing, whatever the steps.
+
+The truth is the independent code followed in tiny steps (``fine_path``), which shares nothing with the package.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.reference.fine_path import FinePath
+
+import linkwright as lw
+
+FAULTS = Path(__file__).with_name("faults")
+#: Mechanisms with another assembly so near that Newton's method from the last position falls into it.
+JUMPS = ("jump_103240", "jump_104589", "triad_branch_jump", "order4_branch_jump")
+FINE = 36
+
+
+def fault(name: str) -> lw.Mechanism:
+    return lw.load(FAULTS / f"{name}.yaml")
+
+
+@cache
+def fine_path(name: str) -> FinePath:
+    mechanism = fault(name)
+    return FinePath(mechanism, lw.solve_motion(mechanism, steps=FINE, failures="mark").time)
+
+
+def worst(motion: Any, path: FinePath, every: int) -> float:
+    """Largest difference of a link's direction where the positions of both coincide."""
+    return max(
+        float(np.abs(motion.link(name).direction[::every][: path.reached] - path.direction(name)).max())
+        for name in motion.mechanism.links
+    )
+
+
+@pytest.mark.parametrize("name", JUMPS)
+@pytest.mark.parametrize("steps", [FINE, 360])
+def test_the_assembly_of_the_drawing_is_kept(name: str, steps: int) -> None:
+    motion, path = lw.solve_motion(fault(name), steps=steps), fine_path(name)
+    assert path.reached == len(motion.time[:: steps // FINE])
+    assert worst(motion, path, steps // FINE) < 1e-9
+    assert all(outcome.certified and outcome.margin > 0.0 for outcome in motion.outcomes)
+
+
+def test_positions_before_a_singular_one_are_given_and_those_behind_are_not() -> None:
+    motion = lw.solve_motion(fault("valid_position_barred"), steps=40, failures="mark")
+    path = FinePath(motion.mechanism, motion.time)
+    assert path.reached == 11
+    assert motion.ok.tolist() == [True] * 11 + [False] * 30
+    assert worst(motion, path, 1) < 1e-9
+    assert "RRR-RRR (crank, coupler, rocker, bar)" in motion.outcomes[11].sentence
+    assert path.stop is not None
+    assert f"driver = {np.degrees(path.stop[0]):.4f}"[:-1] in motion.outcomes[11].sentence
+
+
+def test_the_range_ends_where_the_group_without_closed_form_is_singular() -> None:
+    mechanism = fault("valid_position_barred")
+    found = lw.input_range(mechanism)
+    path = FinePath(mechanism, np.linspace(0.0, 0.5, 41))
+    assert path.stop is not None
+    assert found.high is not None and "RRR-RRR" in found.high.group and found.high.how == "is singular"
+    assert found.end == pytest.approx(path.stop[0], abs=1e-9)
+
+
+def test_a_guide_far_from_its_limit_is_not_in_the_way() -> None:
+    mechanism = fault("short_stretch_false")
+    motion = lw.solve_motion(mechanism, steps=24, failures="mark")
+    path = FinePath(replace(mechanism, assembly={}), motion.time)
+    assert 14 <= path.reached < 24
+    assert int(motion.ok.sum()) == path.reached and motion.ok[: path.reached].all()
+    assert worst(motion, path, 1) < 1e-9
