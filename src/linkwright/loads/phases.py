@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
 from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
 from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, Phase, SwingPhase
 from linkwright.model.stroke_parts import StrokePart
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.loads.base import Load
 
 TURN = 2 * np.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
@@ -209,3 +214,42 @@ def _within(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
         laps = np.floor((since + slack) / whole.period)
         since, gained = since - laps * whole.period, gained - laps * whole.drift
     return (since >= -slack) & (since <= length + slack), gained
+
+
+def switch_times(load: Load, signals: Signals) -> tuple[Array, bool]:
+    """Times, s, at which a load begins or ends to act or its table bends, and whether these are all of them.
+
+    Known beforehand: limit positions, and inputs of one driver of constant speed. Times may lie a whole number of
+    cycles away.
+    """
+    phase, table = getattr(load, "phase", None), getattr(load, "table", None)
+    found: list[float] = []
+    complete = True
+    match phase:
+        case InputPhase():
+            ends = _times_of_inputs(np.array([phase.start, phase.end]), signals)
+            complete = ends is not None
+            found += [] if ends is None else ends.tolist()
+        case MovingPhase() | SwingPhase():
+            found += [limit.time for limit in signals.limits(phase.output)]
+            complete = getattr(phase, "part", None) is None
+    if table is not None and table.over in ("input", "time"):
+        knots = np.array(table.x)
+        bends = knots if table.over == "time" else _times_of_inputs(knots, signals)
+        found += [] if bends is None else bends.tolist()
+    return np.array(found), complete
+
+
+def _times_of_inputs(inputs: Array, signals: Signals) -> Array | None:
+    """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
+    is no constant speed."""
+    law = next(iter(signals.mechanism.drivers.values())).law
+    if not isinstance(law, ConstantSpeed) or not law.speed:
+        return None
+    times = (inputs - law.start) / law.speed
+    if not signals.rotary:
+        return np.asarray(times)
+    turn = TURN / abs(law.speed)
+    laps = np.arange(np.ceil(np.ptp(signals.time) / turn) + 2) - 1
+    first = signals.time.min() + (times - signals.time.min()) % turn
+    return np.asarray((first[:, None] + laps * turn).ravel())

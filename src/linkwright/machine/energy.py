@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, nodes
 from linkwright.errors import LinkwrightError
-from linkwright.machine.integral import Floats, Function, extremes
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
@@ -54,9 +54,10 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
 
 def of_energy(energy: Function, edges: Floats, *, balance: float) -> EnergyFluctuation:
     """The fluctuation of an excess energy E(θ), smooth between ``edges``, which span one period."""
-    low, high = extremes(energy, edges[:-1], edges[1:])
-    angle = np.union1d(np.linspace(edges[0], edges[-1], 361), [low[0], high[0]])
-    return EnergyFluctuation(high[1] - low[1], low[0], high[0], angle, energy(angle), balance)
+    pieces = Piecewise(edges, energy(nodes(edges).ravel()).reshape(-1, POINTS))
+    low, high = pieces.extreme("min"), pieces.extreme("max")
+    angle = np.union1d(np.linspace(edges[0], edges[-1], 361), [low.place, high.place])
+    return EnergyFluctuation(high.value - low.value, low.place, high.place, angle, pieces(angle), balance)
 
 
 def fluctuation_from_areas(

@@ -6,16 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from linkwright.core.piecewise import POINTS, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.machine.integral import Function
 from linkwright.machine.torque_curve import TURN, TorqueCurve
-from linkwright.metrics.resolve import Resolver
-
-#: Equal steps over the cycle in the mean of a smooth periodic inertia.
-MEAN_STEPS = 720
+from linkwright.metrics.analysis import Analysis
 
 
 def equivalent_inertia(motion: Motion) -> Floats:
@@ -80,13 +77,13 @@ class Equivalent:
     period: float
     start: float
     direction: float
-    inertia_at: Function = field(repr=False)
+    inertia_at: Piecewise = field(repr=False)
     load: TorqueCurve = field(repr=False)
 
     @property
     def mean_inertia(self) -> float:
         """Mean of J_e over the angle, kg·m²."""
-        return float(self.inertia_at(np.arange(MEAN_STEPS) * self.period / MEAN_STEPS).mean())
+        return self.inertia_at.total / self.period
 
     def input_at(self, angle: float) -> float:
         """The input's coordinate, rad, at an angle turned."""
@@ -103,19 +100,16 @@ def equivalent(forces: Forces) -> Equivalent:
     rate = _steady_rate(motion)
     direction = float(np.sign(rate))
     period = abs(rate) * (motion.positions.period or 0.0)
-    begin, resolver = float(motion.time[0]), Resolver(motion, forces)
-    if not resolver.possible:
+    begin, grid = float(motion.time[0]), Analysis.of(forces).grid
+    if grid is None:
         raise LinkwrightError(
             f"the positions of {motion.mechanism.name!r} pass a change point or follow no law in time, so the "
             "machine cannot be evaluated between them; solve its cycle without change points first"
         )
 
-    def time(angle: Floats) -> Floats:
-        return np.asarray(begin + angle / abs(rate))
-
-    def torque_at(angle: Floats) -> Floats:
-        return direction * equivalent_torque(resolver.at(time(angle), "forces"))
-
+    edges = abs(rate) * (grid.edges - begin)
+    torque = direction * equivalent_torque(grid.forces)
+    inertia = equivalent_inertia(grid.motion)
     return Equivalent(
         angle=abs(rate) * (motion.time - begin),
         inertia=equivalent_inertia(motion),
@@ -125,8 +119,8 @@ def equivalent(forces: Forces) -> Equivalent:
         period=period,
         start=float(motion.input[0]),
         direction=direction,
-        inertia_at=lambda angle: equivalent_inertia(resolver.at(time(angle))),
-        load=TorqueCurve(torque_at, period),
+        inertia_at=Piecewise(edges, inertia.reshape(-1, POINTS)),
+        load=TorqueCurve.from_pieces(Piecewise(edges, torque.reshape(-1, POINTS))),
     )
 
 

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
-from linkwright.machine.integral import Antiderivative, Floats
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve, speed_of
-from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.metrics.quantities import shown
 from linkwright.words import say
 
@@ -136,7 +135,8 @@ def steady_running(
     flywheel_inertia(1.0, reduced.speed, fluctuation)
     mean = reduced.load.mean
     _require_load(mean, reduced, forces)
-    work = TorqueCurve.constant(mean, period=reduced.period).minus(reduced.load).work
+    load = reduced.load.pieces
+    work = Piecewise(load.edges, mean - load.values).integral()
     energy = _at_constant_speed(reduced, work)
     formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
     exact = _exact(reduced, work, fluctuation, formula)
@@ -153,7 +153,7 @@ def steady_running(
     )
 
 
-def _at_constant_speed(reduced: Equivalent, work: Antiderivative) -> EnergyFluctuation:
+def _at_constant_speed(reduced: Equivalent, work: Integral) -> EnergyFluctuation:
     """Fluctuation of ∫ (mean - T) dφ, T the driver torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
 
     def energy(angle: Floats) -> Floats:
@@ -177,14 +177,14 @@ def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
         )
 
 
-def _with_flywheel(reduced: Equivalent, work: Antiderivative, flywheel: float) -> SpeedCurve:
+def _with_flywheel(reduced: Equivalent, work: Integral, flywheel: float) -> SpeedCurve:
     def total(angle: Floats) -> Floats:
         return flywheel + reduced.inertia_at(angle)
 
     return speed_of(work, total, reduced.speed, motor_torque=reduced.load.mean)
 
 
-def _exact(reduced: Equivalent, work: Antiderivative, required: float, first: float) -> float:
+def _exact(reduced: Equivalent, work: Integral, required: float, first: float) -> float:
     """Flywheel with which the true fluctuation is the required one, by secant steps; zero where none is needed."""
 
     def reached(flywheel: float) -> float | None:

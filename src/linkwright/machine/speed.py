@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from linkwright.core.piecewise import POINTS, Floats, Function, Integral, Piecewise
 from linkwright.errors import LinkwrightError
-from linkwright.machine.integral import Antiderivative, Floats, Function, extremes
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops.
@@ -77,21 +77,26 @@ def true_speed(
 
 
 def speed_of(
-    work: Antiderivative, total: Function, speed: float, *, motor_torque: float, steps: int = 360
+    work: Integral, total: Function, speed: float, *, motor_torque: float, steps: int = 360
 ) -> SpeedCurve:
     """The same from the excess work over one period, J."""
-    start, period = float(work.edges[0]), float(work.edges[-1] - work.edges[0])
-    edges = np.union1d(work.edges, np.linspace(start, start + period, steps + 1))
-    least = extremes(work, edges[:-1], edges[1:])[0][1]
+    edges = work.edges
+    start, period = float(edges[0]), float(edges[-1] - edges[0])
     places, weights = work.quadrature
-    energy = _initial_energy(work(places), total(places), weights / period, speed, least)
+    done, inertia = work(places), total(places)
+    least = Piecewise(edges, done.reshape(-1, POINTS)).extreme("min").value
+    energy = _initial_energy(done, inertia, weights / period, speed, least)
 
     def at(angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
 
-    slowest, fastest = extremes(at, edges[:-1], edges[1:])
+    curve = Piecewise(edges, np.sqrt(2.0 * (energy + done) / inertia).reshape(-1, POINTS))
+    if not curve.smooth.all():
+        curve = Piecewise(edges, curve.values, at, edges)
+    low, high = curve.extreme("min"), curve.extreme("max")
     angle = np.linspace(start, start + period, steps + 1)
-    return SpeedCurve(angle, at(angle), speed, slowest, fastest, motor_torque, at)
+    ends = (low.place, low.value), (high.place, high.value)
+    return SpeedCurve(angle, at(angle), speed, *ends, motor_torque, at)
 
 
 def _constant(inertia: float) -> Function:

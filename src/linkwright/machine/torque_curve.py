@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
-from linkwright.machine.integral import Antiderivative, Floats, extremes
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
@@ -23,13 +23,21 @@ TURN = 2 * np.pi
 class TorqueCurve:
     """Torque T(θ), N·m, periodic in θ with ``period`` rad; ``knots``: angles at which it may kink or jump.
 
-    ``function`` takes angles (n,) within one period from ``start`` and gives torques (n,).
+    ``function`` takes angles (n,) within one period from ``start`` and gives torques (n,); ``known``: the same as
+    polynomials over one period, where it comes as these.
     """
 
     function: Callable[[Floats], Floats] = field(repr=False)
     period: float = TURN
     start: float = 0.0
     knots: tuple[float, ...] = field(default=(), repr=False)
+    known: Piecewise | None = field(default=None, repr=False)
+
+    @classmethod
+    def from_pieces(cls, pieces: Piecewise) -> TorqueCurve:
+        """From polynomials over one period."""
+        start, end = float(pieces.edges[0]), float(pieces.edges[-1])
+        return cls(pieces, end - start, start, tuple(pieces.edges.tolist()), pieces)
 
     @classmethod
     def from_function(
@@ -80,10 +88,16 @@ class TorqueCurve:
         return np.asarray(self.function(self.start + (x - self.start) % self.period), dtype=float)
 
     @cached_property
-    def work(self) -> Antiderivative:
+    def pieces(self) -> Piecewise:
+        """The torque over one period as polynomials between its kinks and jumps."""
+        if self.known is not None:
+            return self.known
+        return Piecewise.of(self.function, self.start, self.start + self.period, knots=np.array(self.knots))
+
+    @cached_property
+    def work(self) -> Integral:
         """Work W(θ) from ``start``, J; ``work.total`` that of one period."""
-        known = np.array(self.knots) if self.knots else None
-        return Antiderivative(self.function, self.start, self.start + self.period, knots=known)
+        return self.pieces.integral()
 
     @property
     def mean(self) -> float:
@@ -112,8 +126,8 @@ class TorqueCurve:
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(angle, torque) of the smallest and of the largest torque."""
-        edges = self.work.edges
-        return extremes(self.function, edges[:-1], edges[1:])
+        low, high = self.pieces.extreme("min"), self.pieces.extreme("max")
+        return (low.place, low.value), (high.place, high.value)
 
 
 def _repeated(curve: TorqueCurve, start: float, length: float) -> list[float]:

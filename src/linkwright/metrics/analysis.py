@@ -15,6 +15,7 @@ from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.loads.signals import Limit
+from linkwright.metrics.cycle_grid import CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.resolve import Resolver
 from linkwright.model.signal_fields import Output
@@ -31,14 +32,12 @@ COSTLY_POINTS, COSTLY_ROUNDS = 5, 3
 class Extreme:
     """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (NaN without a driver).
 
-    ``index``: the nearest sample.
     ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
     """
 
     value: float
     time: float
     input: float
-    index: int
     exact: bool
 
 
@@ -117,24 +116,21 @@ class Analysis:
         span = time[-1] - time[0]
         return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
 
+    @cached_property
+    def grid(self) -> CycleGrid | None:
+        """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
+        return cycle_grid(self.resolver, self.motion, self.forces)
+
     def mean_of(self, signal: Callable[[Forces], Floats]) -> float:
         """Mean over the time of the cycle of what the forces give, (n,).
 
-        Over a closed cycle by integration between the positions, so that the jumps of loads fall where they are;
-        else, and for mechanisms solved by iteration, from the positions.
+        By integration between the positions, so that the jumps of loads fall where they are; of the positions that
+        are reached, where these are not all.
         """
         assert self.forces is not None
-        positions = self.motion.positions
-        if not (self.whole and self.resolver.possible and positions.period) or self.resolver.costly:
+        if self.grid is None:
             return self.mean(signal(self.forces))
-        from linkwright.machine.integral import Antiderivative
-
-        start, sense = float(positions.time[0]), float(np.sign(positions.time[-1] - positions.time[0])) or 1.0
-
-        def values(time: Floats) -> Floats:
-            return signal(self.resolver.at(start + sense * time, "forces"))
-
-        return Antiderivative(values, 0.0, positions.period, cells=60).total / positions.period
+        return self.grid.curve(signal, "forces", halve=True).total / (self.grid.end - self.grid.start)
 
     def rms_of(self, signal: Callable[[Forces], Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""
@@ -160,9 +156,13 @@ class Analysis:
         index = int(np.nanargmax(sign * values))
         time = self.motion.time
         at = float(self.motion.input[index]) if self.motion.inputs else float("nan")
-        sample = Extreme(float(values[index]), float(time[index]), at, index, False)
+        sample = Extreme(float(values[index]), float(time[index]), at, False)
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
+        if self.grid is not None:
+            found = self.grid.curve(signal, of).extreme(kind)
+            if found.smooth:
+                return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
         step = float(abs(time[1] - time[0]))
         peaks = _peaks(sign * values, self.closed)[: 1 if self.resolver.costly else 4]
         low, high = time[peaks] - step, time[peaks] + step
@@ -176,6 +176,10 @@ class Analysis:
         """The same between two times, s, both among the candidates; None where resolving is not possible."""
         if not self.resolver.possible:
             return None
+        if self.grid is not None and self.grid.start <= start < end:
+            found = self.grid.extreme_between(self.grid.curve(signal, "motion"), kind, start, end)
+            if found.smooth:
+                return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
         sign = 1.0 if kind == "max" else -1.0
         count = 91 if self.resolver.costly else 361
         time = np.linspace(start, end, count)
@@ -184,7 +188,7 @@ class Analysis:
             return None
         best = int(np.nanargmax(values))
         at = float(time[best])
-        first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), best, True)
+        first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
         low, high = time[[max(best - 1, 0)]], time[[min(best + 1, count - 1)]]
         return self._narrowed(lambda t: sign * signal(self.resolver.at(t, "motion")), low, high, sign, first)
 
@@ -209,7 +213,7 @@ class Analysis:
         if vertex is not None:
             found.append((float(signal(np.array([vertex]))[0]), vertex))
         value, time = max(found, key=lambda each: each[0] if np.isfinite(each[0]) else -np.inf)
-        return Extreme(sign * value, time, self.resolver.input_at(time), first.index, True)
+        return Extreme(sign * value, time, self.resolver.input_at(time), True)
 
 
 def _vertex(time: Floats, values: Floats, best: int) -> float | None:

@@ -8,8 +8,10 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.derivative import forward
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.programs import MotionPrograms
 
 
 def has_rates_in_time(motion: Motion) -> bool:
@@ -22,11 +24,9 @@ class TimeDerivative:
     """d/dt of outputs of a motion's program: the chain rule over the drivers' inputs; constant speeds only."""
 
     def __init__(self, motion: Motion, names: tuple[str, ...]) -> None:
-        solver = motion.solver
-        program = Program.of(solver.motion.trace, {name: solver.outputs.value(name) for name in names})
-        self._inputs = tuple(name for name in program.positions if not name.startswith("mode:"))
+        programs = motion.solver.programs
         self._names = names
-        self._program = NumpyProgram(forward(program, self._inputs))
+        self._program, self._inputs = _kept.get(programs, names, lambda: _traced(programs, names))
 
     def of(self, motion: Motion) -> Floats:
         """The derivatives at the positions of a motion of the same solver, (names, n)."""
@@ -40,6 +40,18 @@ class TimeDerivative:
             found += [rows[place[f"{output}|{name}"]] * change for output in self._names]
         found[:, ~motion.ok] = np.nan
         return found
+
+
+_Traced = tuple[NumpyProgram, tuple[str, ...]]
+_kept: Recent[MotionPrograms, _Traced] = Recent(64)
+
+
+def _traced(programs: MotionPrograms, names: tuple[str, ...]) -> _Traced:
+    """The derivatives of some outputs by the drivers' inputs, and these."""
+    with programs.lock:
+        program = Program.of(programs.motion.trace, {name: programs.outputs.value(name) for name in names})
+    inputs = tuple(name for name in program.positions if not name.startswith("mode:"))
+    return NumpyProgram(forward(program, inputs)), inputs
 
 
 def _change(motion: Motion, name: str) -> Floats:

@@ -14,18 +14,21 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 def convex_hull(points: Floats) -> Floats:
     """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain)."""
-    ordered = np.unique(points, axis=0)
+    ordered = sorted(set(map(tuple, points.tolist())))
     if len(ordered) < 3:
-        return ordered
+        return np.array(ordered)
     return np.array(_half(ordered)[:-1] + _half(ordered[::-1])[:-1])
 
 
-def _half(ordered: Floats) -> list[Floats]:
-    chain: list[Floats] = []
-    for point in ordered:
-        while len(chain) > 1 and cross(chain[-1] - chain[-2], point - chain[-1]) <= 0:
+def _half(ordered: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
+    chain: list[tuple[float, ...]] = []
+    for x, y in ordered:
+        while len(chain) > 1:
+            (ax, ay), (bx, by) = chain[-2], chain[-1]
+            if (bx - ax) * (y - by) - (by - ay) * (x - bx) > 0.0:
+                break
             chain.pop()
-        chain.append(point)
+        chain.append((x, y))
     return chain
 
 

@@ -16,8 +16,9 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rows import Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.phases import activity
 from linkwright.loads.signals import Limit, Whole
-from linkwright.model.signal_fields import Output
+from linkwright.model.signal_fields import Output, Phase
 
 
 class _SameCycle(MotionSignals):
@@ -86,6 +87,10 @@ class Resolver:
         if solver.friction.terms:
             fields = run.with_friction(motion, solver, fields)
         return run.evaluated(motion, solver, fields, self._forces.static)
+
+    def active(self, phase: Phase, time: Floats) -> NDArray[np.bool_]:
+        """Whether a load of this phase acts at some times, (n,)."""
+        return activity(phase, _SameCycle(self.motion(time), self._signals)).where
 
     def _fields(self, motion: Motion) -> dict[str, Floats]:
         """Magnitudes of the loads and relative angles of such a motion; friction starts at zero."""

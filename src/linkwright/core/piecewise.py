@@ -1,0 +1,234 @@
+"""A function of one variable as polynomials between edges: its integral and its extremes.
+
+Every piece goes through the function's values at sixteen Gauss points (Legendre series of degree 15), so that smooth
+functions are met to rounding; a piece that is not met, because the function jumps or kinks in it, is halved until it
+no longer matters. Extremes are those of the polynomials, to 1e-13 of a piece's width where the function is
+smooth (Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Function = Callable[[Floats], Floats]
+
+POINTS = 16
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
+_ORDERS = np.arange(POINTS)
+#: From values at the nodes to coefficients of Legendre polynomials, (nodes, orders); to the slope at the nodes.
+_TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
+_TO_SLOPE = _TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
+#: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
+_BARYCENTRIC = (-1.0) ** _ORDERS * np.sqrt((1.0 - NODES**2) * WEIGHTS)
+#: Places of a piece where it is looked at for extremes, both ends among them.
+_LOOKS = 49
+_PLACES = -np.cos(np.pi * np.arange(_LOOKS) / (_LOOKS - 1))
+_TO_PLACES = _TO_LEGENDRE @ np.polynomial.legendre.legvander(_PLACES, POINTS - 1).T
+#: A piece is met where the last orders have less than this share of the function's size.
+SMOOTH = 1e-11
+#: Halving ends where it changes the integral by less than this share, or after so many times.
+_FINE, _HALVINGS = 1e-14, 48
+_NONE: Floats = np.empty(0)
+#: More pieces than this that want halving mean rounding noise, which no halving smooths.
+_NOISE = 2000
+
+
+def nodes(edges: Floats) -> Floats:
+    """Gauss points of all pieces between edges (m + 1,), (m, POINTS)."""
+    low, high = edges[:-1, None], edges[1:, None]
+    return np.asarray(0.5 * (low + high) + 0.5 * (high - low) * NODES)
+
+
+def edges_between(start: float, end: float, pieces: int, knots: Floats) -> Floats:
+    """Edges of equal pieces, with the knots that lie inside."""
+    edges = np.linspace(start, end, pieces + 1)
+    return np.unique(np.append(edges, knots[(knots > start) & (knots < end)]))
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The largest or smallest value of a function; ``smooth``: whether its piece is met by the polynomial."""
+
+    place: float
+    value: float
+    smooth: bool
+
+
+class Piecewise:
+    """Polynomials between ``edges`` (m + 1,) through ``values`` (m, POINTS) at the Gauss points of the pieces.
+
+    ``function``: the function itself, asked where pieces are not met, or do not meet each other at other edges than
+    the ``knots``; without it they stay as they are.
+    """
+
+    def __init__(
+        self, edges: Floats, values: Floats, function: Function | None = None, knots: Floats = _NONE
+    ) -> None:
+        self.edges, self.values = edges, values
+        if function is not None:
+            self.edges, self.values = _halved(edges, values, function, knots)
+
+    @classmethod
+    def of(
+        cls,
+        function: Function,
+        start: float,
+        end: float,
+        *,
+        pieces: int = 60,
+        knots: Floats = _NONE,
+    ) -> Piecewise:
+        """A function between two places; ``knots``: where it may kink or jump, as far as that is known."""
+        edges = edges_between(start, end, pieces, knots)
+        return cls(edges, function(nodes(edges).ravel()).reshape(-1, POINTS), function, knots)
+
+    @property
+    def width(self) -> Floats:
+        """Widths of the pieces, (m,)."""
+        return np.diff(self.edges)
+
+    @cached_property
+    def smooth(self) -> NDArray[np.bool_]:
+        """Which pieces are met by their polynomials, (m,)."""
+        return np.asarray(tails(self.values) <= SMOOTH * np.abs(self.values).max(initial=0.0))
+
+    def __call__(self, x: Floats) -> Floats:
+        """The function at places between the outer edges, (n,)."""
+        piece, share = self._place(x)
+        return _at(self.values[piece], share)
+
+    def _place(self, x: Floats) -> tuple[NDArray[np.intp], Floats]:
+        piece = np.clip(np.searchsorted(self.edges, x, "right") - 1, 0, len(self.values) - 1)
+        low, high = self.edges[piece], self.edges[piece + 1]
+        return piece, np.clip((2.0 * x - low - high) / (high - low), -1.0, 1.0)
+
+    def part(self, low: float, high: float) -> Piecewise:
+        """The same function between two places inside the outer edges."""
+        edges = np.unique(
+            np.concatenate([[low], self.edges[(self.edges > low) & (self.edges < high)], [high]])
+        )
+        return Piecewise(edges, self(nodes(edges).ravel()).reshape(-1, POINTS))
+
+    # integral -----------------------------------------------------------------------------
+    @property
+    def total(self) -> float:
+        """Integral over all pieces."""
+        return float(0.5 * self.width @ (self.values @ WEIGHTS))
+
+    def integral(self) -> Integral:
+        """The integral from the first edge to any place."""
+        return Integral(self)
+
+    # extremes ----------------------------------------------------------------------------
+    def extreme(self, kind: str) -> Extreme:
+        """The ``max`` or ``min``; at a jump the larger (smaller) of both sides counts."""
+        sign = 1.0 if kind == "max" else -1.0
+        seen = sign * (self.values @ _TO_PLACES)
+        top = float(seen.max())
+        slack = 1e-3 * (top - float(seen.min()))
+        inner = np.pad(seen, ((0, 0), (1, 1)), constant_values=-np.inf)
+        peaks = (seen >= inner[:, :-2]) & (seen >= inner[:, 2:]) & (seen >= top - slack)
+        piece, look = np.nonzero(peaks)
+        if len(piece) > 64:
+            best = np.argsort(-seen[piece, look], kind="stable")[:64]
+            piece, look = piece[best], look[best]
+        low, high = _PLACES[np.maximum(look - 1, 0)], _PLACES[np.minimum(look + 1, _LOOKS - 1)]
+        share = _zeros(self.values[piece] @ _TO_SLOPE, low, high, _PLACES[look])
+        values = sign * _at(self.values[piece], share)
+        values = np.maximum(values, seen[piece, look])
+        share = np.where(values > seen[piece, look], share, _PLACES[look])
+        k = int(values.argmax())
+        place = self.edges[piece[k]] + 0.5 * (share[k] + 1.0) * self.width[piece[k]]
+        return Extreme(float(place), sign * float(values[k]), bool(self.smooth[piece[k]]))
+
+
+class Integral:
+    """W(x) = ∫ from the first edge to x of piecewise polynomials, to rounding."""
+
+    def __init__(self, of: Piecewise) -> None:
+        self.of = of
+        self._series = of.values @ _TO_LEGENDRE
+        self._before = np.concatenate([[0.0], np.cumsum(0.5 * of.width * (of.values @ WEIGHTS))])
+        self.total = float(self._before[-1])
+
+    @property
+    def edges(self) -> Floats:
+        """Ends of all pieces."""
+        return self.of.edges
+
+    def __call__(self, x: Floats) -> Floats:
+        """W at places between the outer edges, (n,)."""
+        piece, share = self.of._place(x)
+        known = np.polynomial.legendre.legvander(share, POINTS)
+        gained = np.concatenate(
+            [share[:, None] + 1.0, (known[:, 2:] - known[:, :-2]) / (2 * _ORDERS[1:] + 1)], axis=1
+        )
+        half = 0.5 * self.of.width[piece]
+        return np.asarray(self._before[piece] + half * (gained * self._series[piece]).sum(axis=1))
+
+    @property
+    def quadrature(self) -> tuple[Floats, Floats]:
+        """Gauss points of all pieces and their weights, (n,) each, for integrals of what is smooth where W is."""
+        return nodes(self.edges).ravel(), (0.5 * self.of.width[:, None] * WEIGHTS).ravel()
+
+
+def tails(values: Floats) -> Floats:
+    """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""
+    return np.asarray(np.abs(values @ _TO_LEGENDRE[:, -3:]).max(axis=-1))
+
+
+def _at(values: Floats, x: Floats) -> Floats:
+    """Polynomials (..., k) through values (..., k, POINTS) at places (k,) of the reference piece."""
+    gap = x[:, None] - NODES
+    share = _BARYCENTRIC / np.where(gap == 0.0, 1e-300, gap)
+    return np.asarray((share * values).sum(axis=-1) / share.sum(axis=-1))
+
+
+def _zeros(values: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
+    """Zeros (k,) of polynomials (k, POINTS) between places of the reference piece, by safeguarded Newton steps from
+    ``start``, which is given back where there is no change of sign."""
+    both = np.stack([values, values @ _TO_SLOPE])
+    first = _at(values, low)
+    crossing = np.sign(first) * np.sign(_at(values, high)) <= 0.0
+    x = start
+    for _ in range(60):
+        value, slope = _at(both, x)
+        same = np.sign(value) == np.sign(first)
+        low, high = np.where(same, x, low), np.where(same, high, x)
+        with np.errstate(all="ignore"):
+            newton = x - value / slope
+        new = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+        moved = np.abs(new - x)[crossing].max(initial=0.0)
+        x = new
+        if moved <= 1e-14:
+            break
+    return np.where(crossing, x, start)
+
+
+def _halved(edges: Floats, values: Floats, function: Function, knots: Floats) -> tuple[Floats, Floats]:
+    """Pieces halved where they are not met, or where neighbours do not meet away from the knots, until that no longer
+    changes the integral."""
+    size = float(np.abs(values).max(initial=0.0))
+    scale = float(np.diff(edges) @ np.abs(values).mean(axis=1))
+    for _ in range(_HALVINGS):
+        gap = np.abs(values[1:] @ _TO_PLACES[:, 0] - values[:-1] @ _TO_PLACES[:, -1])
+        gap[np.isin(edges[1:-1], knots)] = 0.0
+        off = np.maximum(tails(values), np.maximum(np.append(0.0, gap), np.append(gap, 0.0)))
+        rough = (off > SMOOTH * size) & (np.diff(edges) * off > _FINE * scale)
+        if not 0 < rough.sum() <= _NOISE:
+            break
+        low, middle, high = edges[:-1][rough], (0.5 * (edges[:-1] + edges[1:]))[rough], edges[1:][rough]
+        starts, ends = np.append(low, middle), np.append(middle, high)
+        places = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * NODES
+        new = function(places.ravel()).reshape(-1, POINTS)
+        starts = np.concatenate([edges[:-1][~rough], starts])
+        order = np.argsort(starts, kind="stable")
+        edges = np.append(starts[order], edges[-1])
+        values = np.concatenate([values[~rough], new])[order]
+    return edges, values

@@ -1,0 +1,156 @@
+"""A cycle solved once at Gauss points, from which every integral and extreme is read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from linkwright.core.piecewise import POINTS, SMOOTH, Extreme, Piecewise, edges_between, nodes, tails
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.phases import activity, switch_times
+from linkwright.metrics.resolve import Resolver
+from linkwright.model.signal_fields import Phase
+
+#: Pieces of one cycle before the places where something jumps or bends are cut out.
+PIECES = 24
+#: Halvings of pieces that polynomials do not meet, and of a step in which a load begins or ends to act.
+HALVINGS, SWITCH_HALVINGS = 24, 48
+#: More rough pieces than this are noise.
+_NOISE = 96
+
+
+class CycleGrid:
+    """Motion, and forces if they were solved, at the Gauss points of pieces between ``start`` and ``end``, s.
+
+    Edges lie where loads begin or end to act; pieces that still are not smooth are halved.
+    """
+
+    def __init__(
+        self, resolver: Resolver, motion: Motion, forces: Forces | None, start: float, end: float
+    ) -> None:
+        self.resolver, self._motion, self._forces = resolver, motion, forces
+        self.start, self.end = start, end
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion at the Gauss points."""
+        solved = self._solved[1]
+        return solved.motion if isinstance(solved, Forces) else solved
+
+    @property
+    def forces(self) -> Forces:
+        """The forces at the Gauss points."""
+        solved = self._solved[1]
+        assert isinstance(solved, Forces)
+        return solved
+
+    @property
+    def edges(self) -> Floats:
+        """Ends of the pieces, s."""
+        return self._solved[0]
+
+    def curve(self, signal: Callable[[Any], Floats], of: str, *, halve: bool = False) -> Piecewise:
+        """A signal of the motion, or of the forces, over the time; ``halve``: where it kinks of itself, too."""
+        values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
+        found = Piecewise(self.edges, values.reshape(-1, POINTS))
+        if not halve or found.smooth.all():
+            return found
+        function = self._function(signal, of)
+        return Piecewise(self.edges, values.reshape(-1, POINTS), function, self.edges)
+
+    def extreme_between(self, curve: Piecewise, kind: str, low: float, high: float) -> Extreme:
+        """The largest or smallest value of a curve between two times, the second perhaps in the next cycle."""
+        parts = [curve.part(low, min(high, self.end))]
+        if high > self.end:
+            parts.append(curve.part(self.start, high - (self.end - self.start)))
+        sign = 1.0 if kind == "max" else -1.0
+        return max((each.extreme(kind) for each in parts), key=lambda found: sign * found.value)
+
+    def _function(self, signal: Callable[[Any], Floats], of: str) -> Callable[[Floats], Floats]:
+        return lambda time: np.asarray(signal(self.resolver.at(time, of)), dtype=float)
+
+    @cached_property
+    def _solved(self) -> tuple[Floats, Motion | Forces]:
+        """Edges, and the result at all Gauss points between them."""
+        of = "motion" if self._forces is None else "forces"
+        edges = edges_between(self.start, self.end, PIECES, self._switches())
+        solved = self.resolver.at(nodes(edges).ravel(), of)
+        for _ in range(HALVINGS):
+            rough = self._rough(solved, edges)
+            if not 0 < rough.sum() <= _NOISE:
+                break
+            edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
+            solved = self.resolver.at(nodes(edges).ravel(), of)
+        return edges, solved
+
+    def _rough(self, solved: Any, edges: Floats) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Pieces in which some stored output is not met by its polynomial."""
+        rough = np.zeros(len(edges) - 1, dtype=bool)
+        for rows in (solved.rows, *([solved.motion.rows] if self._forces else [])):
+            kinds: dict[str, list[int]] = {}
+            for name, place in rows.index.items():
+                kinds.setdefault(name.partition(":")[0], []).append(place)
+            kinds.pop("outcome", None)
+            for places in kinds.values():
+                values = rows.values[places]
+                size = np.abs(values).max()
+                rough |= (tails(values.reshape(len(places), -1, POINTS)) > SMOOTH * size).any(axis=0)
+        return rough & (np.diff(edges) > 1e-12 * (self.end - self.start))
+
+    # places where loads jump ------------------------------------------------------------------------
+    def _switches(self) -> Floats:
+        """Times at which a load begins or ends to act, or its table bends."""
+        if self._forces is None:
+            return np.empty(0)
+        signals = MotionSignals(self._motion)
+        found: list[Floats] = []
+        for load in self._motion.mechanism.loads.values():
+            phase = getattr(load, "phase", None)
+            known, complete = switch_times(load, signals)
+            found.append(known)
+            if phase is not None and not complete:
+                found.append(self._bisected(phase, signals))
+        return self._wrapped(found)
+
+    def _wrapped(self, found: Iterable[Floats]) -> Floats:
+        times = np.concatenate([np.empty(0), *found])
+        period = self._motion.positions.period
+        if self._motion.positions.closed and period:
+            times = self.start + (times - self.start) % period
+        return np.unique(times[np.isfinite(times)])
+
+    def _bisected(self, phase: Phase, signals: MotionSignals) -> Floats:
+        """Times at which a phase switches, by halving the steps in which it does."""
+        where, time = activity(phase, signals).where, self._motion.time
+        if signals.closes is not None:
+            where, time = np.append(where, where[0]), np.append(time, time[0] + signals.closes[0])
+        steps = np.flatnonzero(where[:-1] != where[1:])
+        low, high, before = time[steps].copy(), time[steps + 1].copy(), where[steps]
+        for _ in range(SWITCH_HALVINGS if len(steps) else 0):
+            middle = 0.5 * (low + high)
+            same = self.resolver.active(phase, middle) == before
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return np.asarray(0.5 * (low + high))
+
+
+def cycle_grid(resolver: Resolver, motion: Motion, forces: Forces | None) -> CycleGrid | None:
+    """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
+    if not resolver.possible or motion.steps < 3 or not motion.ok.all():
+        return None
+    start, positions = float(motion.time[0]), motion.positions
+    if positions.closed and positions.period:
+        end = start + float(np.sign(motion.time[-1] - start)) * positions.period
+    else:
+        end = float(motion.time[-1])
+    grid = CycleGrid(resolver, motion, forces, min(start, end), max(start, end))
+    try:
+        return grid if grid.motion.ok.all() else None
+    except LinkwrightError:
+        return None

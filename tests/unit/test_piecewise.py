@@ -1,0 +1,79 @@
+"""Integrals and extremes of piecewise polynomials against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from linkwright.core.piecewise import POINTS, Piecewise, nodes
+
+TURN = 2 * math.pi
+
+
+def wave(x):
+    return np.sin(3 * x) + 0.3 * np.cos(11 * x + 1)
+
+
+def test_integral_of_a_smooth_function_at_any_place():
+    work = Piecewise.of(wave, 0.0, TURN, pieces=24).integral()
+    x = np.linspace(0.0, TURN, 777)
+    exact = (1 - np.cos(3 * x)) / 3 + 0.3 / 11 * (np.sin(11 * x + 1) - math.sin(1))
+    assert np.abs(work(x) - exact).max() < 5e-15
+    assert work.total == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("place", [1.2345, 0.3, 5.999, TURN / 24 * (1 + 1e-4), TURN / 24 * (3 - 1e-9)])
+def test_a_jump_at_an_unknown_place_is_found(place):
+    jump = Piecewise.of(lambda x: np.where(x < place, np.sin(x), 2 + np.cos(x)), 0.0, TURN, pieces=24)
+    exact = (1 - math.cos(place)) + 2 * (TURN - place) - math.sin(place)
+    assert jump.total == pytest.approx(exact, abs=2e-12)
+
+
+def test_a_kink_of_its_own():
+    kink = Piecewise.of(lambda x: np.abs(np.sin(x - 0.3)), 0.0, TURN, pieces=24)
+    assert kink.total == pytest.approx(4.0, abs=1e-12)
+    assert not kink.extreme("min").smooth
+    assert kink.extreme("min").value < 1e-6
+
+
+def test_a_known_jump_costs_no_halving():
+    calls = []
+
+    def step(x):
+        calls.append(len(x))
+        return np.where(x < 1.0, x, x - 3.0)
+
+    found = Piecewise.of(step, 0.0, 2.0, pieces=4, knots=np.array([1.0]))
+    assert calls == [4 * POINTS]
+    assert found.total == pytest.approx(2.0 - 3.0, abs=1e-15)
+    assert found.extreme("max").value == pytest.approx(1.0, abs=1e-13)
+    assert found.extreme("min").value == pytest.approx(-2.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("frequency", [1, 2, 7, 19])
+def test_extremes_of_a_cosine(frequency):
+    found = Piecewise.of(lambda x: np.cos(frequency * (x - 0.4)), 0.0, TURN, pieces=24)
+    top, low = found.extreme("max"), found.extreme("min")
+    assert (top.value, low.value) == (pytest.approx(1.0, abs=1e-14), pytest.approx(-1.0, abs=1e-14))
+    assert math.cos(frequency * (top.place - 0.4)) > 1 - 1e-14
+
+
+def test_the_higher_of_two_nearly_equal_peaks():
+    found = Piecewise.of(lambda x: np.sin(x) ** 2 + 1e-9 * np.sin(x), 0.0, TURN, pieces=24)
+    assert found.extreme("max").place == pytest.approx(TURN / 4, abs=1e-7)
+    assert found.extreme("max").value == pytest.approx(1 + 1e-9, abs=5e-14)
+
+
+def test_a_part_has_the_extremes_between_its_ends():
+    found = Piecewise.of(np.cos, 0.0, TURN, pieces=24).part(1.0, 2.5)
+    assert found.extreme("max").value == pytest.approx(math.cos(1.0), abs=1e-13)
+    assert found.extreme("min").value == pytest.approx(math.cos(2.5), abs=1e-13)
+    assert found.total == pytest.approx(math.sin(2.5) - math.sin(1.0), abs=1e-14)
+
+
+def test_values_at_the_nodes_are_the_functions():
+    edges = np.linspace(0.0, 1.0, 4)
+    found = Piecewise(edges, np.exp(nodes(edges)))
+    x = nodes(edges).ravel()
+    assert np.abs(found(x) - np.exp(x)).max() < 1e-15 * math.e
+    assert np.abs(found(np.array([0.0, 1.0])) - np.exp([0.0, 1.0])).max() < 1e-14
