@@ -12,7 +12,18 @@ import linkwright
 
 ROOT = Path(linkwright.__file__).parent
 STAGES = (
-    ("errors", "units", "registry", "lazy", "whole_files", "references", "words", "gallery", "core", "engine"),
+    (
+        "errors",
+        "units",
+        "registry",
+        "lazy",
+        "whole_files",
+        "references",
+        "words",
+        "gallery",
+        "core",
+        "engine",
+    ),
     ("model", "joints", "drivers", "loads"),
     ("structure",),
     ("groups",),
