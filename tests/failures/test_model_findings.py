@@ -58,7 +58,7 @@ ONE_CHANGE = [
     ("[O1, A]", "[O1, O1]", "5:24", "links.crank.points", "duplicate", "twice"),
     ("[O1, A]", "O1", "5:19", "links.crank.points", "type", "[A, B]"),
     ("[O1, A]", "[O1 A]", "5:20", "links.crank.points.0", "name", '"O1_A"'),
-    ("{points: [O1, A], length: 1 m}", "", "6:3", "links.crank", "type", "mapping"),
+    ("{points: [O1, A], length: 1 m}", "", "5:9", "links.crank", "type", "mapping"),
     ("about: O1", "about: B", "8:30", "driver.about", "reference", "O1, A"),
     ("about: O1", "about: Q", "8:30", "driver.about", "unknown-name", "there is: O1, O2, A, B"),
     ("turn: crank", "turn: crnk", "8:16", "driver.turn", "unknown-name", '"crank"'),

@@ -1,25 +1,29 @@
-"""From text to nodes: the events of the YAML reader composed into a tree, without recursion into the
-unknown."""
+"""From text to nodes: the events of the YAML parser composed into a tree, no deeper than a model can be."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
 
-from linkwright.model.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
-from linkwright.model.syntax import explain, tab_remarks
-
-_HARMLESS_TAGS = (
-    "tag:yaml.org,2002:str",
-    "tag:yaml.org,2002:int",
-    "tag:yaml.org,2002:float",
-    "tag:yaml.org,2002:map",
-    "tag:yaml.org,2002:seq",
-    "tag:yaml.org,2002:null",
-    "!",
+from yaml.error import YAMLError
+from yaml.events import (
+    AliasEvent,
+    DocumentStartEvent,
+    MappingEndEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+    StreamEndEvent,
 )
 
+from linkwright.model.events import Source, event_reader
+from linkwright.model.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
+from linkwright.model.syntax import explain, tab_remarks
+from linkwright.words.carried import UNFIT
+
+_KINDS = ("str", "int", "float", "map", "seq", "null")
+_HARMLESS_TAGS = frozenset(("!", *(f"tag:yaml.org,2002:{kind}" for kind in _KINDS)))
 _INNER_TAB = re.compile(r"(?<=\S)\t|(?<=\S )\t")
 
 
@@ -28,30 +32,32 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
 
     The tree is None where the text is empty or cannot be read.
     """
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
+    plain = text
+    if "\t" in text:
+        flow = text.lstrip("\ufeff \t\r\n").startswith(("{", "["))
+        plain = text.replace("\t", " ") if flow else _INNER_TAB.sub(" ", text)
+    source = Source(plain)
+    while True:
+        composer = _Composer()
+        try:
+            composer.documents(event_reader(source.text))
+        except _Stop:
+            return None, composer.remarks
+        except YAMLError as error:
+            mark = getattr(error, "problem_mark", None)
+            if mark is not None and source.part(mark.index):
+                continue
+            return None, [*composer.remarks, *(tab_remarks(text) or [explain(error, text)])]
+        except (ValueError, OverflowError) as error:
+            return None, [_unreadable(error)]
+        if composer.root is not None:
+            source.restore(composer.root)
+        return composer.root, composer.remarks
 
-    flow = text.lstrip("\ufeff \t\r\n").startswith(("{", "["))
-    source = text.replace("\t", " ") if flow else _INNER_TAB.sub(" ", text)
-    composer = _Composer()
-    try:
-        composer.documents(iter(YAML(typ="safe", pure=True).parse(source)))
-    except _Stop:
-        return None, composer.remarks
-    except YAMLError as error:
-        return None, [*composer.remarks, *(tab_remarks(text) or [explain(error, text)])]
-    except (ValueError, OverflowError, IndexError, KeyError, AssertionError, RecursionError) as error:
-        return None, [
-            *composer.remarks,
-            Remark(
-                0,
-                0,
-                f"the file cannot be read as YAML ({type(error).__name__})",
-                "check quotes, brackets and escapes",
-                "syntax",
-            ),
-        ]
-    return composer.root, composer.remarks
+
+def _unreadable(error: Exception) -> Remark:
+    message = f"the file cannot be read as YAML ({type(error).__name__})"
+    return Remark(0, 0, message, "check quotes, brackets and escapes", "syntax")
 
 
 class _Stop(Exception):
@@ -59,24 +65,24 @@ class _Stop(Exception):
 
 
 class _Composer:
+    """Makes nodes of events; what is wrong with the text becomes remarks."""
+
     def __init__(self) -> None:
+        self.next: Callable[[], Any]
         self.remarks: list[Remark] = []
         self.root: Node | None = None
-        self.anchors: dict[str, Node] = {}
+        self.anchors: dict[str, tuple[Node, int]] = {}
         self.open: list[str] = []
-        self.sizes: dict[int, int] = {}
-        self.keep: list[Node] = []
         self.total = 0
         self.path: list[str] = []
 
     def remark(self, mark: Any, message: str, remedy: str, code: str) -> None:
         self.remarks.append(Remark(mark.line, mark.column, message, remedy, code, ".".join(self.path)))
 
-    def documents(self, events: Iterator[Any]) -> None:
-        count = 0
-        for event in events:
-            kind = type(event).__name__
-            if kind == "DocumentStartEvent":
+    def documents(self, next_event: Callable[[], Any]) -> None:
+        self.next, count = next_event, 0
+        while not isinstance(event := self.next(), StreamEndEvent):
+            if isinstance(event, DocumentStartEvent):
                 count += 1
                 if count > 1:
                     self.remark(
@@ -86,12 +92,11 @@ class _Composer:
                         "documents",
                     )
                     raise _Stop
-            elif kind not in ("StreamStartEvent", "StreamEndEvent", "DocumentEndEvent"):
-                self.root = self.node(event, events, 0)
+                self.root = self.node(self.next(), 0)
 
-    def node(self, event: Any, events: Iterator[Any], depth: int) -> Node:
-        kind = type(event).__name__
-        if kind == "AliasEvent":
+    def node(self, event: Any, depth: int) -> Node:
+        kind = type(event)
+        if kind is AliasEvent:
             return self.alias(event)
         if depth > MAX_DEPTH:
             self.remark(
@@ -101,34 +106,35 @@ class _Composer:
                 "depth",
             )
             raise _Stop
-        self.tag(event)
-        anchor = str(event.anchor) if event.anchor else ""
-        if anchor:
-            self.open.append(anchor)
-        node: Node
-        if kind == "ScalarEvent":
-            node = self.scalar(event)
-        elif kind == "SequenceStartEvent":
-            node = self.sequence(event, events, depth)
-        else:
-            node = self.mapping(event, events, depth)
-        if anchor:
-            self.open.remove(anchor)
-            self.anchors[anchor] = node
+        if event.tag is not None:
+            self.tag(event)
+        anchor = event.anchor
+        if anchor is None:
+            return self.content(kind, event, depth)
+        before = self.total
+        self.open.append(anchor)
+        node = self.content(kind, event, depth)
+        self.open.remove(anchor)
+        self.anchors[anchor] = node, self.total - before
         return node
 
+    def content(self, kind: type, event: Any, depth: int) -> Node:
+        if kind is ScalarEvent:
+            return self.scalar(event)
+        self.grow(event.start_mark, 1)
+        return self.sequence(event, depth) if kind is SequenceStartEvent else self.mapping(event, depth)
+
     def tag(self, event: Any) -> None:
-        tag = str(event.tag) if event.tag is not None else ""
-        if tag and tag not in _HARMLESS_TAGS and getattr(event, "implicit", False) is not True:
-            shown = tag.replace("tag:yaml.org,2002:", "!!")
+        if event.tag not in _HARMLESS_TAGS and event.implicit is not True:
+            shown = event.tag.replace("tag:yaml.org,2002:", "!!")
             self.remark(event.start_mark, f'the tag "{shown}" is not supported', "remove the tag", "tag")
 
     def alias(self, event: Any) -> Node:
-        name = str(event.anchor)
-        start, end = event.start_mark, event.end_mark
+        name, start, end = event.anchor, event.start_mark, event.end_mark
         if name in self.anchors:
-            self.grow(start, self.sizes.get(id(self.anchors[name]), 1))
-            return self.anchors[name]
+            node, size = self.anchors[name]
+            self.grow(start, size)
+            return node
         inside = name in self.open
         self.remark(
             start,
@@ -141,7 +147,7 @@ class _Composer:
         return Scalar(start.line, start.column, start.index, end.index, "")
 
     def grow(self, mark: Any, size: int) -> None:
-        self.total = self.total + size
+        self.total += size
         if self.total > MAX_NODES:
             self.remark(
                 mark, "the file holds too many values", "a model needs far fewer; remove aliases", "size"
@@ -149,49 +155,44 @@ class _Composer:
             raise _Stop
 
     def scalar(self, event: Any) -> Scalar:
-        start, end = event.start_mark, event.end_mark
+        start, text = event.start_mark, event.value
         self.grow(start, 1)
-        plain = not event.style
-        return Scalar(start.line, start.column, start.index, end.index, _whole(str(event.value)), plain)
+        if unfit := UNFIT.search(text):
+            shown = f"U+{ord(unfit[0]):04X}"
+            self.remark(
+                start,
+                f"the text holds the control character {shown}",
+                "remove it: a model is plain text",
+                "control-character",
+            )
+            text = UNFIT.sub("\ufffd", text)
+        return Scalar(start.line, start.column, start.index, event.end_mark.index, text, not event.style)
 
-    def sequence(self, event: Any, events: Iterator[Any], depth: int) -> Sequence:
-        start, before = event.start_mark, self.total
-        found = Sequence(start.line, start.column, start.index, start.index, flow=bool(event.flow_style))
-        for inner in events:
-            if type(inner).__name__ == "SequenceEndEvent":
-                found.end = inner.end_mark.index
-                break
-            self.path.append(str(len(found.items)))
-            found.items.append(self.node(inner, events, depth + 1))
-            self.path.pop()
-        self.measure(found, start, before)
-        return found
+    def sequence(self, event: Any, depth: int) -> Sequence:
+        start, items, path = event.start_mark, list[Node](), self.path
+        while type(inner := self.next()) is not SequenceEndEvent:
+            path.append(str(len(items)))
+            items.append(self.node(inner, depth + 1))
+            path.pop()
+        return Sequence(start.line, start.column, start.index, inner.end_mark.index, items, event.flow_style)
 
-    def measure(self, node: Node, mark: Any, before: int) -> None:
-        self.grow(mark, 1)
-        self.sizes[id(node)] = self.total - before
-        self.keep.append(node)
-
-    def mapping(self, event: Any, events: Iterator[Any], depth: int) -> Mapping:
-        start, before = event.start_mark, self.total
-        found = Mapping(start.line, start.column, start.index, start.index, flow=bool(event.flow_style))
+    def mapping(self, event: Any, depth: int) -> Mapping:
+        start = event.start_mark
+        found = Mapping(start.line, start.column, start.index, start.index, [], event.flow_style)
         seen: dict[str, Scalar] = {}
         merged: list[Node] = []
-        for inner in events:
-            if type(inner).__name__ == "MappingEndEvent":
-                found.end = inner.end_mark.index
-                break
-            key = self.node(inner, events, depth + 1)
+        while type(inner := self.next()) is not MappingEndEvent:
+            key = self.node(inner, depth + 1)
             self.path.append(key.text if isinstance(key, Scalar) else "?")
-            value = self.node(next(events), events, depth + 1)
+            value = self.node(self.next(), depth + 1)
             if isinstance(key, Scalar) and key.text == "<<" and key.plain:
                 merged.append(value)
             else:
                 self.entry(found, key, value, seen)
             self.path.pop()
+        found.end = inner.end_mark.index
         for value in merged:
             self.merge(found, value)
-        self.measure(found, start, before)
         return found
 
     def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Scalar]) -> None:
@@ -211,6 +212,7 @@ class _Composer:
             found.entries.append(Entry(key, value))
 
     def merge(self, found: Mapping, value: Node) -> None:
+        have = {entry.key.text for entry in found.entries}
         sources = value.items if isinstance(value, Sequence) else [value]
         for source in sources:
             if not isinstance(source, Mapping):
@@ -218,15 +220,8 @@ class _Composer:
                     source, "a merge key (<<) needs a mapping", "refer to an anchor of a mapping", "merge"
                 )
                 continue
-            have = {entry.key.text for entry in found.entries}
-            found.entries.extend(entry for entry in source.entries if entry.key.text not in have)
-
-
-def _whole(text: str) -> str:
-    """The text with the halves of escaped characters (JSON's surrogates) joined, a lone half replaced."""
-    if any("\ud800" <= char <= "\udfff" for char in text):
-        return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
-    return text
+            found.entries += [entry for entry in source.entries if entry.key.text not in have]
+            have.update(entry.key.text for entry in source.entries)
 
 
 def _nothing(value: Node) -> bool:

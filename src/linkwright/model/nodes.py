@@ -15,7 +15,7 @@ MAX_DEPTH, MAX_NODES = 40, 30_000
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 
 
-@dataclass
+@dataclass(slots=True)
 class Node:
     """A value in the text: line and column count from 0, ``start`` and ``end`` are character offsets."""
 
@@ -25,7 +25,7 @@ class Node:
     end: int
 
 
-@dataclass
+@dataclass(slots=True)
 class Scalar(Node):
     """A word, number or text; ``plain`` where it was written without quotes."""
 
@@ -38,7 +38,7 @@ class Scalar(Node):
         return self.plain and self.text in _NULLS
 
 
-@dataclass
+@dataclass(slots=True)
 class Sequence(Node):
     """A list."""
 
@@ -46,7 +46,7 @@ class Sequence(Node):
     flow: bool = False
 
 
-@dataclass
+@dataclass(slots=True)
 class Entry:
     """A key and its value."""
 
@@ -54,19 +54,19 @@ class Entry:
     value: Node
 
 
-@dataclass
+@dataclass(slots=True)
 class Mapping(Node):
     """Keys and values in the order of the text; a key occurs once."""
 
     entries: list[Entry] = field(default_factory=list)
     flow: bool = False
+    _index: dict[str, Node] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def get(self, key: str) -> Node | None:
         """The value of a key, or None."""
-        for entry in self.entries:
-            if entry.key.text == key:
-                return entry.value
-        return None
+        if len(self._index) != len(self.entries):
+            self._index = {entry.key.text: entry.value for entry in self.entries}
+        return self._index.get(key)
 
     def __iter__(self) -> Iterator[tuple[str, Node]]:
         return iter([(entry.key.text, entry.value) for entry in self.entries])

@@ -35,8 +35,26 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
         "the indentation does not fit the lines above",
         "indent entries of one level by the same number of spaces",
     ),
+    (
+        "expected key",
+        "the indentation does not fit the lines above, or a bracket is closed that was not opened",
+        "indent entries of one level by the same number of spaces, and check the brackets",
+    ),
+    (
+        "expected '-' indicator",
+        "the indentation does not fit the lines above",
+        "indent entries of one level by the same number of spaces",
+    ),
+    (
+        "expected <document start>",
+        "this does not belong to what is above: a bracket too many, or an indentation that does not fit",
+        "check brackets and indentation",
+    ),
     ("expected the node content", "a value is missing here", "write the value"),
+    ("expected node content", "a value is missing here", "write the value"),
+    ("Unicode character escape code", "half of an escaped character", "write the character itself"),
     ("unacceptable character", "a control character", "remove it: a model is plain text"),
+    ("control characters are not allowed", "a control character", "remove it: a model is plain text"),
     ("special characters are not allowed", "a control character", "remove it: a model is plain text"),
     ("unknown escape character", "an unknown escape in a quoted text", "write \\\\ for a backslash"),
     ("undefined tag", "an unknown tag", "remove the tag (the word with !)"),
@@ -47,7 +65,7 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
 def explain(error: Any, text: str) -> Remark:
     """The remark for an exception of the YAML reader."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    line, column = (mark.line, mark.column) if mark is not None else _place(error, text)
+    line, column = _within(text, mark.line, mark.column) if mark is not None else _place(error, text)
     said = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
     context = str(getattr(error, "context", None) or "")
     for sign, message, remedy in _MEANINGS:
@@ -70,18 +88,24 @@ def _since(error: Any, line: int) -> str:
     return f" (it began in line {opened.line + 1})" if opened is not None and opened.line != line else ""
 
 
+def _within(text: str, line: int, column: int) -> tuple[int, int]:
+    """The place, or the end of the text where it is behind that."""
+    last = text.count("\n")
+    return (line, column) if line <= last else (last, len(text) - text.rfind("\n") - 1)
+
+
 def _place(error: Any, text: str) -> tuple[int, int]:
     position = getattr(error, "position", None)
     if not isinstance(position, int):
         return 0, 0
-    before = text[:position]
+    before = text.encode("utf-8", "replace")[:position].decode("utf-8", "ignore")
     return before.count("\n"), len(before) - before.rfind("\n") - 1
 
 
 def tab_remarks(text: str) -> list[Remark]:
     """A remark for each line that is indented with a tab, at most ten."""
     found = []
-    for number, line in enumerate(text.splitlines()):
+    for number, line in enumerate(text.split("\n")):
         indentation = re.match(r"[ ]*\t[ \t]*(?=\S)", line)
         if indentation:
             found.append(
