@@ -1,0 +1,47 @@
+"""What the package requires is what it imports, and the lock file names the public index alone."""
+
+import ast
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import linkwright
+
+ROOT = Path(linkwright.__file__).parent
+PROJECT = Path(__file__).parents[2] / "pyproject.toml"
+#: Names of distributions by what they are imported as, where the two differ.
+DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py"}
+
+
+def declared(requirements: list[str]) -> set[str]:
+    return {re.split(r"[<>=!~\[ ;]", each)[0].lower() for each in requirements}
+
+
+def imported() -> set[str]:
+    found = set[str]()
+    for path in ROOT.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                found |= {alias.name.split(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                found.add(node.module.split(".")[0])
+    return {DISTRIBUTIONS.get(name, name) for name in found - sys.stdlib_module_names - {"linkwright"}}
+
+
+def test_every_requirement_is_imported_and_every_import_is_required() -> None:
+    project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
+    required = declared(project["dependencies"])
+    extras = project["optional-dependencies"]
+    optional = set.union(*(declared(extras[name]) for name in ("plot", "video", "export", "notebook")))
+    assert required <= imported()
+    assert imported() <= required | optional
+
+
+def test_the_lock_file_holds_every_requirement_from_the_public_index() -> None:
+    lock = tomllib.loads((PROJECT.parent / "uv.lock").read_text(encoding="utf-8"))
+    project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
+    own = next(each for each in lock["package"] if each["name"] == "linkwright")
+    assert declared(project["dependencies"]) == {each["name"] for each in own["dependencies"]}
+    registries = {each["source"].get("registry") for each in lock["package"] if each["name"] != "linkwright"}
+    assert registries == {"https://pypi.org/simple"}
