@@ -54,6 +54,8 @@ def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
 
 #: The command of each kind.
 COMMANDS = {
+    "beam": "beam",
+    "link_bending": "beam",
     "forces": "statics",
     "rigid_body": "statics",
     "belt": "statics",

@@ -11,6 +11,12 @@ from linkwright.lazy import offer
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem as Problem
     from linkwright.parts.base import Result as Result
+    from linkwright.parts.beams.beam import Beam as Beam
+    from linkwright.parts.beams.beam import BeamLoad as BeamLoad
+    from linkwright.parts.beams.beam import BeamSupport as BeamSupport
+    from linkwright.parts.beams.link import LinkBending as LinkBending
+    from linkwright.parts.beams.materials import Material as Material
+    from linkwright.parts.beams.sections import Section as Section
     from linkwright.parts.file import check as check
     from linkwright.parts.file import gallery_names as gallery_names
     from linkwright.parts.file import load as load
@@ -28,6 +34,10 @@ offer(
     __name__,
     {
         "linkwright.parts.base": ("Problem", "Result"),
+        "linkwright.parts.beams.beam": ("Beam", "BeamLoad", "BeamSupport"),
+        "linkwright.parts.beams.link": ("LinkBending",),
+        "linkwright.parts.beams.materials": ("Material",),
+        "linkwright.parts.beams.sections": ("Section",),
         "linkwright.parts.file": ("check", "gallery_names", "load", "loads", "schema"),
         "linkwright.parts.statics.belt": ("Belt",),
         "linkwright.parts.statics.body": ("RigidBody", "Support"),

@@ -21,6 +21,8 @@ from linkwright.parts.base import Problem
 
 #: Kinds of calculations: the class that holds the problem.
 KINDS: Mapping[str, str] = {
+    "beam": "linkwright.parts.beams.beam.Beam",
+    "link_bending": "linkwright.parts.beams.link.LinkBending",
     "forces": "linkwright.parts.statics.forces.ForceSystem",
     "rigid_body": "linkwright.parts.statics.body.RigidBody",
     "belt": "linkwright.parts.statics.belt.Belt",

@@ -14,6 +14,7 @@ from linkwright.model.fields import Word
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Listed, Named, Table
+from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, FORCES, Components, Force, spatial
 from linkwright.parts.steps import put
 from linkwright.words import Say
@@ -149,26 +150,7 @@ class _Balance:
         self.load = load[kept]
         u, s, _ = np.linalg.svd(self.columns, full_matrices=True)
         self.rank = int((s > ZERO * (s[0] if len(s) else 1.0)).sum())
-        self.free = _sorted_motions(u[:, self.rank :].T)
-
-
-def _sorted_motions(space: Floats) -> list[Floats]:
-    """A basis of motions with as many zeros as can be, by Gauss elimination."""
-    rows = space.copy()
-    done = 0
-    for column in range(rows.shape[1] - 1, -1, -1):
-        if done == len(rows):
-            break
-        pivot = done + int(np.abs(rows[done:, column]).argmax())
-        if abs(rows[pivot, column]) < 1e-8:
-            continue
-        rows[[done, pivot]] = rows[[pivot, done]]
-        rows[done] /= rows[done, column]
-        for other in range(len(rows)):
-            if other != done:
-                rows[other] -= rows[other, column] * rows[done]
-        done += 1
-    return [np.where(np.abs(row) < 1e-9, 0.0, row) for row in rows]
+        self.free = plain_motions(u[:, self.rank :].T)
 
 
 def describe(motion: Floats, scale: float, planar: bool) -> Sentence:

@@ -127,4 +127,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "raising": "raising",
     "lowering": "lowering",
     "wedge_angle": "angle of the wedge",
+    "kind.beam_line": "shear force, moment, slope, deflection",
+    "kind.link_stress": "bending in the worst position, largest stress of the cycle",
 }

@@ -126,4 +126,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "raising": "举升",
     "lowering": "下降",
     "wedge_angle": "楔角",
+    "kind.beam_line": "剪力、弯矩、转角与挠度",
+    "kind.link_stress": "最不利位置的弯曲与循环中的最大应力",
 }

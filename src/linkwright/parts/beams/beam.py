@@ -1,0 +1,474 @@
+"""A straight beam on any supports under forces, couples and line loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.errors import Finding
+from linkwright.model.fields import Quantities, Quantity, Word
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
+from linkwright.parts.beams.materials import Material, material_field
+from linkwright.parts.beams.sections import Section, section_field
+from linkwright.parts.display import number, shown
+from linkwright.parts.fields import Flag, Listed, Named, Table
+from linkwright.parts.motions import plain_motions
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.words.sentence import Sentence
+from linkwright.worked.page import Step
+
+#: Acceleration of free fall for the beam's own weight, m/s².
+GRAVITY = 9.80665
+SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
+QUANTITIES = ("shear", "moment", "slope", "deflection")
+DIMENSIONS = {"shear": "force", "moment": "torque", "slope": "slope", "deflection": "length"}
+
+
+@dataclass(frozen=True)
+class BeamSupport:
+    """``kind``: fixed, pinned or roller (alike in bending), guided (slope held), spring; ``at`` m.
+
+    ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
+    """
+
+    kind: str
+    at: float
+    settlement: float = 0.0
+    stiffness: float = 0.0
+    torsional_stiffness: float = 0.0
+
+    @property
+    def hold(self) -> Hold:
+        """What it holds."""
+        return Hold(
+            self.at, self.kind in ("fixed", "pinned", "roller"), self.kind in ("fixed", "guided"),
+            self.settlement, self.stiffness, self.torsional_stiffness,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class BeamLoad:
+    """One of: ``force`` (N, up) ``at`` a place, ``couple`` (N·m, counter-clockwise) ``at`` a place, ``line`` load.
+
+    A line load (N/m, up) lies from ``start`` to ``end``, to the beam's end unless given, constant or from its first
+    to its last value.
+    """
+
+    force: float | None = None
+    couple: float | None = None
+    line: tuple[float, ...] | None = None
+    at: float | None = None
+    start: float = 0.0
+    end: float | None = None
+
+
+@dataclass(frozen=True)
+class SectionStep:
+    """From ``start`` on (m) the beam has another ``section``."""
+
+    start: float
+    section: Section
+
+
+@dataclass(frozen=True)
+class LineLoad(Quantities):
+    """One value, or ``[first, last]``."""
+
+    def read(self, reader: Any, node: Any, place: Any, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+        from linkwright.model.nodes import Sequence as SequenceNode
+
+        if isinstance(node, SequenceNode):
+            return super().read(reader, node, place, given)
+        value = reader.quantity(node, place, self.dimension)
+        return None if value is None else (value, value)
+
+
+LOAD_FIELDS = {
+    "force": Quantity("force", doc="force, upwards positive, with at"),
+    "couple": Quantity("torque", doc="couple, counter-clockwise positive, with at"),
+    "line": LineLoad(
+        "line_load",
+        count=2,
+        form="[0 N/m, -2 kN/m]",
+        doc="line load, upwards positive; [first, last] where it varies",
+    ),
+    "at": Quantity("length", minimum=0.0, doc="where the force or couple acts"),
+    "start": Quantity("length", minimum=0.0, key="from", doc="where the line load begins, 0 unless given"),
+    "end": Quantity("length", minimum=0.0, key="to", doc="where it ends, the beam's end unless given"),
+}
+
+
+@dataclass(frozen=True)
+class Beam(Problem):
+    """A beam of ``length`` (m) with a ``section`` of a ``material``, supports and loads by name, x from its left end.
+
+    ``steps``: other sections from places on; ``hinges``: places without bending moment; ``own_weight``: with the
+    material's density, downwards; ``safety``: against the material's strength.
+    """
+
+    kind: ClassVar[str] = "beam"
+    fields: ClassVar = {
+        "length": Quantity("length", required=True, above=0.0, doc="length of the beam"),
+        "material": material_field(),
+        "section": section_field(required=True, doc="cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, "
+                                 "{second_moment: 2e-5 m⁴}"),
+        "steps": Listed(
+            Table({"start": Quantity("length", required=True, above=0.0, key="from", doc="from here on"),
+                   "section": section_field(required=True)}, SectionStep),
+            "[{from: 1 m, section: …}]", doc="other sections from places on",
+        ),
+        "supports": Named(
+            Table({
+                "kind": Word(SUPPORTS, required=True, doc=", ".join(SUPPORTS)),
+                "at": Quantity("length", required=True, minimum=0.0, doc="its place"),
+                "settlement": Quantity("length", doc="given deflection, upwards positive"),
+                "stiffness": Quantity("stiffness", minimum=0.0, doc="of a spring"),
+                "torsional_stiffness": Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"),
+            }, BeamSupport),
+            "support", required=True, doc="supports by name: {kind: pinned, at: 0 m}",
+        ),
+        "loads": Named(
+            Table(LOAD_FIELDS, BeamLoad),
+            "load",
+            doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
+        ),
+        "hinges": Quantities("length", doc="places of hinges within the beam"),
+        "own_weight": Flag(doc="true: with the weight of the beam itself"),
+        "safety": Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"),
+    }  # fmt: skip
+    length: float
+    material: Material
+    section: Section
+    supports: Mapping[str, BeamSupport]
+    loads: Mapping[str, BeamLoad] = field(default_factory=dict)
+    steps: tuple[SectionStep, ...] = ()
+    hinges: tuple[float, ...] = ()
+    own_weight: bool = False
+    safety: float | None = None
+    name: str = ""
+    source: str = ""
+
+    def findings(self) -> list[Finding]:
+        found = [each for name, load in self.loads.items() for each in self._load_findings(name, load)]
+        places = {f"supports.{name}.at": each.at for name, each in self.supports.items()}
+        places |= {f"hinges.{i}": x for i, x in enumerate(self.hinges)}
+        places |= {f"steps.{i}.from": each.start for i, each in enumerate(self.steps)}
+        found += [
+            fault("beam.outside", key, x=shown(x, "length"), length=shown(self.length, "length"))
+            for key, x in places.items()
+            if not 0.0 <= x <= self.length
+        ]
+        for name, support in self.supports.items():
+            if support.kind == "spring" and not (support.stiffness or support.torsional_stiffness):
+                found.append(fault("beam.no_stiffness", f"supports.{name}"))
+        if self.own_weight and (self.material.density is None or self.section.area is None):
+            found.append(fault("beam.no_weight", "own_weight"))
+        if self.safety is not None and self.material.strength is None:
+            found.append(fault("beam.no_strength", "safety"))
+        return found or [
+            fault("beam.can_move", "supports", how=self._motion(motion))
+            for motion in plain_motions(free_motions(self.length, self._holds(), sorted(self.hinges)))
+        ]
+
+    def _load_findings(self, name: str, load: BeamLoad) -> list[Finding]:
+        kinds = [each for each in ("force", "couple", "line") if getattr(load, each) is not None]
+        key = f"loads.{name}"
+        if len(kinds) != 1 or (kinds[0] != "line" and load.at is None):
+            return [fault("beam.load_form", key)]
+        end = self.length if load.end is None else load.end
+        places = {"from": load.start, "to": end} if kinds[0] == "line" else {"at": load.at or 0.0}
+        found = [
+            fault("beam.outside", f"{key}.{word}", x=shown(x, "length"), length=shown(self.length, "length"))
+            for word, x in places.items()
+            if not 0.0 <= x <= self.length * (1 + 1e-12)
+        ]
+        if kinds[0] == "line" and not found and end <= load.start:
+            found.append(fault("beam.empty_line", f"{key}.to"))
+        return found
+
+    def _motion(self, motion: Floats) -> Sentence:
+        """A motion that the supports leave, in words; ``motion`` is (w over length, slope, kinks)."""
+        kinks = [x for x, kink in zip(sorted(self.hinges), motion[2:], strict=True) if abs(kink) > 1e-9]
+        if kinks:
+            return Sentence("beam.folds", places=tuple(shown(x, "length") for x in kinks))
+        if abs(motion[1]) < 1e-9:
+            return Sentence("beam.shifts")
+        return Sentence("beam.turns", place=shown(-motion[0] / motion[1] * self.length, "length"))
+
+    def _holds(self) -> list[Hold]:
+        return [each.hold for each in self.supports.values()]
+
+    def solve(self) -> BeamLine:
+        """The elastic line. Raises ModelError with all findings, also where the supports are too few."""
+        self.require()
+        points, spreads = self._loads()
+        sections = [(0.0, self.section), *sorted((s.start, s.section) for s in self.steps)]
+        rigidity = [(start, section.second_moment * self.material.modulus) for start, section in sections]
+        line = solve_line(self.length, rigidity, self._holds(), points, spreads, sorted(self.hinges))
+        return BeamLine(self, line, tuple(sections))
+
+    def _loads(self) -> tuple[list[Point], list[Spread]]:
+        points, spreads = [], []
+        for load in self.loads.values():
+            if load.line is not None:
+                end = self.length if load.end is None else min(load.end, self.length)
+                spreads.append(Spread(load.start, end, load.line[0], load.line[-1]))
+            else:
+                points.append(Point(load.at or 0.0, load.force or 0.0, load.couple or 0.0))
+        if self.own_weight:
+            starts = [0.0, *sorted(s.start for s in self.steps), self.length]
+            sections = [self.section, *(s.section for s in sorted(self.steps, key=lambda s: s.start))]
+            for a, b, section in zip(starts[:-1], starts[1:], sections, strict=True):
+                weight = -GRAVITY * (self.material.density or 0.0) * (section.area or 0.0)
+                spreads.append(Spread(a, b, weight, weight))
+        return points, spreads
+
+
+@dataclass(frozen=True, repr=False)
+class BeamLine(Result):
+    """Reactions, shear force, bending moment, slope and deflection of a beam, exact for the Euler–Bernoulli beam.
+
+    ``shear(x)`` N, ``moment(x)`` N·m, ``slope(x)`` rad, ``deflection(x)`` m take places (n,) m; at jumps they give
+    the value on the right, with ``side="left"`` that on the left. ``extremes(quantity)``: place and value of the
+    least and the largest.
+    """
+
+    area: ClassVar[str] = "beam"
+    beam: Beam
+    line: ElasticLine
+    sections: tuple[tuple[float, Section], ...]
+
+    @property
+    def title(self) -> str:
+        return self.beam.name
+
+    def shear(self, x: ArrayLike, side: str = "right") -> Floats:
+        """Shear force V, N: the sum of all forces left of x."""
+        return self.line.value("shear", x, side)
+
+    def moment(self, x: ArrayLike, side: str = "right") -> Floats:
+        """Bending moment M, N·m, positive where the beam sags."""
+        return self.line.value("moment", x, side)
+
+    def slope(self, x: ArrayLike, side: str = "right") -> Floats:
+        """Slope w', rad."""
+        return self.line.value("slope", x, side)
+
+    def deflection(self, x: ArrayLike) -> Floats:
+        """Deflection w, m, upwards positive."""
+        return self.line.value("deflection", x)
+
+    def extremes(self, quantity: str) -> tuple[tuple[float, float], tuple[float, float]]:
+        """(place, value) of the least and of the largest shear, moment, slope or deflection."""
+        return self.line.extremes(quantity)
+
+    def largest(self, quantity: str) -> tuple[float, float]:
+        """(place, value) of the value that is largest in size."""
+        return max(self.extremes(quantity), key=lambda each: abs(each[1]))
+
+    @cached_property
+    def reactions(self) -> dict[str, tuple[float, float]]:
+        """Force (N, up) and couple (N·m) of every support by name."""
+        size = max((abs(c) for pair in self.line.reactions for c in pair), default=0.0)
+        tidy = [tuple(0.0 if abs(c) < 1e-13 * size else c for c in pair) for pair in self.line.reactions]
+        return dict(zip(self.beam.supports, tidy, strict=True))  # type: ignore[arg-type]
+
+    @cached_property
+    def stress(self) -> tuple[float, float] | None:
+        """(place, value) of the largest bending stress |M|/W, Pa; None where a section has no modulus."""
+        found = []
+        for i, (start, section) in enumerate(self.sections):
+            if section.modulus is None:
+                return None
+            end = self.sections[i + 1][0] if i + 1 < len(self.sections) else self.beam.length
+            inside = [
+                s for s in self.line.segments if start - 1e-12 <= s.start and s.end <= end * (1 + 1e-12)
+            ]
+            place, moment = max(
+                ElasticLine(tuple(inside), ()).extremes("moment"), key=lambda each: abs(each[1])
+            )
+            found.append((place, abs(moment) / section.modulus))
+        return max(found, key=lambda each: each[1])
+
+    @property
+    def safety(self) -> float | None:
+        """Strength over the largest stress; None where one of them is not known or there is no stress."""
+        strength = self.beam.material.strength
+        return (
+            None if strength is None or not self.stress or not self.stress[1] else strength / self.stress[1]
+        )
+
+    @property
+    def needed_modulus(self) -> float | None:
+        """Section modulus, m³, that the largest moment needs at the wanted safety (1 unless given)."""
+        strength = self.beam.material.strength
+        return (
+            None
+            if strength is None
+            else abs(self.largest("moment")[1]) * (self.beam.safety or 1.0) / strength
+        )
+
+    def columns(self) -> dict[str, Floats]:
+        """x and the four quantities; places of jumps stand twice, left value first."""
+        ends = [segment.start for segment in self.line.segments] + [self.beam.length]
+        x = np.concatenate([np.linspace(a, b, 49) for a, b in pairwise(ends)])
+        side = np.zeros(len(x), dtype=bool)
+        side[48::49] = True
+        names = {
+            "shear": "shear [N]",
+            "moment": "moment [N·m]",
+            "slope": "slope [rad]",
+            "deflection": "deflection [m]",
+        }
+        found = {"x [m]": x}
+        for quantity, name in names.items():
+            found[name] = np.where(side, self.line.value(quantity, x, "left"), self.line.value(quantity, x))
+        return found
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = []
+        for name, (force, couple) in self.reactions.items():
+            kind = self.beam.supports[name].kind
+            if kind != "guided":
+                rows.append(Row(f"{name}.force", force, "force", f"{name} F"))
+            if kind in ("fixed", "guided") or self.beam.supports[name].torsional_stiffness:
+                rows.append(Row(f"{name}.couple", couple, "torque", f"{name} M"))
+        found = [Block("reactions", say("beam.reactions"), rows)]
+        extremes = []
+        for quantity in QUANTITIES:
+            for word, (x, value) in zip(("least", "largest"), self.extremes(quantity), strict=True):
+                label = f"{say(f'beam.{quantity}')}, {say(f'beam.{word}')}"
+                note = say("beam.at", x=shown(x, "length"))
+                extremes.append(Row(f"{word}_{quantity}", value, DIMENSIONS[quantity], label, note))
+        found.append(Block("extremes", say("beam.extremes"), extremes))
+        found.append(Block("places", say("beam.places"), self._places(say)))
+        strength = self._strength(say)
+        return [*found, Block("strength", say("beam.strength"), strength)] if strength else found
+
+    def _places(self, say: Say) -> list[Row]:
+        """Moment and deflection where segments meet."""
+        rows = []
+        for x in [*(segment.start for segment in self.line.segments), self.beam.length]:
+            at = shown(x, "length")
+            left, right = float(self.moment(x, "left")[0]), float(self.moment(x)[0])
+            jump = abs(right - left) > 1e-9 * max(abs(left), abs(right), 1e-300)
+            text = f" | {number(right, 'torque')}" if jump and 0 < x < self.beam.length else ""
+            rows.append(Row(f"moment_{x:g}", left if x else right, "torque", f"M({at})", text.strip()))
+            rows.append(Row(f"slope_{x:g}", float(self.slope(x)[0]), "slope", f"θ({at})"))
+            rows.append(Row(f"deflection_{x:g}", float(self.deflection(x)[0]), "length", f"w({at})"))
+        return rows
+
+    def _strength(self, say: Say) -> list[Row]:
+        rows = []
+        if self.stress is not None:
+            rows.append(
+                Row(
+                    "stress",
+                    self.stress[1],
+                    "pressure",
+                    "",
+                    say("beam.at", x=shown(self.stress[0], "length")),
+                )
+            )
+        if self.safety is not None:
+            rows.append(Row("safety", self.safety))
+        if self.needed_modulus is not None:
+            rows.append(Row("needed_modulus", self.needed_modulus, "section_modulus"))
+        return rows
+
+    def steps(self, say: Say) -> list[Step]:
+        return [self._balance_step(say), self._segment_step(say), self._extreme_step(say)]
+
+    def _balance_step(self, say: Say) -> Step:
+        """Reactions, and both equations of equilibrium with them."""
+        step = Step("1", say("beam.step_reactions"))
+        unknown = sum(h.deflection + h.slope for h in (s.hold for s in self.beam.supports.values()))
+        degree = unknown - 2 - len(self.beam.hinges)
+        step.say(say("beam.determinate" if degree <= 0 else "beam.indeterminate", degree=degree))
+        for name, (force, couple) in self.reactions.items():
+            if force or self.beam.supports[name].kind != "guided":
+                put(step, f"{name}.F", "", force, "force")
+            if couple:
+                put(step, f"{name}.M", "", couple, "torque")
+        points, spreads = self.beam._loads()
+        forces = [f for f, _ in self.reactions.values()] + [p.force for p in points]
+        forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
+        put(step, "ΣF", "", _rounded(forces), "force", numbers=_sum(forces, "force"))
+        moments = [
+            c + f * s.at
+            for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
+        ]
+        moments += [p.couple + p.force * p.x for p in points]
+        moments += [_line_moment(s) for s in spreads]
+        put(step, "ΣM(0)", "", _rounded(moments), "torque", numbers=_sum(moments, "torque"))
+        return step
+
+    def _segment_step(self, say: Say) -> Step:
+        """The polynomials of every segment."""
+        step = Step("2", say("beam.step_segments"))
+        for segment in self.line.segments:
+            step.say(say("beam.segment", start=shown(segment.start, "length"), end=shown(segment.end, "length"),
+                         rigidity=number(segment.rigidity)))  # fmt: skip
+            for symbol, quantity, unit in (("V", "shear", "N"), ("M", "moment", "N·m"), ("θ", "slope", "rad"),
+                                           ("w", "deflection", "m")):  # fmt: skip
+                polynomial = getattr(segment, quantity).coef
+                largest = np.abs(
+                    polynomial * (segment.end - segment.start) ** np.arange(len(polynomial))
+                ).max()
+                step.say(
+                    f"  {symbol}(ξ) = {polynomial_text(polynomial, largest, segment.end - segment.start)} {unit}"
+                )
+        return step
+
+    def _extreme_step(self, say: Say) -> Step:
+        step = Step("3", say("beam.extremes"))
+        for symbol, quantity, zero in (("V", "shear", "q"), ("M", "moment", "V"), ("w", "deflection", "θ")):
+            x, value = self.largest(quantity)
+            step.say(say("beam.extreme_at", symbol=symbol, zero=zero, x=shown(x, "length")))
+            put(step, f"{symbol}", "", value, DIMENSIONS[quantity])
+        if self.stress is not None:
+            put(step, "σ", "|M|/W", self.stress[1], "pressure")
+        if self.safety is not None:
+            put(step, "S", "Re/σ", self.safety)
+        if self.needed_modulus is not None:
+            put(step, "W", "|M|·S/Re", self.needed_modulus, "section_modulus")
+        return step
+
+
+def polynomial_text(coefficients: Sequence[float] | Floats, largest: float, length: float) -> str:
+    """A polynomial in ξ, terms that are nothing but rounding left out."""
+    text = ""
+    for power, c in enumerate(coefficients):
+        if abs(c) * length**power <= 1e-12 * largest or c == 0.0:
+            continue
+        mark = (" − " if c < 0 else " + ") if text else ("−" if c < 0 else "")
+        unknown = "" if power == 0 else "·ξ" if power == 1 else f"·ξ{'²³⁴⁵'[power - 2]}"
+        text += f"{mark}{abs(c):.6g}{unknown}"
+    return text or "0"
+
+
+def _line_moment(spread: Spread) -> float:
+    """Moment of a line load about x = 0."""
+    a, b = spread.start, spread.end
+    rate = (spread.last - spread.first) / (b - a)
+    return (spread.first - rate * a) * (b * b - a * a) / 2 + rate * (b**3 - a**3) / 3
+
+
+def _sum(parts: Sequence[float], dimension: str) -> str:
+    kept = [part for part in parts if part]
+    texts = [f"{'−' if p < 0 else '+'} {number(abs(p), dimension)}" for p in kept]
+    return " ".join(texts).removeprefix("+ ") or "0"
+
+
+def _rounded(parts: Sequence[float]) -> float:
+    total = math.fsum(parts)
+    return 0.0 if abs(total) < 1e-9 * max((abs(p) for p in parts), default=0.0) else total

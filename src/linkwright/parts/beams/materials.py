@@ -1,0 +1,82 @@
+"""Materials: a small table of nominal values, each with its source, or values of one's own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from linkwright.model.fields import Field, Quantity, Text
+from linkwright.parts.fields import Either, Table
+from linkwright.registry import nearest
+
+if TYPE_CHECKING:
+    from linkwright.model.nodes import Node
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+
+@dataclass(frozen=True)
+class Material:
+    """Young's ``modulus`` Pa, ``strength`` (yield, for brittle materials tensile strength) Pa, ``density`` kg/m³.
+
+    ``strength`` and ``density`` are None where they are not known.
+    """
+
+    modulus: float
+    strength: float | None = None
+    density: float | None = None
+    label: str = ""
+    source: str = ""
+
+
+#: Nominal values for small thicknesses; a design takes those of its delivery.
+TABLE: Mapping[str, Material] = {
+    each.label: each
+    for each in (
+        Material(210e9, 235e6, 7850, "S235", "EN 10025-2 (up to 16 mm); EN 1993-1-1"),
+        Material(210e9, 355e6, 7850, "S355", "EN 10025-2 (up to 16 mm); EN 1993-1-1"),
+        Material(206e9, 235e6, 7850, "Q235", "GB/T 700 (up to 16 mm); GB 50017"),
+        Material(206e9, 355e6, 7850, "45 steel", "GB/T 699, normalised"),
+        Material(70e9, 250e6, 2700, "EN AW-6082 T6", "EN 755-2, profiles up to 5 mm; EN 1999-1-1"),
+        Material(110e9, 250e6, 7200, "EN-GJL-250", "EN 1561 (tensile strength)"),
+    )
+}
+FIELDS: Mapping[str, Field] = {
+    "modulus": Quantity("pressure", required=True, above=0.0, doc="Young's modulus E"),
+    "strength": Quantity("pressure", above=0.0, doc="yield strength"),
+    "density": Quantity("density", above=0.0, doc="density"),
+}
+
+
+@dataclass(frozen=True)
+class MaterialField(Either):
+    """A name of the table, or ``{modulus: 210 GPa, strength: 235 MPa, density: 7850 kg/m³}``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        if not isinstance(found, str):
+            return found
+        if found in TABLE:
+            return TABLE[found]
+        offer = nearest(found, list(TABLE))
+        remedy = f'did you mean "{offer}"? ' if offer else ""
+        reader.error(
+            node,
+            place,
+            f'there is no material "{found}"',
+            f"{remedy}(known: {', '.join(TABLE)})",
+            "unknown-name",
+        )
+        return None
+
+    def shape(self) -> dict[str, Any]:
+        found = super().shape()
+        found["anyOf"][0] = {"enum": list(TABLE)}
+        return found
+
+
+def material_field(*, required: bool = True) -> MaterialField:
+    """The key of a material."""
+    return MaterialField(Text(), Table(FIELDS, Material), required=required, doc=f"material: {', '.join(TABLE)}, "
+                         "or {modulus: 210 GPa, strength: 235 MPa}")  # fmt: skip

@@ -1,0 +1,155 @@
+"""Cross sections: shapes by their dimensions, and a small table of rolled profiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from linkwright.errors import Finding
+from linkwright.model.fields import Field, Quantities, Quantity, Text
+from linkwright.parts.base import fault
+from linkwright.parts.fields import Either, Table
+from linkwright.registry import nearest
+
+if TYPE_CHECKING:
+    from linkwright.model.nodes import Node
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+#: IPE profiles, EN 10365: h, b, web, flange, root radius (mm), area (mm²), I (mm⁴), W (mm³).
+IPE: Mapping[str, tuple[float, ...]] = {
+    "IPE 80": (80, 46, 3.8, 5.2, 5, 764, 80.1e4, 20.0e3),
+    "IPE 100": (100, 55, 4.1, 5.7, 7, 1032, 171e4, 34.2e3),
+    "IPE 120": (120, 64, 4.4, 6.3, 7, 1321, 318e4, 53.0e3),
+    "IPE 140": (140, 73, 4.7, 6.9, 7, 1643, 541e4, 77.3e3),
+    "IPE 160": (160, 82, 5.0, 7.4, 9, 2009, 869e4, 109e3),
+    "IPE 180": (180, 91, 5.3, 8.0, 9, 2395, 1317e4, 146e3),
+    "IPE 200": (200, 100, 5.6, 8.5, 12, 2848, 1943e4, 194e3),
+}
+
+
+@dataclass(frozen=True)
+class Section:
+    """A cross section bent about its strong axis: ``second_moment`` I m⁴, ``area`` m², ``modulus`` W = I/c m³.
+
+    ``area`` and ``modulus`` are None where only I is known.
+    """
+
+    second_moment: float
+    area: float | None = None
+    modulus: float | None = None
+    label: str = ""
+
+
+def rectangle(width: float, height: float) -> Section:
+    """I = b h³/12, W = b h²/6."""
+    return Section(width * height**3 / 12, width * height, width * height**2 / 6, "rectangle")
+
+
+def circle(diameter: float) -> Section:
+    """I = π d⁴/64, W = π d³/32."""
+    return Section(
+        math.pi * diameter**4 / 64, math.pi * diameter**2 / 4, math.pi * diameter**3 / 32, "circle"
+    )
+
+
+def tube(diameter: float, wall: float) -> Section:
+    """A round tube of outer diameter and wall: the difference of two circles."""
+    outer, inner = circle(diameter), circle(diameter - 2 * wall)
+    second = outer.second_moment - inner.second_moment
+    return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / diameter, "tube")
+
+
+def box(width: float, height: float, wall: float) -> Section:
+    """A rectangular tube: the difference of two rectangles."""
+    outer, inner = rectangle(width, height), rectangle(width - 2 * wall, height - 2 * wall)
+    second = outer.second_moment - inner.second_moment
+    return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / height, "box")
+
+
+def i_beam(height: float, width: float, web: float, flange: float) -> Section:
+    """Two flanges and a web, without fillets."""
+    outer, inner = rectangle(width, height), rectangle(width - web, height - 2 * flange)
+    second = outer.second_moment - inner.second_moment
+    return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / height, "i_beam")
+
+
+def profile(name: str) -> Section:
+    """A rolled profile of the table; raises KeyError for one that it does not have."""
+    *_, area, second, modulus = IPE[name]
+    return Section(second * 1e-12, area * 1e-6, modulus * 1e-9, name)
+
+
+#: Shapes with the number and the names of their dimensions.
+SHAPES: Mapping[str, tuple[Callable[..., Section], str]] = {
+    "rectangle": (rectangle, "[width, height]"),
+    "circle": (circle, "[diameter]"),
+    "tube": (tube, "[outer diameter, wall]"),
+    "box": (box, "[width, height, wall]"),
+    "i_beam": (i_beam, "[height, width, web, flange]"),
+}
+COUNTS = {"rectangle": 2, "circle": 1, "tube": 2, "box": 3, "i_beam": 4}
+FIELDS: Mapping[str, Field] = {
+    **{name: Quantities("length", count=COUNTS[name], doc=form) for name, (_, form) in SHAPES.items()},
+    "second_moment": Quantity("second_moment_of_area", above=0.0, doc="I, where no shape is given"),
+    "area": Quantity("area", above=0.0, doc="area, beside second_moment"),
+    "modulus": Quantity("volume", above=0.0, doc="section modulus W = I/c, beside second_moment"),
+}
+
+
+@dataclass(frozen=True)
+class SectionField(Either):
+    """``IPE 100``, or one shape with its dimensions, or ``{second_moment: …, area: …, modulus: …}``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        if isinstance(found, str):
+            if found in IPE:
+                return profile(found)
+            offer = nearest(found, list(IPE))
+            remedy = f'did you mean "{offer}"? ' if offer else ""
+            reader.error(
+                node,
+                place,
+                f'there is no profile "{found}"',
+                f"{remedy}(known: {', '.join(IPE)})",
+                "unknown-name",
+            )
+            return None
+        return None if found is None else _shaped(reader, node, place, found)
+
+    def shape(self) -> dict[str, Any]:
+        found = super().shape()
+        found["anyOf"][0] = {"enum": list(IPE)}
+        return found
+
+
+def section_field(*, required: bool = False, doc: str = "cross section") -> SectionField:
+    """The key of a cross section."""
+    return SectionField(Text(), Table(FIELDS), required=required, doc=doc)
+
+
+def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> Section | None:
+    shapes = [name for name in SHAPES if name in found]
+    if len(shapes) + ("second_moment" in found) != 1:
+        reader.error(
+            node, place, f"{len(shapes)} shapes of the section are given", f"give one of {', '.join(SHAPES)}, or "
+            "second_moment", "choice",
+        )  # fmt: skip
+        return None
+    if not shapes:
+        return Section(found["second_moment"], found.get("area"), found.get("modulus"))
+    made = SHAPES[shapes[0]][0](*found[shapes[0]])
+    if min(found[shapes[0]]) <= 0 or made.second_moment <= 0 or (made.area or 0.0) <= 0:
+        reader.error(
+            node, place, "these dimensions make no section", "give lengths above zero that fit", "range"
+        )
+        return None
+    return made
+
+
+def require_modulus(section: Section, key: str) -> list[Finding]:
+    """A finding where stresses cannot be told from the section."""
+    return [] if section.area and section.modulus else [fault("beam.no_modulus", key)]

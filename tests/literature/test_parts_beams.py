@@ -1,0 +1,208 @@
+"""Beams against closed forms of textbooks, and a link's bending against beams under its line load of inertia."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright import parts
+from linkwright.parts.beams import sections
+from linkwright.parts.beams.beam import BeamLine, SectionStep
+
+E, J, L = 200e9, 3e-6, 3.0
+STEEL, PLAIN = parts.Material(E), parts.Section(J)
+
+
+def solved(supports: dict, length: float = L, **given: object) -> BeamLine:
+    held = {name: parts.BeamSupport(*each) for name, each in supports.items()}
+    loads = {f"P{i}": parts.BeamLoad(**each) for i, each in enumerate(given.pop("loads", ()))}  # type: ignore[arg-type]
+    return parts.Beam(length, STEEL, PLAIN, held, loads, **given).solve()  # type: ignore[arg-type]
+
+
+def close(found: object, expected: object) -> None:
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-15)
+
+
+def test_cantilever_of_the_lecture() -> None:
+    """Deflection −P x²(3a − x)/(6EI) up to the load, −P a²(3x − a)/(6EI) beyond."""
+    line = parts.load("gallery:cantilever").solve()
+    p, a, rigidity = 2000.0, 1.5, 200e9 * 2e-5
+    x = np.linspace(0, 2, 41)
+    before, beyond = -p * x**2 * (3 * a - x) / (6 * rigidity), -p * a**2 * (3 * x - a) / (6 * rigidity)
+    close(line.deflection(x), np.where(x < a, before, beyond))
+    close(line.slope(x), np.where(x < a, -p * x * (2 * a - x) / (2 * rigidity), -p * a * a / (2 * rigidity)))
+    close(line.moment(x), np.where(x < a, -p * (a - x), 0.0))
+    close(line.reactions["A"], (2000.0, 3000.0))
+
+
+def test_simple_beam_of_the_lecture() -> None:
+    """Uniform load on the left half and a couple at three quarters, by integrating the moment by hand."""
+    line = parts.load("gallery:simple_beam").solve()
+    rigidity, x = 200e9 * 2e-6, np.linspace(0, 2, 81)
+    past = lambda a, n: np.where(x > a, (x - a) ** n, 0.0)  # noqa: E731
+    moment = 1200 * x - 500 * x**2 + 500 * past(1, 2) - 900 * (x >= 1.5)
+    bent = 200 * x**3 - 500 / 12 * x**4 + 500 / 12 * past(1, 4) - 450 * past(1.5, 2)
+    close(line.moment(x)[1:-1], moment[1:-1])
+    close(line.deflection(x), (bent - bent[-1] * x / 2) / rigidity)
+    assert line.reactions["A"][0] == pytest.approx(1200) and line.reactions["B"][0] == pytest.approx(-200)
+
+
+def test_propped_cantilever() -> None:
+    q = 1500.0
+    line = solved({"A": ("fixed", 0.0), "B": ("roller", L)}, loads=[{"line": (-q, -q)}])
+    close(line.reactions["B"][0], 3 * q * L / 8)
+    close(line.reactions["A"], (5 * q * L / 8, q * L**2 / 8))
+    (x, moment), (y, deflection) = line.extremes("moment")[1], line.extremes("deflection")[0]
+    close((x, moment), (5 * L / 8, 9 * q * L**2 / 128))
+    close(y, L * (15 - math.sqrt(33)) / 16 if y < L / 2 else L - L * (1 + math.sqrt(33)) / 16)
+    u = (1 + math.sqrt(33)) / 16
+    close(deflection, -q * L**4 * (u - 3 * u**3 + 2 * u**4) / (48 * E * J))
+
+
+def test_built_in_at_both_ends() -> None:
+    q, p = 1000.0, 700.0
+    line = solved(
+        {"A": ("fixed", 0.0), "B": ("fixed", L)}, loads=[{"line": (-q, -q)}, {"force": -p, "at": L / 2}]
+    )
+    close(line.moment(0.0)[0], -q * L**2 / 12 - p * L / 8)
+    close(line.deflection(L / 2)[0], -(q * L**4 / 384 + p * L**3 / 192) / (E * J))
+
+
+def test_two_spans() -> None:
+    q = 800.0
+    line = solved(
+        {"A": ("pinned", 0.0), "B": ("roller", L / 2), "C": ("roller", L)}, loads=[{"line": (-q, -q)}]
+    )
+    close(line.reactions["B"][0], 1.25 * q * L / 2)
+    close(line.moment(L / 2)[0], -q * (L / 2) ** 2 / 8)
+
+
+def test_load_rising_from_zero() -> None:
+    q = 900.0
+    line = solved({"A": ("pinned", 0.0), "B": ("roller", L)}, loads=[{"line": (0.0, -q)}])
+    x, moment = line.extremes("moment")[1]
+    close((x, moment), (L / math.sqrt(3), q * L**2 / (9 * math.sqrt(3))))
+
+
+def test_settlement_and_springs() -> None:
+    line = solved({"A": ("fixed", 0.0), "B": ("roller", L, -0.01)})
+    close(line.reactions["B"][0], -3 * E * J * 0.01 / L**3)
+    k, p = 4e4, 500.0
+    line = solved({"A": ("fixed", 0.0), "B": ("spring", L, 0.0, k)}, loads=[{"force": -p, "at": L}])
+    close(line.deflection(L)[0], -p / (k + 3 * E * J / L**3))
+    close(line.reactions["B"][0], k * p / (k + 3 * E * J / L**3))
+
+
+def test_stepped_cantilever() -> None:
+    p, thick, thin = 400.0, 2 * J, J
+    wall, load = {"A": parts.BeamSupport("fixed", 0.0)}, {"P": parts.BeamLoad(force=-p, at=L)}
+    steps = (SectionStep(L / 2, parts.Section(thin)),)
+    beam = parts.Beam(L, STEEL, parts.Section(thick), wall, load, steps=steps)
+    close(beam.solve().deflection(L)[0], -p * L**3 / (24 * E) * (7 / thick + 1 / thin))
+
+
+def test_hinged_beam() -> None:
+    """A cantilever carries half of the beam that hangs on its end by a hinge."""
+    p, a = 1200.0, 1.2
+    line = solved(
+        {"A": ("fixed", 0.0), "B": ("roller", L)}, hinges=(a,), loads=[{"force": -p, "at": (a + L) / 2}]
+    )
+    close(line.reactions["B"][0], p / 2)
+    close(line.reactions["A"], (p / 2, p * a / 2))
+    assert abs(line.moment(a)[0]) < 1e-9
+    close(line.deflection(a)[0], -p / 2 * a**3 / (3 * E * J))
+
+
+def test_own_weight_stress_and_needed_modulus() -> None:
+    line = parts.load("gallery:propped_cantilever").solve()
+    q = 3000 + 9.80665 * 7850 * 1321e-6
+    close(line.stress[1], q * 16 / 8 / 53.0e-6)
+    close(line.needed_modulus, 1.5 * q * 16 / 8 / 235e6)
+    close(line.safety, 235e6 / line.stress[1])
+
+
+def test_the_whole_is_in_balance() -> None:
+    """A beam of everything: its slope turns by ∫M/EI, and its free end carries nothing."""
+    loads = [{"force": -900.0, "at": 0.7}, {"couple": 250.0, "at": 1.9}, {"line": (-300.0, -1400.0), "start": 0.4,
+             "end": 2.6}]  # fmt: skip
+    line = solved(
+        {"A": ("fixed", 0.0), "B": ("roller", 1.3), "C": ("spring", 2.8, 0.0, 8e4, 2e3)}, loads=loads
+    )
+    middle = (np.arange(6000) + 0.5) * L / 6000
+    bent = float(line.moment(middle).sum()) * L / 6000 / (E * J)
+    assert bent == pytest.approx(line.slope(L)[0] - line.slope(0.0)[0], rel=1e-6)
+    assert line.deflection([0.0, 1.3]) == pytest.approx([0, 0], abs=1e-15)
+    assert line.moment(L, "left")[0] == pytest.approx(0, abs=1e-9) and line.shear(L, "left")[
+        0
+    ] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", sections.IPE)
+def test_profiles_follow_from_their_measures(name: str) -> None:
+    """Area and second moment of two flanges, web and four root fillets; W = 2I/h; digits of the table."""
+    h, b, web, flange, r, area, second, modulus = sections.IPE[name]
+    plain = sections.i_beam(h, b, web, flange)
+    corner = (1 - math.pi / 4) * r * r
+    centre = r * (10 - 3 * math.pi) / (12 - 3 * math.pi)
+    own = r**4 * (1 / 3 - math.pi / 16 - 1 / (36 - 9 * math.pi))
+    arm = h / 2 - flange - centre
+    assert area == pytest.approx((plain.area or 0) + 4 * corner, rel=2e-3)
+    assert second == pytest.approx(plain.second_moment + 4 * (corner * arm**2), rel=4e-3)
+    assert abs(own) < second
+    assert modulus == pytest.approx(2 * second / h, rel=4e-3)
+
+
+def test_shapes() -> None:
+    close(sections.tube(0.1, 0.01).second_moment, math.pi / 64 * (0.1**4 - 0.08**4))
+    close(sections.circle(0.05).modulus, math.pi * 0.05**3 / 32)
+    close(sections.box(0.1, 0.2, 0.01).second_moment, (0.1 * 0.2**3 - 0.08 * 0.18**3) / 12)
+
+
+FOURBAR = """
+format: 1
+frame: {points: {A: [0 m, 0 m], D: [0.5 m, 0 m]}}
+links:
+  crank: {points: [A, B], length: 0.15 m}
+  coupler: {points: [B, C], length: 0.5 m, mass: 6 kg, inertia: 0.125 kg·m²}
+  rocker: {points: [D, C], length: 0.35 m, mass: 3 kg, inertia: 0.030625 kg·m²}
+assembly: {C: left}
+driver: {turn: crank, about: A, speed: 300 rpm}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+def test_coupler_bends_as_a_simple_beam_under_its_inertia() -> None:
+    """A uniform bar between pins: line load −ρ(a − g) across, linear between the ends; M = q0 s(L − s)/2 + …"""
+    mechanism = lw.loads(FOURBAR)
+    found = parts.LinkBending(mechanism, "coupler", STEEL, sections.rectangle(0.02, 0.04), steps=24).solve()
+    motion = found.forces.motion
+    e = motion.link("coupler").direction
+    normal = np.stack([-e[:, 1], e[:, 0]], axis=1)
+    length, rho, s = 0.5, 12.0, found.stations
+    first, last = (
+        -rho * ((motion.point(p).acceleration - [0, -9.81]) * normal).sum(axis=1)
+        for p in ("coupler.B", "coupler.C")
+    )
+    rate = (last - first)[:, None] / length
+    expected = -(first[:, None] * s * (length - s) / 2 + rate * s * (length**2 - s**2) / 6)
+    assert np.abs(found.moment - expected).max() < 1e-9 * np.abs(expected).max()
+    assert found.closure < 1e-9 * np.abs(found.normal).max()
+    stress = np.abs(found.normal) / 8e-4 + np.abs(found.moment) / (0.02 * 0.04**2 / 6)
+    assert found.stress == pytest.approx(stress, rel=1e-12)
+
+
+def test_driven_crank_is_clamped_by_its_torque() -> None:
+    """The moment at the shaft is the input torque, and vanishes at the pin of the coupler."""
+    found = parts.LinkBending(lw.loads(FOURBAR), "crank", STEEL, sections.circle(0.03), steps=24).solve()
+    assert found.moment[:, 1] == pytest.approx(-found.forces.input_torque, rel=1e-9)
+    assert np.abs(found.moment[:, -1]).max() < 1e-9
+
+
+def test_a_load_on_a_link_is_a_force_at_its_place() -> None:
+    """A massless bar between pins with a force across at a third: M = P a b/L there."""
+    text = FOURBAR.replace("mass: 6 kg, inertia: 0.125 kg·m²", "also: {Q: [0.2 m, 0 m]}")
+    text += "loads:\n  P: {kind: force, on: coupler, at: Q, normal_to: [B, C], magnitude: 100 N}\n"
+    found = parts.LinkBending(lw.loads(text), "coupler", STEEL, sections.circle(0.03), steps=12).solve()
+    assert np.abs(found.moment).max(axis=1) == pytest.approx(np.full(12, 100 * 0.2 * 0.3 / 0.5), rel=1e-9)
+    assert found.stations[found.worst(found.moment)[1]] == pytest.approx(0.2)
