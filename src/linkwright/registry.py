@@ -79,13 +79,18 @@ def _home(element: object) -> tuple[str, str]:
     return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
 
 
-def offered(name: str, known: Iterable[str]) -> Sentence:
-    """What was probably meant by a name that does not exist, else all that exist."""
+def offered(
+    name: str, known: Iterable[str], key: str = "names.there_is", most: int | None = None
+) -> Sentence:
+    """What was probably meant by a name that does not exist, else all that exist, at ``most`` so many.
+
+    ``key``: the sentence that lists them as ``names``.
+    """
     names = tuple(dict.fromkeys(known))
     offer = nearest(name[:100], names)
     if offer is not None:
         return Sentence("names.did_you_mean", offer=offer)
-    return Sentence("names.there_is", names=names) if names else Sentence("names.there_is_none")
+    return Sentence(key, names=names[:most]) if names else Sentence("names.there_is_none")
 
 
 def listed(name: str, known: Iterable[str], word: str = "there_is") -> Sentence:

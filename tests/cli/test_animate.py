@@ -66,7 +66,7 @@ def test_mp4(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--traces", "Q"], "--traces: there is no point 'Q'"),
+        (["--traces", "Q"], '--traces: there is no point "Q"'),
         (["--curves", "jaw.angel"], 'did you mean "jaw.angle"'),
         (["--seconds", "3 kg"], "--seconds"),
         (["--frames", "many"], "--frames"),

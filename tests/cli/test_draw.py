@@ -95,12 +95,12 @@ def test_png_and_pdf(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--paths", "Cc"], "did you mean 'C'"),
-        (["--velocities", "Q"], "--velocities: there is no point 'Q'"),
+        (["--paths", "Cc"], 'did you mean "C"'),
+        (["--velocities", "Q"], '--velocities: there is no point "Q"'),
         (["--dimensions", "jam"], 'did you mean "jaw"'),
-        (["--dimensions", "O1:Q"], "no point 'Q'"),
+        (["--dimensions", "O1:Q"], 'no point "Q"'),
         (["--forces", "Q"], "no joint 'Q'"),
-        (["--overlay", "limits:jam"], "did you mean 'jaw'"),
+        (["--overlay", "limits:jam"], 'did you mean "jaw"'),
         (["--at", "30"], "has no unit"),
         (["--at", "30 deg, 40 deg"], "more than one value"),
         (["--at", "1 deg", "--time", "1 s"], "--time"),

@@ -29,7 +29,7 @@ def said(call: Callable[[], Any]) -> str:
 @pytest.mark.parametrize(
     ("vary", "words"),
     [
-        ({"coupler.lenght": "2..3 m"}, ["'coupler.lenght'", "did you mean 'coupler.length'?"]),
+        ({"coupler.lenght": "2..3 m"}, ["'coupler.lenght'", 'did you mean "coupler.length"?']),
         ({"coupler.length": "2..3"}, ["no unit", "such as m"]),
         ({"coupler.length": "2..3 kg"}, ["a length", "kg", "such as m"]),
         ({"coupler.length": "2..x m"}, ['"x m" is no quantity', "1.2..1.3 m:11"]),
@@ -77,8 +77,8 @@ def test_bounds_that_make_no_design_movable() -> None:
 @pytest.mark.parametrize(
     ("metric", "words"),
     [
-        ("peak_torque", ["peak_torque", "did you mean 'peak_input_torque'?"]),
-        ("B.velocty max", ["B.velocty", "did you mean 'B.velocity'?"]),
+        ("peak_torque", ["peak_torque", 'did you mean "peak_input_torque"?']),
+        ("B.velocty max", ["B.velocty", 'did you mean "B.velocity"?']),
         ("stroke", ["'stroke' does not apply"]),
         ("crank.angle range", ["turns through", "crank.angular_velocity"]),
         ("rocker.angle rms", ["rocker.angle rms"]),
@@ -105,7 +105,7 @@ def test_sweeps_refuse_what_no_design_can_have() -> None:
             machine(), {"coupler.length": lengths, "rocker.length": np.ones(3)}, outputs=["B.x max"]
         )
     )
-    assert "did you mean 'rms'" in said(
+    assert 'did you mean "rms"' in said(
         lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[("driver.effort", "rmss")])
     )
     assert "no outputs" in said(lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[]))
@@ -139,12 +139,12 @@ def test_alternatives_that_share_no_output() -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"metrics": ["flywhel"]}, ["'flywhel'", "did you mean 'flywheel'?"]),
-        ({"metrics": ["flywheel"], "weights": {"flywhee": 1}}, ["'flywhee'", "did you mean 'flywheel'?"]),
+        ({"metrics": ["flywhel"]}, ["'flywhel'", 'did you mean "flywheel"?']),
+        ({"metrics": ["flywheel"], "weights": {"flywhee": 1}}, ["'flywhee'", 'did you mean "flywheel"?']),
         ({"metrics": ["flywheel"], "weights": {"flywheel": -1}}, ["not negative"]),
         ({"metrics": ["flywheel"], "weights": {"flywheel": 0}}, ["all weights are zero"]),
         ({"metrics": ["travel"], "weights": {"travel": 2}}, ["no better direction"]),
-        ({"output": "jwa"}, ["'jwa'", "did you mean 'jaw'?"]),
+        ({"output": "jwa"}, ["'jwa'", 'did you mean "jaw"?']),
         ({"output": {"x": "jaw"}}, ["no output is named for"]),
         ({"output": ["jaw"]}, ["1 outputs are named for 2"]),
         ({"metrics": ["stroke"]}, ["'stroke' does not apply"]),

@@ -96,7 +96,7 @@ def test_limits_stay_within_the_reached_stretch() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("crnk", "did you mean 'crank'"),
+        ("crnk", 'did you mean "crank"'),
         ("B", "POINT.x"),
         ("B.z", "there is no output 'B.z'"),
         ("frame", "there is no output 'frame'"),

@@ -178,7 +178,7 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path: Path) -> None:
         ("a.xslx", {}, r'ending "\.xslx"; did you mean "\.xlsx"'),
         ("a", {}, "or say which format"),
         ("a.csv", {"format": "exel"}, 'there is no export format "exel"; did you mean "xlsx"'),
-        ("a.csv", {"degree": True}, "no option degree; did you mean degrees"),
+        ("a.csv", {"degree": True}, 'no option degree; did you mean "degrees"'),
         ("missing/a.csv", {}, "there is no folder"),
         ("a.csv", {"language": "de"}, 'no words in the language "de"'),
         ("a.dxf", {"unit": "inch"}, 'not in "inch"'),

@@ -39,7 +39,7 @@ def test_a_dimension_that_was_not_named_is_refused() -> None:
 
 
 def test_an_unknown_dimension_is_refused_with_the_nearest() -> None:
-    with pytest.raises(lw.LinkwrightError, match=r"did you mean 'pitman.length'"):
+    with pytest.raises(lw.LinkwrightError, match=r"did you mean \"pitman.length\""):
         lw.prepare(lw.load("gallery:jaw_crusher_sixbar"), vary=["pitmann.length"])
 
 

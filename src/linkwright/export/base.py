@@ -9,6 +9,7 @@ from typing import Any
 
 from linkwright.errors import RequestError
 from linkwright.registry import Registry
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -36,5 +37,10 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
     except ImportError:
         command = f"pip install {install or name}"
         raise RequestError(
-            f"{purpose} need the package {install or name}; install it with: {command}"
+            Sentence(
+                "export.needs_package",
+                purpose=Sentence(f"nouns.{purpose}"),
+                install=install or name,
+                command=command,
+            )
         ) from None

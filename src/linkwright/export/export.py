@@ -12,9 +12,10 @@ from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import LANGUAGES
+from linkwright.words.sentence import Sentence
 
 
 def export(
@@ -51,9 +52,7 @@ def export(
     chosen = chosen_format(target, format)
     refuse_target(target, force=force, remedy="force=True")
     if language not in LANGUAGES:
-        raise RequestError(
-            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
-        )
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
     check_options(chosen, FORMATS[chosen], options)
     return write_whole(target, FORMATS[chosen].content(Results.of(result, steps, language), **options))
 
@@ -67,9 +66,8 @@ def chosen_format(path: Path, name: str | None) -> str:
     suffix = path.suffix.lower()
     if suffix in by_suffix:
         return by_suffix[suffix]
-    offer = nearest(suffix, by_suffix) if suffix else None
-    hint = f'did you mean "{offer}"?' if offer else f"use {', '.join(sorted(by_suffix))}, or say which format"
-    raise RequestError(f'{path}: no format is written to files with the ending "{suffix}"; {hint}')
+    hint = offered(suffix, sorted(by_suffix), "export.say_format")
+    raise RequestError(Sentence("export.no_ending", path=path, suffix=suffix, hint=hint))
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
@@ -77,6 +75,5 @@ def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
     known = [p.name for p in inspect.signature(form.content).parameters.values() if p.kind is p.KEYWORD_ONLY]
     for option in options:
         if option not in known:
-            offer = nearest(option, known)
-            hint = f"did you mean {offer}?" if offer else f"it has {', '.join(known) or 'no options'}"
-            raise RequestError(f"the format {name} has no option {option}; {hint}")
+            hint = offered(option, known, "names.it_has")
+            raise RequestError(Sentence("export.no_option", name=name, option=option, hint=hint))

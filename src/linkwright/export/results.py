@@ -12,6 +12,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.metrics.table import MetricsTable
 from linkwright.model.mechanism import Mechanism
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.structure import Structure
@@ -38,9 +39,7 @@ class Results:
         if isinstance(source, Motion):
             return cls(source, None, language)
         if not isinstance(source, Mechanism):
-            raise RequestError(
-                f"a {type(source).__name__} cannot be exported; give a mechanism, a motion or its forces"
-            )
+            raise RequestError(Sentence("export.no_source", name=type(source).__name__))
         motion = solve_motion(source, steps=steps)
         return cls(motion, solve_forces(motion) if carries(source) else None, language)
 
@@ -66,9 +65,7 @@ class Results:
     def first_ok(self) -> int:
         """Index of the first position that was reached; raises LinkwrightError if there is none."""
         if not self.motion.ok.any():
-            raise LinkwrightError(
-                f"no position of {self.mechanism.name!r} was reached, so there is nothing to export"
-            )
+            raise LinkwrightError(Sentence("export.nothing_reached", name=self.mechanism.name))
         return int(self.motion.ok.argmax())
 
 

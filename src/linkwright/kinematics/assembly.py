@@ -15,8 +15,9 @@ from linkwright.kinematics.drawing import Drawing
 from linkwright.kinematics.groups import dyad_shape, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import nearest, offered
 from linkwright.structure.group import Group, Structure
+from linkwright.words.sentence import Sentence, lines
 
 
 class AssemblyError(LinkwrightError):
@@ -73,23 +74,28 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
         group, words = named[0]
         if word not in words:
             offer = nearest(word, list(words))
-            hint = f"did you mean {offer!r}?" if offer else f"write {words[0]} or {words[1]}"
+            hint = Sentence("motion.write_mode", first=words[0], second=words[1])
             problems.append(
-                f"assembly.{joint}: {word!r} is no assembly mode of the {group.signature} group "
-                f"({', '.join(group.links)}); {hint}"
+                Sentence(
+                    "motion.no_mode",
+                    joint=joint,
+                    word=word,
+                    signature=group.signature,
+                    links=tuple(group.links),
+                    hint=Sentence("names.did_you_mean", offer=offer) if offer else hint,
+                )
             )
             continue
         modes[group.name] = 1.0 if word == words[0] else -1.0
     if problems:
-        raise AssemblyError("\n".join(problems))
+        raise AssemblyError(lines(problems))
     return modes
 
 
 def _no_such_joint(joint: str, groups: dict[str, tuple[Group, tuple[str, str]]]) -> str:
     inner = [c.joint for group, _ in groups.values() for c in group.inner_joints]
-    offer = nearest(joint, inner)
-    hint = f"did you mean {offer!r}?" if offer else f"inner joints are: {', '.join(inner) or 'none'}"
-    return f"assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}"
+    hint = offered(joint, inner, "motion.inner_joints")
+    return Sentence("motion.not_inner", joint=joint, hint=hint)
 
 
 def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) -> dict[str, float]:
@@ -100,9 +106,12 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
             continue
         if not drawing and any(step.kind == "revolute" for step in group.unknowns):
             raise AssemblyError(
-                f"the group ({', '.join(group.links)}) of class {group.assur_class} has no closed form; give the "
-                "coordinates of its points in a drawing of the assembled mechanism: "
-                f"drawing: {{{', '.join(dict.fromkeys(c.joint for c in group.inner_joints))}: [x, y]}}"
+                Sentence(
+                    "motion.needs_drawing",
+                    links=tuple(group.links),
+                    level=group.assur_class,
+                    points=tuple(dict.fromkeys(c.joint for c in group.inner_joints)),
+                )
             )
         for step in group.unknowns:
             name = state_name(group, step)

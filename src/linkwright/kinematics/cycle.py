@@ -14,7 +14,8 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import no_such
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -69,7 +70,7 @@ def at_times(
     """The positions at given times, s."""
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.isfinite(t).all():
-        raise CycleError("a time is not a finite number; give times in seconds")
+        raise CycleError(Sentence("motion.bad_time"))
     coordinates = {name: driver.law.coordinate(t) for name, driver in mechanism.drivers.items()}
     return Positions(t, coordinates, _rotary(mechanism), closed, period)
 
@@ -81,20 +82,16 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinate is given, since then the time would not be known.
     """
     if not mechanism.drivers:
-        raise CycleError(
-            f"{mechanism.name!r} has no driver, so there is no input to set; leave the input out"
-        )
+        raise CycleError(Sentence("motion.no_input_to_set", name=mechanism.name))
     given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
     rows = {}
     for name, values in given.items():
         driver = _driver(mechanism, name)
         if not isinstance(driver.law, ConstantSpeed):
-            raise CycleError(
-                f"driver {name!r} follows its own law in time; ask for positions by times instead of inputs"
-            )
+            raise CycleError(Sentence("motion.own_law", name=name))
         q = np.atleast_1d(np.asarray(values, dtype=float))
         if not np.isfinite(q).all():
-            raise CycleError(f"an input of driver {name!r} is not a finite number")
+            raise CycleError(Sentence("motion.bad_input", name=name))
         rows[name] = q
     count = max(len(q) for q in rows.values())
     first, q = next(iter(rows.items()))
@@ -114,7 +111,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
     if steps < 1:
-        raise CycleError(f"steps is {steps}; give one step or more")
+        raise CycleError(Sentence("motion.bad_steps", steps=steps))
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
     start, duration, closed = time_span(mechanism)
@@ -132,18 +129,12 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     repeats = _repeats(mechanism.drivers.values(), known)
     if cycle is None:
         if not known:
-            raise CycleError(
-                f"the cycle of {mechanism.name!r} has no natural end, as driver {first.name!r} does not turn; "
-                "write cycle: {from: …, to: …} (the driver's coordinate) or cycle: {duration: 2 s}"
-            )
+            raise CycleError(Sentence("motion.no_natural_end", name=mechanism.name, driver=first.name))
         return 0.0, max(known), repeats
     if cycle.duration is not None:
         return 0.0, cycle.duration, repeats and _multiple(cycle.duration, max(known))
     if not isinstance(first.law, ConstantSpeed) or not first.law.speed:
-        raise CycleError(
-            f"the cycle is given by the coordinate of driver {first.name!r}, which has no constant speed; "
-            "write cycle: {duration: …} instead"
-        )
+        raise CycleError(Sentence("motion.cycle_by_coordinate", name=first.name))
     if cycle.turns is not None:
         return (
             0.0,
@@ -186,9 +177,5 @@ def _rotary(mechanism: Mechanism) -> dict[str, bool]:
 
 def _driver(mechanism: Mechanism, name: str) -> Driver:
     if name not in mechanism.drivers:
-        offer = nearest(name, list(mechanism.drivers))
-        hint = (
-            f"; did you mean {offer!r}?" if offer else f"; there is {', '.join(map(repr, mechanism.drivers))}"
-        )
-        raise CycleError(f"there is no driver {name!r}{hint}")
+        raise CycleError(no_such("driver", name, mechanism.drivers))
     return mechanism.drivers[name]

@@ -130,25 +130,25 @@ def refusal(motion: Motion) -> PositionError:
     first = int(failed[0])
     outcome = motion.outcomes[first]
     where = _where(motion, first)
-    others = f" ({len(failed)} of {motion.steps} positions fail)" if len(failed) > 1 else ""
-    more = "; ".join(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism)
-    told = f"; {more}" if more else ""
-    advice = (
-        "change the dimensions, the assembly or the range of the input (cycle: {from: …, to: …}), "
-        "or ask for marked outcomes"
+    if len(failed) > 1:
+        where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
+    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism)
+    said = Sentence(
+        "motion.refused_told" if told else "motion.refused",
+        name=motion.mechanism.name,
+        where=where,
+        sentence=outcome,
+        told=told,
+        advice=Sentence("motion.advice"),
     )
-    return PositionError(
-        f"{motion.mechanism.name!r} cannot be solved at {where}{others}: {outcome.sentence}{told}; {advice}",
-        tuple(int(i) for i in failed),
-        outcome,
-    )
+    return PositionError(said, tuple(int(i) for i in failed), outcome)
 
 
 def _where(motion: Motion, index: int) -> str:
     parts = [
         _shown(name, float(q[index]), motion.positions.rotary[name]) for name, q in motion.inputs.items()
     ]
-    return "input " + ", ".join(parts) if parts else "its only position"
+    return Sentence("motion.input", parts=tuple(parts)) if parts else Sentence("motion.only_position")
 
 
 def _shown(name: str, value: float, rotary: bool) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 from linkwright.engine.trace import Scalar, Value, absolute, cos, maximum, minimum, sin, sqrt
 from linkwright.errors import LinkwrightError
 from linkwright.model.expressions import Expression
+from linkwright.words.sentence import Sentence
 
 
 def traced(expression: Expression, value: Callable[[str], Scalar]) -> Scalar:
@@ -39,14 +40,10 @@ def _functions(expression: Expression) -> Mapping[str, Callable[..., Any]]:
 
 def _power(expression: Expression, base: Scalar, exponent: Scalar) -> Scalar:
     if isinstance(exponent, Value):
-        raise LinkwrightError(
-            f'"{expression.text}" has a power that varies; write a whole or half exponent so that it can be swept'
-        )
+        raise LinkwrightError(Sentence("motion.power_varies", text=expression.text))
     whole = round(2 * exponent)
     if abs(2 * exponent - whole) > 1e-12:
-        raise LinkwrightError(
-            f'"{expression.text}" has the power {exponent:g}; only whole and half ones can be swept'
-        )
+        raise LinkwrightError(Sentence("motion.odd_power", text=expression.text, exponent=exponent))
     factor = sqrt(base) if whole % 2 else base
     result: Scalar = 1.0
     for _ in range(abs(whole) if whole % 2 else abs(whole) // 2):
@@ -56,8 +53,6 @@ def _power(expression: Expression, base: Scalar, exponent: Scalar) -> Scalar:
 
 def _refusal(expression: Expression, name: str) -> Callable[..., Any]:
     def refuse(*_: Any) -> Any:
-        raise LinkwrightError(
-            f'"{expression.text}" uses {name}(), which cannot be swept; vary the dimension itself instead'
-        )
+        raise LinkwrightError(Sentence("motion.no_sweep", text=expression.text, name=name))
 
     return refuse

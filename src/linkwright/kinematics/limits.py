@@ -22,7 +22,8 @@ from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 Indices = NDArray[np.intp]
 
@@ -83,12 +84,8 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
         return found
     guides = [name for name, joint in mechanism.joints.items() if isinstance(joint, PrismaticJoint)]
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
-    offer = nearest(text, [*links, *guides, *dict.fromkeys(points)])
-    hint = f"; did you mean {offer!r}?" if offer else ""
-    raise RequestError(
-        f"there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its displacement)"
-        f"{hint}"
-    )
+    hint = offered(text, [*links, *guides, *points])
+    raise RequestError(Sentence("motion.no_output", text=text, hint=hint))
 
 
 class Between:
@@ -99,10 +96,7 @@ class Between:
         nominal = at_times(motion.mechanism, motion.time)
         for name, (q, *_) in motion.positions.coordinates.items():
             if not np.allclose(q, nominal.coordinates[name][0], rtol=1e-9, atol=1e-12):
-                raise LinkwrightError(
-                    f"the positions of this motion do not follow the law of driver {name!r} in time, so there is no "
-                    "way between them; find limit positions in a motion over a cycle or at times"
-                )
+                raise LinkwrightError(Sentence("motion.no_way_between", name=name))
 
     @cached_property
     def passing(self) -> list[Passage]:

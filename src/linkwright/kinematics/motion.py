@@ -19,8 +19,9 @@ from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.structure import Structure
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -150,7 +151,7 @@ class Motion:
     def input(self) -> Floats:
         """Coordinate of the first driver, (n,) rad or m."""
         if not self.inputs:
-            raise RequestError(f"{self.mechanism.name!r} has no driver, so it has no input")
+            raise RequestError(Sentence("motion.no_input", name=self.mechanism.name))
         return next(iter(self.inputs.values()))
 
     @property
@@ -194,9 +195,8 @@ class Motion:
                 b.angular_velocity - a.angular_velocity,
                 b.angular_acceleration - a.angular_acceleration,
             )
-        offer = nearest(name, list(self.mechanism.joints))
-        hint = f"; did you mean {offer!r}?" if offer else ""
-        raise RequestError(f"there is no joint {name!r} with a coordinate{hint}")
+        hint = offered(name, self.mechanism.joints)
+        raise RequestError(Sentence("motion.no_coordinate", name=name, hint=hint))
 
     def point_of(self, key: str) -> PointMotion:
         """Motion of a point by its canonical key."""

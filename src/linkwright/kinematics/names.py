@@ -5,7 +5,8 @@ from __future__ import annotations
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import no_such, offered
+from linkwright.words.sentence import Sentence
 
 
 def vector_names(prefix: str, key: str) -> tuple[str, str]:
@@ -31,15 +32,16 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
             raise _unknown("link", link, ["frame", *mechanism.links])
         points = mechanism.link(link).points
         if point not in points:
-            raise _unknown(f"point of link {link!r}:", point, list(points))
+            hint = offered(point, points)
+            raise LinkwrightError(Sentence("names.no_such_point", link=link, name=point, hint=hint))
         return link, point
     found = owners(mechanism, name)
     if not found:
         everything = [p for link in [mechanism.frame, *mechanism.links.values()] for p in link.points]
         raise _unknown("point", name, everything)
     if len(found) > 1 and not isinstance(mechanism.joints.get(name), RevoluteJoint):
-        choices = ", ".join(f"{link}.{name}" for link in found)
-        raise RequestError(f"several links have a point {name!r} of their own; say which: {choices}")
+        choices = tuple(f"{link}.{name}" for link in found)
+        raise RequestError(Sentence("motion.several_points", name=name, choices=choices))
     return found[0], name
 
 
@@ -52,6 +54,4 @@ def canonical(mechanism: Mechanism, link: str, point: str) -> str:
 
 
 def _unknown(noun: str, name: str, known: list[str]) -> LinkwrightError:
-    offer = nearest(name, known)
-    hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(map(repr, dict.fromkeys(known)))}"
-    return LinkwrightError(f"there is no {noun} {name!r}; {hint}")
+    return LinkwrightError(no_such(noun, name, known))

@@ -86,9 +86,7 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     Systems, ch. 5). Raises LinkwrightError if the position is not solved.
     """
     if not motion.ok[index]:
-        raise LinkwrightError(
-            f"position {index} is not solved, so its Jacobian has no rank; choose another one"
-        )
+        raise LinkwrightError(Sentence("motion.no_rank", index=index))
     mechanism = motion.mechanism
     system = ConstraintSystem(mechanism)
     here = coordinates(motion, index)
@@ -132,7 +130,7 @@ def analysed(mechanism: Mechanism) -> Structure:
         report = rank_from_drawing(mechanism)
         if report is None:
             raise
-        raise StructureError(f"{error}. {report.sentence}") from None
+        raise StructureError(Sentence("rank.besides", cause=error, sentence=report)) from None
 
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -52,5 +53,5 @@ def dataframe(named: Mapping[str, Floats]) -> pandas.DataFrame:
     try:
         import pandas
     except ImportError as error:
-        raise LinkwrightError("pandas is not installed; install it with: pip install pandas") from error
+        raise LinkwrightError(Sentence("motion.needs_pandas")) from error
     return pandas.DataFrame(dict(named))

@@ -14,6 +14,7 @@ from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.mechanism import Link, Mechanism
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
@@ -84,7 +85,7 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
         LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
     """
     if not 0.0 <= share <= 1.0:
-        raise RequestError(f"share is {share:g}; give a number from 0 (nothing) to 1 (everything)")
+        raise RequestError(Sentence("forces.share", share=share))
     moments = _moments(mechanism, radius, share)
     links = dict(mechanism.links)
     weights = []
@@ -114,9 +115,7 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 def _radius(radius: Radius, link: str) -> float:
     distance = radius[link] if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
-        raise RequestError(
-            f"the radius of the counterweight on {link!r} is {distance:g} m; give a positive one"
-        )
+        raise RequestError(Sentence("forces.weight_radius", link=link, distance=distance))
     return distance
 
 
@@ -130,10 +129,7 @@ def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[s
     floating = [name for name in mechanism.links if name not in grounded]
     sliders = [name for name, joint in grounded.items() if isinstance(joint, PrismaticJoint)]
     if len(mechanism.links) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
-        raise LinkwrightError(
-            f"{mechanism.name!r} is neither a four-bar nor a slider-crank; counterweights by formula are for these "
-            "two, other mechanisms are balanced by varying masses and mass centres in a study"
-        )
+        raise LinkwrightError(Sentence("forces.not_balanced", name=mechanism.name))
     coupler = mechanism.links[floating[0]]
     pins = {name: _shared_pin(mechanism, name, coupler.name) for name in grounded}
     if sliders:
@@ -178,9 +174,7 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
     for joint in mechanism.joints.values():
         if a in joint.joined and b in joint.joined and not isinstance(joint, PrismaticJoint):
             return joint.name
-    raise LinkwrightError(
-        f"links {a!r} and {b!r} share no pin, so {mechanism.name!r} is no four-bar or slider-crank"
-    )
+    raise LinkwrightError(Sentence("forces.no_pin_shared", a=a, b=b, name=mechanism.name))
 
 
 def _at(link: Link, point: str) -> complex:

@@ -18,7 +18,8 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import no_such
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -103,10 +104,7 @@ class Forces:
         """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
         drivers = self.motion.design.base.drivers
         if name not in drivers:
-            offer = nearest(name, list(drivers))
-            raise RequestError(
-                f"there is no driver {name!r}" + (f"; did you mean {offer!r}?" if offer else "")
-            )
+            raise RequestError(no_such("driver", name, drivers))
         return self.fetch((f"effort:{name}",))[0]
 
     @property
@@ -118,7 +116,7 @@ class Forces:
     def input_torque_from_power(self) -> Floats:
         """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
         if len(self.mechanism.drivers) != 1:
-            raise RequestError("with several drivers the powers give one sum, not the effort of one driver")
+            raise RequestError(Sentence("forces.one_sum"))
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
             return np.where(rate == 0.0, np.nan, self.power / rate)
@@ -153,8 +151,7 @@ class Forces:
     def load(self, name: str) -> LoadForce:
         """What one of the file's loads did."""
         if name not in self.mechanism.loads:
-            offer = nearest(name, list(self.mechanism.loads))
-            raise RequestError(f"there is no load {name!r}" + (f"; did you mean {offer!r}?" if offer else ""))
+            raise RequestError(no_such("load", name, self.mechanism.loads))
         names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
         fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
@@ -189,20 +186,17 @@ class Forces:
     def _link_at(self, joint: str, on: str | None) -> str:
         joints = self.motion.design.base.joints
         if joint not in joints:
-            offer = nearest(joint, list(joints))
-            raise RequestError(
-                f"there is no joint {joint!r}" + (f"; did you mean {offer!r}?" if offer else "")
-            )
+            raise RequestError(no_such("joint", joint, joints))
         links = joints[joint].joined
         if on is None:
             others = [link for link in links if link != "frame"]
             if len(others) != 1:
                 raise RequestError(
-                    f"joint {joint!r} joins {', '.join(links)}; say on which link: on={others[0]!r}"
+                    Sentence("forces.say_link", joint=joint, links=tuple(links), first=others[0])
                 )
             return others[0]
         if on not in links:
-            raise RequestError(f"joint {joint!r} does not touch link {on!r}; it joins {', '.join(links)}")
+            raise RequestError(Sentence("forces.not_touching", joint=joint, link=on, links=tuple(links)))
         return on
 
     def guide_direction(self, joint: str) -> Floats:
@@ -222,7 +216,7 @@ class Forces:
     def _first_driver(self) -> str:
         drivers = self.motion.design.base.drivers
         if not drivers:
-            raise RequestError(f"{self.mechanism.name!r} has no driver, so it has no input torque")
+            raise RequestError(Sentence("forces.no_driver", name=self.mechanism.name))
         return next(iter(drivers))
 
     def fetch(self, names: tuple[str, ...]) -> list[Floats]:

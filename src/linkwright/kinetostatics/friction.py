@@ -17,6 +17,7 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
 from linkwright.model.mechanism import Mechanism
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -60,9 +61,7 @@ class FrictionTerms:
                 continue
             if isinstance(joint, RevoluteJoint):
                 if joint.pin_radius is None:
-                    raise LinkwrightError(
-                        f"joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: 20 mm"
-                    )
+                    raise LinkwrightError(Sentence("forces.needs_pin_radius", name=name))
                 pairs = [
                     (c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name
                 ]

@@ -11,6 +11,7 @@ from linkwright.kinematics.rows import Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.words.sentence import Sentence
 
 #: Iterations of the friction, and the relative change at which it has converged.
 FRICTION_STEPS = 400
@@ -42,11 +43,7 @@ def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], st
 def _indeterminate(motion: Motion) -> tuple[str, ...]:
     """Says which couples statics cannot tell, because a loop of guides prevents a rotation more than once."""
     guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.kind == "prismatic"]
-    return tuple(
-        f"the couple of guide {name!r} is statically indeterminate, as other guides prevent the same rotation: "
-        "it is taken as zero, and the couples of those guides carry all"
-        for name in guides
-    )
+    return tuple(Sentence("forces.indeterminate", name=name) for name in guides)
 
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
@@ -113,8 +110,4 @@ def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, F
     worst = max(terms, key=lambda t: float(np.nanmax(np.abs(fields[t.field]), initial=0.0)))
     place = int(np.nanargmax(np.abs(fields[worst.field])))
     where = ", ".join(f"{name} = {q[place]:.6g}" for name, q in motion.inputs.items())
-    return (
-        f"{motion.mechanism.name!r} is self-locking by friction near {where} (rad or m): the friction in joint "
-        f"{worst.joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
-        "coefficient or the pin radius, or improve the transmission angle there"
-    )
+    return Sentence("forces.self_locking", name=motion.mechanism.name, where=where, joint=worst.joint)

@@ -9,6 +9,7 @@ from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.constraints import FRAME, ConstraintGraph
+from linkwright.words.sentence import Sentence, together
 
 
 class StructureError(LinkwrightError):
@@ -57,43 +58,43 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
 
 def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobility: int) -> StructureError:
     """The sentence for freedoms that nothing determines."""
-    links = ", ".join(repr(name) for name in free)
-    drivers = len(mechanism.drivers)
-    said = f"{mechanism.name!r} has mobility {mobility} and {_times(drivers, 'driver')}"
     parts = islands(mechanism)
-    if len(parts) > 1:
-        listed = " and ".join("{" + ", ".join(part) + "}" for part in parts)
-        said += f"; the file holds {len(parts)} mechanisms that share nothing but the frame: {listed}"
-    hint = (
-        f"give {_times(lacking, 'more driver')} (driver: {{turn: …, about: …, speed: …}}), "
-        "or join the links further"
+    apart = tuple("{" + ", ".join(part) + "}" for part in parts)
+    said = Sentence(
+        "mobility.islands" if len(parts) > 1 else "mobility.free",
+        has=_has(mechanism, mobility),
+        count=len(parts),
+        parts=together(apart),
+        links=tuple(map(repr, free)),
+        more=_drivers("more", lacking),
     )
-    return StructureError(f"{said}; nothing determines the motion of {links}; {hint}")
+    return StructureError(said)
 
 
 def explain_excess(
     mechanism: Mechanism, sources: Sequence[str], bodies: Sequence[str], mobility: int
 ) -> StructureError:
     """The sentence for demands that exceed the freedoms."""
-    links = ", ".join(repr(name) for name in bodies)
-    extra = ", ".join(repr(name) for name in sources)
     drivers = len(mechanism.drivers)
+    why: Sentence = _has(mechanism, mobility)
     if mobility <= 0 and drivers:
-        why = (
-            f"{mechanism.name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, "
-            f"but {_times(drivers, 'driver')} {'is' if drivers == 1 else 'are'} given"
+        why = Sentence(
+            "mobility.cannot_be_driven" if drivers == 1 else "mobility.cannot_be_driven_by_several",
+            name=mechanism.name,
+            mobility=mobility,
+            drivers=_drivers("drivers", drivers),
         )
-    else:
-        why = f"{mechanism.name!r} has mobility {mobility} and {_times(drivers, 'driver')}"
-    return StructureError(
-        f"{why}; the links {links} are determined more than once (by {extra} among others); "
-        "remove a driver, a redundant link or a redundant guide"
-    )
+    links, extra = tuple(map(repr, bodies)), tuple(map(repr, sources))
+    return StructureError(Sentence("mobility.excess", why=why, links=links, extra=extra))
 
 
-def _times(count: int, noun: str) -> str:
-    word = {0: "no", 1: "one", 2: "two", 3: "three"}.get(count, str(count))
-    return f"{word} {noun}" + ("" if count == 1 else "s")
+def _has(mechanism: Mechanism, mobility: int) -> Sentence:
+    drivers = _drivers("drivers", len(mechanism.drivers))
+    return Sentence("mobility.has", name=mechanism.name, mobility=mobility, drivers=drivers)
+
+
+def _drivers(key: str, count: int) -> Sentence:
+    return Sentence(f"mobility.{key}_{count if count < 4 else 'many'}", count=count)
 
 
 __all__ = ["FRAME", "StructureError", "counts", "explain_excess", "explain_free", "grubler", "islands"]

@@ -21,7 +21,8 @@ from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -60,15 +61,12 @@ class Alternative:
         """Steady running with a flywheel; None, with a note, where there is none to lay out."""
         torque = self.forces.input_torque
         if abs(torque.mean()) <= IDLE * np.abs(torque).max():
-            self.notes.append(
-                f"{self.label}: the mean torque over its cycle is zero, so no work is done and there is no flywheel "
-                "to lay out"
-            )
+            self.notes.append(Sentence("study.no_work", label=self.label))
             return None
         try:
             return steady_running(self.forces, fluctuation=self.fluctuation)
         except LinkwrightError as error:
-            self.notes.append(f"{self.label}: {error}")
+            self.notes.append(Sentence("cli.about", name=self.label, cause=error))
             return None
 
     @property
@@ -121,7 +119,7 @@ def alternatives(
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
     if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
-        raise RequestError("a comparison needs two or more alternatives; give a list of mechanisms or files")
+        raise RequestError(Sentence("study.two_or_more"))
     flywheel_inertia(1.0, 1.0, fluctuation)
     machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
     labels = _labels(machines)
@@ -154,9 +152,7 @@ def _outputs(
         return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
     if output is not None:
         if len(output) != len(machines):
-            raise RequestError(
-                f"{len(output)} outputs are named for {len(machines)} alternatives; name one for each"
-            )
+            raise RequestError(Sentence("study.outputs_for", outputs=len(output), machines=len(machines)))
         return list(output)
     own = [[str(each) for each in mechanism_outputs(machine)] for machine in machines]
     shared = [name for name in own[0] if all(name in names for names in own[1:])]
@@ -178,22 +174,20 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
     for key in keys:
         if key in output:
             return output[key]
-    raise RequestError(
-        f"no output is named for {label!r}; output names them for {', '.join(map(repr, output))}"
-    )
+    raise RequestError(Sentence("study.no_output_for", label=label, named=tuple(map(repr, output))))
 
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
-    told = "; ".join(
-        f"{label!r} has {', '.join(names) or 'none'}" for label, names in zip(labels, own, strict=True)
-    )
+    told = [
+        Sentence("study.label_has", label=label, names=tuple(names))
+        if names
+        else Sentence("study.label_has_none", label=label)
+        for label, names in zip(labels, own, strict=True)
+    ]
     example = ", ".join(
         f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
     )
-    return (
-        f"the alternatives share no output to compare: {told}; say which output of each is meant, such as "
-        f"output={{{example}}} (on the command line --of, one name per file)"
-    )
+    return Sentence("study.no_common_output", told=told, example=example)
 
 
 def output_of_machine(machine: Mechanism, name: str) -> Output:
@@ -210,6 +204,5 @@ def output_of_machine(machine: Mechanism, name: str) -> Output:
         return output_of(machine, name)
     except LinkwrightError:
         own = [str(each) for each in mechanism_outputs(machine)]
-        offer = nearest(name, own)
-        hint = f"did you mean {offer!r}?" if offer else f"it has {', '.join(own) or 'none'}"
-        raise RequestError(f"{machine.name!r} has no output {name!r}; {hint}") from None
+        hint = offered(name, own, "names.it_has")
+        raise RequestError(Sentence("study.no_output", machine=machine.name, name=name, hint=hint)) from None

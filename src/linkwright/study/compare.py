@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, with_remedy
 from linkwright.metrics.quantities import si_unit
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, alternatives
 from linkwright.study.criteria import USUAL, Criterion, Measured, criteria
 from linkwright.study.overlay import Overlay, overlays
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -125,9 +126,11 @@ class Comparison:
             if row.criterion.name == metric:
                 found = row.values[index]
                 return float("nan") if found is None else found.value
-        offer = nearest(metric, [row.criterion.name for row in self.rows])
         raise RequestError(
-            f"{metric!r} is not among the compared metrics" + (f"; did you mean {offer!r}?" if offer else "")
+            with_remedy(
+                Sentence("study.not_compared", metric=metric),
+                offered(metric, [row.criterion.name for row in self.rows]),
+            )
         )
 
     def units(self) -> list[tuple[Row, str]]:
@@ -142,7 +145,7 @@ class Comparison:
     def _index(self, label: str) -> int:
         if label not in self.labels:
             raise RequestError(
-                f"there is no alternative {label!r}; there is {', '.join(map(repr, self.labels))}"
+                Sentence("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
             )
         return self.labels.index(label)
 
@@ -247,7 +250,7 @@ def compare(
         if metrics is not None and all(value is None for value in values):
             known = "; ".join(note for a in found for note in a.notes)
             raise RequestError(
-                f"{each.name!r} does not apply to any of the alternatives: {known or 'leave it out'}"
+                Sentence("study.applies_to_none", name=each.name, known=known or "leave it out")
             )
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
@@ -258,16 +261,13 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
     known = {each.name: each for each in asked}
     for name, weight in weights.items():
         if name not in known:
-            offer = nearest(name, list(known))
-            hint = f"did you mean {offer!r}?" if offer else f"compared are {', '.join(known)}"
-            raise RequestError(f"the weight of {name!r} belongs to no compared metric; {hint}")
+            hint = offered(name, known, "study.compared_are")
+            raise RequestError(Sentence("study.stray_weight", name=name, hint=hint))
         if not weight >= 0.0 or weight == float("inf"):
-            raise RequestError(f"the weight of {name!r} is {weight}; give a number that is not negative")
+            raise RequestError(Sentence("study.bad_weight_value", name=name, weight=weight))
         if known[name].better is None and weight > 0.0:
-            raise RequestError(
-                f"{name!r} has no better direction, so it cannot be weighted; leave its weight out"
-            )
+            raise RequestError(Sentence("study.no_direction", name=name))
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
-        raise RequestError("all weights are zero; give one metric a weight above zero")
+        raise RequestError(Sentence("study.all_zero"))
     return weights

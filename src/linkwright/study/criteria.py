@@ -10,10 +10,11 @@ import numpy as np
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.outputs import turns_fully
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.study.alternatives import IDLE, Alternative
 from linkwright.study.summary import KINDS, wanted
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 
 
 class NoSuchSubject(RequestError):
@@ -53,7 +54,7 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
     asked = [names] if isinstance(names, str) else list(names)
     if not asked:
-        raise RequestError("no metric is asked for; name some, such as peak_input_torque")
+        raise RequestError(Sentence("study.no_metric_named"))
     return [criterion(name) for name in dict.fromkeys(asked)]
 
 
@@ -68,11 +69,8 @@ def criterion(name: str) -> Criterion:
         kind = METRICS[metric]
         return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
     known = [*OWN, *METRICS]
-    offer = nearest(name, known)
-    hint = f"did you mean {offer!r}?" if offer else f"known: {', '.join(known)}"
-    raise RequestError(
-        f'there is no metric {name!r}; {hint} An output with a summary will do as well, such as "driver.effort rms"'
-    )
+    hint = offered(name, known)
+    raise RequestError(Sentence("study.no_metric", name=name, hint=hint))
 
 
 def is_summary(name: str) -> bool:
@@ -99,9 +97,10 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     if not found:
         subjects = [v.subject for v in values]
         if subject and values:
-            offer = nearest(subject, subjects)
-            hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(subjects)}"
-            raise NoSuchSubject(f"{metric.name!r} of {each.label!r} has no value for {subject!r}; {hint}")
+            hint = offered(subject, subjects)
+            raise NoSuchSubject(
+                Sentence("study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint)
+            )
         return None
     worst = _governing(found, metric)
     if metric.name == "mean_power" and abs(worst.value) <= IDLE * np.abs(each.forces.power).max():

@@ -18,6 +18,7 @@ from linkwright.study.named import Quantity
 from linkwright.study.summary import Summary, wanted
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -64,7 +65,7 @@ class Sweep:
         (found, *more) = wanted([key])
         if found not in self.summaries or more:
             raise RequestError(
-                f"{key!r} was not asked for; there is {', '.join(s.name for s in self.summaries)}"
+                Sentence("study.not_asked", summary=key, summaries=tuple(s.name for s in self.summaries))
             )
         return self.summaries[found]
 

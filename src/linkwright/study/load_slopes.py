@@ -50,10 +50,7 @@ class LoadSlopes:
         """Derivatives by dimension of one input; raises LinkwrightError for friction, which is an iteration."""
         kind, _, key = field.partition(":")
         if kind == "friction":
-            raise LinkwrightError(
-                "friction in joints follows the reactions by an iteration, for which no derivative is found; leave "
-                "the friction out of the model, or vary the dimension in a study"
-            )
+            raise LinkwrightError(Sentence("study.friction_slope"))
         if kind == "angle":
             a, b = key.split("|")
             return self._between(a, b)
@@ -64,10 +61,7 @@ class LoadSlopes:
         if isinstance(load, TorsionSpring):
             return self._between(*load.links)
         if type(load).from_cycle is not Load.from_cycle:
-            raise LinkwrightError(
-                f"loads.{load.name}: a load of the kind {load.kind!r} is found from the whole cycle, for which no "
-                "derivative is known; vary the dimension in a study instead"
-            )
+            raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
         ramp: tuple[float, float] | None = getattr(load, "ramp", None)
         active = activity(getattr(load, "phase", None), self.signals, ramp=ramp is not None)
         slopes = self._ramp(load, ramp, active.share) if ramp is not None else self._magnitude(load)

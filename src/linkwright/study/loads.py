@@ -17,6 +17,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import STEPS
 from linkwright.study.traced import Traced
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ class OneByOne:
                 for name, row in self.inputs(names, motion).items():
                     rows[name][index] = row
             except LinkwrightError as error:
-                failed[index] = str(error)
+                failed[index] = error.sentence
         return rows, failed
 
 
@@ -97,7 +98,7 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
     try:
         motion = OneByOne(traced).motion(changes)
     except LinkwrightError as error:
-        return str(error)
+        return error.sentence
     if motion.ok.all():
-        return "it could not be followed from position to position together with the others; give more steps"
+        return Sentence("study.not_followed")
     return str(refusal(motion))

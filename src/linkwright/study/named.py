@@ -16,8 +16,9 @@ from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.structure.group import Group
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -197,10 +198,7 @@ class Named:
             quality = placed[group.name].quality
             total = quality if total is None else minimum(total, quality)
         if total is None:
-            raise RequestError(
-                f"{name!r}: there is no group with a closed form, and only those tell how near they are to a "
-                "singular position; choose another output"
-            )
+            raise RequestError(Sentence("study.no_closed_form", name=name))
         return Quantity(name, "dimensionless", total)
 
     def transmission_angle(self, name: str, rest: list[str]) -> Quantity:
@@ -210,8 +208,13 @@ class Named:
         group = self._group(name, rest[0])
         if group.signature != "RRR" or len(group.inner_joints) != 1:
             raise RequestError(
-                f"{name!r}: a transmission angle is between two links of an RRR group; {group.signature} "
-                f"({', '.join(group.links)}) is none; ask for closeness {rest[0]}"
+                Sentence(
+                    "study.no_rrr",
+                    name=name,
+                    signature=group.signature,
+                    links=tuple(group.links),
+                    joint=rest[0],
+                )
             )
         outer = [self.motion.outputs.point(joint.joint)[0] for joint in group.outer_joints]
         inner = self.motion.outputs.point(rest[0])[0]
@@ -222,9 +225,8 @@ class Named:
     def _group(self, name: str, joint: str) -> Group:
         inner = {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
         if joint not in inner:
-            offer = nearest(joint, list(inner))
-            hint = f"did you mean {offer!r}?" if offer else f"inner joints are: {', '.join(inner) or 'none'}"
-            raise RequestError(f"{name!r}: {joint!r} is not the inner joint of a group; {hint}")
+            hint = offered(joint, inner, "study.inner_joints")
+            raise RequestError(Sentence("study.not_inner", name=name, joint=joint, hint=hint))
         return inner[joint]
 
     def _at_joint(self, name: str, rest: list[str]) -> tuple[str, str, str]:
@@ -239,22 +241,24 @@ class Named:
         if len(rest) == 3:
             if rest[2] not in joined:
                 raise RequestError(
-                    f"{name!r}: joint {rest[0]!r} does not touch {rest[2]!r}; it joins {', '.join(joined)}"
+                    Sentence(
+                        "study.not_touching", name=name, joint=rest[0], link=rest[2], joined=tuple(joined)
+                    )
                 )
             return rest[0], rest[2], axis
         moving = [link for link in joined if link != "frame"]
         if len(moving) != 1:
             raise RequestError(
-                f"{name!r}: joint {rest[0]!r} joins {', '.join(joined)}; say on which link: "
-                f'"{name} on {moving[0]}"'
+                Sentence("study.say_link", name=name, joint=rest[0], joined=tuple(joined), moving=moving[0])
             )
         return rest[0], moving[0], axis
 
     def _unknown(self, name: str) -> LinkwrightError:
         known = list(output_names(self.mechanism))
-        offer = nearest(name, known)
-        hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(map(repr, known[:6]))}"
-        return LinkwrightError(f"there is no output {name!r} in {self.mechanism.name!r}; {hint}")
+        hint = offered(name, known, "study.such_as", most=6)
+        return LinkwrightError(
+            Sentence("study.no_such_output", name=name, mechanism=self.mechanism.name, hint=hint)
+        )
 
 
 _PHRASES: dict[str, Callable[[Named, str, list[str]], Quantity]] = {

@@ -21,7 +21,8 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 Backend = Literal["auto", "numpy", "llvm"]
 
@@ -55,9 +56,10 @@ class Prepared:
         known = mechanism.dimensions()
         for address in vary:
             if address not in known:
-                offer = nearest(address, known)
-                hint = f"; did you mean {offer!r}?" if offer else ""
-                raise RequestError(f"there is no dimension {address!r} in {mechanism.name!r}{hint}")
+                hint = offered(address, known, "study.such_as", most=6)
+                raise RequestError(
+                    Sentence("study.no_dimension", address=address, name=mechanism.name, hint=hint)
+                )
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -89,9 +91,7 @@ class Prepared:
             if compiled is not None:
                 return lambda table: compiled.run(table, arrays)
             if backend == "llvm":
-                raise LinkwrightError(
-                    "this mechanism cannot be compiled here: llvmlite is missing, or a group iterates"
-                )
+                raise LinkwrightError(Sentence("study.not_compiled"))
         evaluator = numpy_program(self.program)
         return lambda table: evaluator.run(table, arrays, length=self.positions.count)
 
@@ -126,10 +126,7 @@ class Prepared:
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
         if self.mechanism.dimension(address) == 0.0:
-            raise RequestError(
-                f"{address!r} is zero and was not named when the mechanism was prepared; "
-                f"write prepare(mechanism, vary=[{address!r}, …])"
-            )
+            raise RequestError(Sentence("study.zero_not_named", address=address))
 
     def _solve_in_turn(self, design: Design, failures: str) -> Forces:
         """Motion first, as loads or iterations need it."""

@@ -14,6 +14,7 @@ from linkwright import units
 from linkwright.errors import QuantityError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> R
         found = _parsed(address, given.strip())
         _require_unit(mechanism, address, found.unit, given)
     except QuantityError as error:
-        raise RequestError(f"{address}={given}: {error}") from None
+        raise RequestError(Sentence("cli.about", name=f"{address}={given}", cause=error)) from None
     return found
 
 
@@ -95,15 +96,12 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     """A number in SI and its unit; without a unit of its own that of ``unit``."""
     match = _QUANTITY.match(part.strip())
     if match is None:
-        raise RequestError(
-            f'{address}={text}: "{part.strip()}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
-            "1.2, 1.25, 1.3 m"
-        )
+        raise RequestError(Sentence("study.no_quantity", address=address, text=text, part=part.strip()))
     number, unit = match[1], match[2].strip() or unit
     factor = units.unit(unit)[0] if unit else 1.0
     value = float(number) * factor
     if not math.isfinite(value):
-        raise RequestError(f"{address}={text}: a value is not finite")
+        raise RequestError(Sentence("study.value_not_finite", address=address, text=text))
     return value, unit
 
 
@@ -111,11 +109,9 @@ def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
     if not text.strip().isdigit() or int(text) < 1:
-        raise RequestError(
-            f'{address}={whole}: "{text.strip()}" is no number of values; end a range in a whole number, such as :11'
-        )
+        raise RequestError(Sentence("study.no_count", address=address, whole=whole, text=text.strip()))
     if int(text) > 1_000_000:
-        raise RequestError(f"{address}={whole}: {text} values are too many; give a million or fewer")
+        raise RequestError(Sentence("study.count_large", address=address, whole=whole, count=text))
     return int(text)
 
 
@@ -128,9 +124,9 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
     if kind != expected and not (not unit and expected == units.NONE):
         need = units.name_of(expected)
         example = units.si_symbol(expected)
-        told = f"it has the unit {unit}" if unit else "it has no unit"
+        told = Sentence("study.has_unit", unit=unit) if unit else Sentence("study.has_no_unit")
         raise RequestError(
-            f"{address}={text}: this is {need}, but {told}; write it with a unit such as {example or 'none'}"
+            Sentence("study.wrong_unit", address=address, text=text, need=need, told=told, example=example)
         )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.study.ranges import Range
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -22,9 +23,7 @@ def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
     for each in ranges:
         count *= len(each.values)
     if count > MOST:
-        raise RequestError(
-            f"the grid has {count} designs; give {MOST} or fewer, or sample it: sampling='sobol'"
-        )
+        raise RequestError(Sentence("study.grid_large", count=count, most=MOST))
     mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
     return {each.address: rows.ravel() for each, rows in zip(ranges, mesh, strict=True)}
 
@@ -35,15 +34,15 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
     """
     if sampling != "sobol":
-        raise RequestError(f"there is no sampling {sampling!r}; use grid or sobol")
+        raise RequestError(Sentence("study.no_sampling", sampling=sampling))
     if not 1 <= samples <= MOST:
-        raise RequestError(f"{samples} samples are asked for; give 1 to {MOST}")
+        raise RequestError(Sentence("study.bad_samples", samples=samples, most=MOST))
     if seed < 0:
-        raise RequestError(f"the seed is {seed}; give a whole number that is not negative")
+        raise RequestError(Sentence("study.bad_seed", seed=seed))
     try:
         from scipy.stats import qmc
     except ImportError as error:
-        raise LinkwrightError("a Sobol sequence needs scipy; install it with: pip install scipy") from error
+        raise LinkwrightError(Sentence("study.needs_scipy")) from error
     power = max(0, (samples - 1).bit_length())
     unit = qmc.Sobol(len(ranges), seed=seed).random_base2(power)[:samples]
     return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(ranges)}

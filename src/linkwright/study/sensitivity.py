@@ -19,6 +19,7 @@ from linkwright.study.slopes import Slopes
 from linkwright.study.summary import Summary
 from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -58,7 +59,7 @@ class Sensitivity:
         """Derivative of an output with respect to a dimension at fixed input, (n,)."""
         self._asked(output)
         if by not in self.by:
-            raise RequestError(f"{by!r} is not among the dimensions {', '.join(self.by)}")
+            raise RequestError(Sentence("study.not_a_dimension", name=by, names=tuple(self.by)))
         return self.slopes[output, by]
 
     def value(self, output: str, kind: str | None = None) -> float:
@@ -110,15 +111,13 @@ class Sensitivity:
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise RequestError(
-                f"no curve of {output!r} was asked for; there is {', '.join(self.curves) or 'none'}"
-            )
+            raise RequestError(Sentence("study.no_curve", output=output, curves=tuple(self.curves)))
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
         if not isinstance(found, Summary) or found not in self.values:
             raise RequestError(
-                f"no summary {output!r} was asked for; there is {', '.join(s.name for s in self.values) or 'none'}"
+                Sentence("study.no_summary_asked", output=output, names=tuple(s.name for s in self.values))
             )
         return found
 
@@ -157,13 +156,11 @@ def sensitivity(
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
-        raise RequestError(
-            "no dimension is given to differentiate by; name some, such as by=['crank.length']"
-        )
+        raise RequestError(Sentence("study.nothing_to_differentiate"))
     _refuse_input(dimensions)
     asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
     if not asked:
-        raise RequestError('no outputs are asked for; name some, such as "driver.effort rms"')
+        raise RequestError(Sentence("study.no_outputs"))
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.ok.all():
         raise refusal(traced.nominal)
@@ -181,16 +178,14 @@ def split(each: str | tuple[str, str]) -> str | Summary:
     if len(found) == 2 and output is not None:
         return output
     if found[0].kind in ("argmin", "argmax"):
-        raise RequestError(f"{found[0].name!r} is a place, which has no derivative here; ask for its extreme")
+        raise RequestError(Sentence("study.place_without_slope", name=found[0].name))
     return found[0]
 
 
 def _refuse_input(by: Iterable[str]) -> None:
     for address in by:
         if address.startswith("cycle.") or address.endswith(".start"):
-            raise RequestError(
-                f"{address} moves the positions of the input; derivatives are taken at fixed input, so leave it out"
-            )
+            raise RequestError(Sentence("study.moves_input", address=address))
 
 
 class _Derivation:

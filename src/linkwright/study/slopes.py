@@ -19,6 +19,7 @@ from linkwright.kinetostatics.run import run_forces
 from linkwright.study.load_slopes import LoadSlopes
 from linkwright.study.named import Quantity
 from linkwright.study.traced import VALID, Traced
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -128,7 +129,7 @@ class Slopes:
 
             compiled = compile_program(program)
             if compiled is None:
-                raise LinkwrightError("llvmlite cannot be loaded: install it, or use the numpy back end")
+                raise LinkwrightError(Sentence("study.no_llvmlite"))
             rows = {name: row[None, :] for name, row in inputs.items()}
             return np.array(
                 compiled.store(numbers[None, :], arrays, rows, length=self.traced.positions.count)[0]

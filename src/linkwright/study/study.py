@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.machine import flywheel_inertia
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria, is_summary
 from linkwright.study.designs import sweep
@@ -23,6 +23,7 @@ from linkwright.study.failures import Failure
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.sampling import MOST, grid, sobol
 from linkwright.study.vary import checked_addresses
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -66,8 +67,8 @@ class Study:
         for columns in (self.metrics, self.varied):
             if name in columns:
                 return columns[name]
-        offer = nearest(name, [*self.metrics, *self.varied])
-        raise RequestError(f"{name!r} is not in the study" + (f"; did you mean {offer!r}?" if offer else ""))
+        hint = offered(name, [*self.metrics, *self.varied])
+        raise RequestError(with_remedy(Sentence("study.not_in_study", name=name), hint))
 
     def best(self, metric: str) -> int:
         """Number of the design that is best in a metric.
@@ -76,9 +77,9 @@ class Study:
         """
         values, better = self[metric], self.better.get(metric)
         if better is None:
-            raise RequestError(f"{metric!r} has no better direction, so no design is best in it")
+            raise RequestError(Sentence("study.no_best", metric=metric))
         if not np.isfinite(values).any():
-            raise LinkwrightError(f"{metric!r} has no value in any of the designs")
+            raise LinkwrightError(Sentence("study.no_value", metric=metric))
         sizes = np.abs(values)
         return int(np.nanargmax(sizes) if better == "higher" else np.nanargmin(sizes))
 
@@ -202,11 +203,11 @@ def study(
     flywheel_inertia(1.0, 1.0, fluctuation)
     ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
     if not ranges:
-        raise RequestError('nothing varies; give dimensions with ranges: {"crank.length": "20..30 mm:11"}')
+        raise RequestError(Sentence("study.nothing_varies"))
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
     count = len(next(iter(columns.values())))
     if count > MOST:
-        raise RequestError(f"{count} designs are too many for a study; give {MOST} or fewer, or use sweep()")
+        raise RequestError(Sentence("study.too_many_designs", count=count, most=MOST))
     work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
     return work.study(ranges, sampling)
 
@@ -289,18 +290,17 @@ class _Work:
         except NoSuchSubject:
             raise
         except LinkwrightError as error:
-            self.troubled[index] = str(error)
+            self.troubled[index] = error.sentence
         self.notes |= dict.fromkeys(each.notes)
 
     def _refuse_idle(self, ok: NDArray[np.bool_]) -> None:
         """Raises for a metric that has a value for none of the designs that move."""
         for name, values in self.values.items():
             if np.isnan(values[ok]).all():
-                known = "; ".join(self.notes)
-                raise RequestError(
-                    f"{name!r} does not apply to {self.mechanism.name!r}"
-                    + (f": {known}" if known else "; leave it out")
-                )
+                told = Sentence("study.does_not_apply", name=name, mechanism=self.mechanism.name)
+                if self.notes:
+                    raise RequestError(Sentence("cli.about", name=told, cause=list(self.notes)))
+                raise RequestError(with_remedy(told, Sentence("study.leave_out")))
 
     def _troubles(self) -> list[Failure]:
         """Designs for which a metric could not be found."""
@@ -322,13 +322,18 @@ def _output(mechanism: Mechanism, name: str | None) -> Output:
 
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:
-    told = "; ".join(
-        f"{f.count} fail{'s' if f.count == 1 else ''} {_place(f)}, such as: {f.example}" for f in failures
-    )
-    return f"none of the {count} designs can pass its cycle: {told}; widen or move the ranges"
+    told = [
+        Sentence(
+            "study.fails" if f.count == 1 else "study.fail", count=f.count, place=_place(f), example=f.example
+        )
+        for f in failures
+    ]
+    return Sentence("study.none_passes", count=count, told=told)
 
 
 def _place(failure: Failure) -> str:
     return (
-        f"at the group ({failure.group.replace('+', ', ')})" if failure.group else "by its loads or metrics"
+        Sentence("study.at_group", group=tuple(failure.group.split("+")))
+        if failure.group
+        else Sentence("study.by_loads")
     )

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.study.named import Quantity
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -58,7 +59,7 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
         for summary in _one(each):
             found[summary] = None
     if not found:
-        raise RequestError('no outputs are asked for; name some, such as "driver.effort rms"')
+        raise RequestError(Sentence("study.no_outputs"))
     return tuple(found)
 
 
@@ -72,9 +73,8 @@ def _one(each: str | tuple[str, str]) -> list[Summary]:
         return [Summary(output, kind)]
     output, kind = each
     if kind not in KINDS:
-        offer = nearest(kind, list(KINDS))
-        hint = f"did you mean {offer!r}?" if offer else f"use one of {', '.join(KINDS)}"
-        raise RequestError(f"{output!r}: there is no summary {kind!r}; {hint}")
+        hint = offered(kind, KINDS, "names.one_of")
+        raise RequestError(Sentence("study.no_summary", output=output, kind=kind, hint=hint))
     return [Summary(output, kind)]
 
 
@@ -84,8 +84,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
     for summary in summaries:
         if quantities[summary.output].form != "plain" and summary.kind not in _GROWING:
             raise RequestError(
-                f"{summary.name!r}: an angle has {', '.join(sorted(_GROWING))} in a study; take one of these, or the "
-                "mean or rms of its rate"
+                Sentence("study.angle_summary", name=summary.name, kinds=tuple(sorted(_GROWING)))
             )
         for kind in KINDS[summary.kind]:
             found[Reduction(summary.output, kind)] = None  # type: ignore[arg-type]

@@ -22,6 +22,7 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.named import Named, Quantity
 from linkwright.study.vary import positions_steps
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -138,10 +139,7 @@ class Traced:
         if high - low <= TURNING:
             return 0.5 * (low + high)
         if not self.turning:
-            raise RequestError(
-                f"{link!r} turns through, so its angle has no smallest and largest value; ask for "
-                f"{link}.angular_velocity instead"
-            )
+            raise RequestError(Sentence("study.turns_through", link=link))
         around = np.sort(angle % (2 * np.pi))
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))

@@ -11,7 +11,8 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -22,10 +23,9 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
     wanted = tuple(dict.fromkeys(addresses))
     for address in wanted:
         if address not in known:
-            offer = nearest(address, known)
-            hint = f"did you mean {offer!r}?" if offer else f"such as {', '.join(list(known)[:6])}"
+            hint = offered(address, known, "study.such_as", most=6)
             raise RequestError(
-                f"there is no dimension or parameter {address!r} in {mechanism.name!r}; {hint}"
+                Sentence("study.no_dimension", address=address, name=mechanism.name, hint=hint)
             )
     return wanted
 
@@ -39,20 +39,18 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     """
     checked_addresses(mechanism, vary)
     if not vary:
-        raise RequestError('nothing varies; give dimensions with their values: {"crank.length": values}')
+        raise RequestError(Sentence("study.nothing_varied"))
     columns = {
         address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()
     }
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise RequestError(f"the values of {address} have the shape {column.shape}; give one per design")
+            raise RequestError(Sentence("study.bad_shape", address=address, shape=column.shape))
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
-        raise RequestError(
-            f"the dimensions have different numbers of values ({told}); give one per design each"
-        )
+        raise RequestError(Sentence("study.uneven", told=told))
     count = lengths.pop() if lengths else 1
     return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
 
@@ -60,10 +58,12 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
 def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
     """Every value on its own must be one that the mechanism takes."""
     if not len(column):
-        raise RequestError(f"{address} has no values")
+        raise RequestError(Sentence("study.no_values", address=address))
     bad = np.flatnonzero(~np.isfinite(column))
     if len(bad):
-        raise RequestError(f"value {int(bad[0])} of {address} is {column[bad[0]]}; give finite numbers")
+        raise RequestError(
+            Sentence("study.bad_value", place=int(bad[0]), address=address, value=column[bad[0]])
+        )
     for extreme in (column.min(), column.max()):
         mechanism.with_dimensions({address: float(extreme)})
 
@@ -74,10 +74,7 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
         for value in (column.min(), column.max()):
             changed = mechanism.with_dimensions({address: float(value)})
             if not _same(mechanism, positions, over_cycle(changed, positions_steps(positions))):
-                raise RequestError(
-                    f"{address} changes the drive's law or the cycle, so that the positions of the input differ from "
-                    "design to design; solve such designs one by one"
-                )
+                raise RequestError(Sentence("study.moves_positions", address=address))
 
 
 def positions_steps(positions: Positions) -> int:

@@ -20,7 +20,7 @@ class Sentence(str):
     """The English text of a key with its values; ``say("zh")`` is the same in Chinese.
 
     Values may be sentences themselves, anything else that has ``say(language)`` such as an error, or tuples of
-    these, which are said with commas in between.
+    these, which are said with commas in between, or lists, with semicolons.
     """
 
     key: str
@@ -51,13 +51,20 @@ def together(items: Sequence[str]) -> str:
     return Sentence("finding.and", first=tuple(first), last=last) if first else last
 
 
+def lines(items: Sequence[str]) -> str:
+    """One or more sentences, each on a line of its own."""
+    first, *rest = items
+    return Sentence("finding.below", first=first, second=lines(rest)) if rest else first
+
+
 def _said(key: str, language: str, values: dict[str, object]) -> str:
     return say(key, language).format(**{name: _value(value, language) for name, value in values.items()})
 
 
 def _value(value: object, language: str) -> object:
-    if isinstance(value, tuple):
-        return say("finding.comma", language).join(str(_value(each, language)) for each in value)
+    if isinstance(value, tuple | list):
+        between = say("finding.comma" if isinstance(value, tuple) else "finding.semicolon", language)
+        return between.join(str(_value(each, language)) for each in value)
     if isinstance(value, SaidAnywhere):
         return value.say(language)
     return value

@@ -14,6 +14,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
 from linkwright.words import LANGUAGES, speaker
+from linkwright.words.sentence import Sentence
 from linkwright.worked.book import Book
 from linkwright.worked.chains import closures
 from linkwright.worked.page import Equation, Step
@@ -77,7 +78,7 @@ def worked(
         LinkwrightError: a position that does not exist or was not reached, an unknown language.
     """
     if language not in LANGUAGES:
-        raise RequestError(f"there is no language {language!r}; choose one of {', '.join(LANGUAGES)}")
+        raise RequestError(Sentence("worked.no_language", language=language, languages=tuple(LANGUAGES)))
     if at is not None:
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
@@ -97,7 +98,7 @@ def worked(
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
     mechanism = source.mechanism
     if not mechanism.drivers:
-        raise RequestError(f"{mechanism.name!r} has no driver, so there is no input to set; leave `at` out")
+        raise RequestError(Sentence("worked.no_input", name=mechanism.name))
     motion = solve_motion(mechanism, at=np.array([at]))
     return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
 
@@ -105,10 +106,12 @@ def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
 def _refuse_missing(motion: Motion, position: int) -> None:
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
-            f"there is no position {position}; the motion has {motion.steps}, from 0 to {motion.steps - 1}"
+            Sentence("worked.no_position", position=position, steps=motion.steps, last=motion.steps - 1)
         )
     if not motion.ok[position]:
-        raise LinkwrightError(f"position {position} was not reached: {motion.outcomes[position].sentence}")
+        raise LinkwrightError(
+            Sentence("worked.not_reached", position=position, sentence=motion.outcomes[position].sentence)
+        )
 
 
 def _legend(book: Book) -> list[str]:

@@ -9,6 +9,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.dxf.sheet import Sheet, check_unit, decimals_for, prepare
 from linkwright.export.results import Results
+from linkwright.words.sentence import Sentence
 
 
 def content(
@@ -28,10 +29,10 @@ def content(
     that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of the lengths in
     the model.
     """
-    ezdxf = package("ezdxf", "DXF drawings")
+    ezdxf = package("ezdxf", "dxf_drawings")
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
-        raise RequestError(f'a path is a "polyline" or a "spline", not a "{curve}"')
+        raise RequestError(Sentence("export.bad_curve", curve=curve))
     index = _index(results, position)
     document = ezdxf.new("R2010", setup=["linetypes"])
     document.units = code
@@ -54,10 +55,12 @@ def _index(results: Results, position: int | None) -> int:
         return results.first_ok()
     steps = results.motion.steps
     if not -steps <= position < steps:
-        raise RequestError(f"position {position} does not exist; there are the positions 0 to {steps - 1}")
+        raise RequestError(Sentence("export.no_position", position=position, last=steps - 1))
     if not results.motion.ok[position]:
         raise LinkwrightError(
-            f"position {position} cannot be drawn: {results.motion.outcomes[position].sentence}"
+            Sentence(
+                "export.not_drawn", position=position, sentence=results.motion.outcomes[position].sentence
+            )
         )
     return position % steps
 

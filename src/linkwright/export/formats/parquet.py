@@ -15,8 +15,8 @@ def content(results: Results, *, compression: str = "zstd") -> bytes:
 
     A field's metadata has ``owner``, ``quantity`` and ``unit``; the schema's has ``name`` and ``linkwright`` (JSON).
     """
-    pyarrow = package("pyarrow", "Parquet files")
-    parquet = package("pyarrow.parquet", "Parquet files", "pyarrow")
+    pyarrow = package("pyarrow", "parquet_files")
+    parquet = package("pyarrow.parquet", "parquet_files", "pyarrow")
     columns = wide(results)
     fields = [
         pyarrow.field(

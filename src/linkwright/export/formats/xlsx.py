@@ -17,6 +17,7 @@ from linkwright.metrics.base import METRICS
 from linkwright.plot.svg.characters import printable
 from linkwright.units import si_symbol
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 
 Cell = str | float | int | bool | None
 LONGEST_TEXT = 32767
@@ -30,7 +31,7 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     written as texts: none is read as a formula or a link. Values that are not finite stay empty. ``degrees``: angles
     in degrees.
     """
-    xlsxwriter = package("xlsxwriter", "Excel files", "XlsxWriter")
+    xlsxwriter = package("xlsxwriter", "excel_files", "XlsxWriter")
     stream = io.BytesIO()
     settings = {
         "in_memory": True,
@@ -101,9 +102,7 @@ class Workbook:
         sheet = self._sheet(table.subject)
         columns = [*leading, *self._turned(table.columns)]
         if len(columns) > MOST_COLUMNS or len(columns[0].values) > MOST_ROWS:
-            raise RequestError(
-                f"an Excel sheet holds {MOST_COLUMNS} columns of {MOST_ROWS} values; take fewer steps, or .parquet"
-            )
+            raise RequestError(Sentence("export.sheet_full", columns=MOST_COLUMNS, rows=MOST_ROWS))
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
             sheet.set_column(

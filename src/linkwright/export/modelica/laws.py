@@ -13,6 +13,7 @@ from linkwright.drivers.table import TableLaw
 from linkwright.errors import LinkwrightError
 from linkwright.export.modelica.names import number
 from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, Variable
+from linkwright.words.sentence import Sentence
 
 
 def law_text(law: Law, begin: float, end: float) -> str:
@@ -28,7 +29,7 @@ def law_text(law: Law, begin: float, end: float) -> str:
             return formula(law.expression.tree, {**values, "t": "time"})
         case TableLaw():
             return _pieces(law, begin, end)
-    raise LinkwrightError(f"a driver with the law {law.key!r} cannot be written as Modelica text")
+    raise LinkwrightError(Sentence("export.no_law", law=law.key))
 
 
 def formula(node: Node, names: dict[str, str]) -> str:

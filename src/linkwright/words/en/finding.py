@@ -7,4 +7,6 @@ WORDS = {
     "with_remedy": "{message}; {remedy}",
     "comma": ", ",
     "and": "{first} and {last}",
+    "semicolon": "; ",
+    "below": "{first}\n{second}",
 }

@@ -45,4 +45,7 @@ WORDS = {
     "a_mass_moment": "a mass moment",
     "a_line_load": "a line load",
     "a_linear_density": "a linear density",
+    "dxf_drawings": "DXF drawings",
+    "parquet_files": "Parquet files",
+    "excel_files": "Excel files",
 }

@@ -19,4 +19,5 @@ WORDS = {
     "place": "place at {joint}",
     "rotation": "rotation at {joint}",
     "named": "'{name}'",
+    "besides": "{cause}. {sentence}",
 }

@@ -45,4 +45,7 @@ WORDS = {
     "a_mass_moment": "质径积",
     "a_line_load": "线载荷",
     "a_linear_density": "线密度",
+    "dxf_drawings": "DXF 图样",
+    "parquet_files": "Parquet 文件",
+    "excel_files": "Excel 文件",
 }

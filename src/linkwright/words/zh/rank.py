@@ -17,4 +17,5 @@ WORDS = {
     "place": "{joint} 处的位置约束",
     "rotation": "{joint} 处的转动约束",
     "named": "“{name}”",
+    "besides": "{cause}。{sentence}",
 }

@@ -1,0 +1,20 @@
+"""What is said about forces and balancing."""
+
+WORDS = {
+    "say_link": "joint {joint!r} joins {links}; say on which link: on={first!r}",
+    "not_touching": "joint {joint!r} does not touch link {link!r}; it joins {links}",
+    "one_sum": "with several drivers the powers give one sum, not the effort of one driver",
+    "no_driver": "{name!r} has no driver, so it has no input torque",
+    "share": "share is {share:g}; give a number from 0 (nothing) to 1 (everything)",
+    "weight_radius": "the radius of the counterweight on {link!r} is {distance:g} m; give a positive one",
+    "not_balanced": "{name!r} is neither a four-bar nor a slider-crank; counterweights by formula are for "
+    "these two, other mechanisms are balanced by varying masses and mass centres in a study",
+    "no_pin_shared": "links {a!r} and {b!r} share no pin, so {name!r} is no four-bar or slider-crank",
+    "needs_pin_radius": "joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: "
+    "20 mm",
+    "indeterminate": "the couple of guide {name!r} is statically indeterminate, as other guides prevent the "
+    "same rotation: it is taken as zero, and the couples of those guides carry all",
+    "self_locking": "{name!r} is self-locking by friction near {where} (rad or m): the friction in joint "
+    "{joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
+    "coefficient or the pin radius, or improve the transmission angle there",
+}

@@ -1,0 +1,26 @@
+"""Mobility that does not fit the drivers."""
+
+WORDS = {
+    "has": "{name!r} has mobility {mobility} and {drivers}",
+    "free": "{has}; nothing determines the motion of {links}; give {more} (driver: {{turn: …, about: …, "
+    "speed: …}}), or join the links further",
+    "islands": "{has}; the file holds {count} mechanisms that share nothing but the frame: {parts}; nothing "
+    "determines the motion of {links}; give {more} (driver: {{turn: …, about: …, speed: …}}), or join the "
+    "links further",
+    "cannot_be_driven": "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
+    "{drivers} is given",
+    "cannot_be_driven_by_several": "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be "
+    "driven, but {drivers} are given",
+    "excess": "{why}; the links {links} are determined more than once (by {extra} among others); remove a "
+    "driver, a redundant link or a redundant guide",
+    "drivers_0": "no drivers",
+    "drivers_1": "one driver",
+    "drivers_2": "two drivers",
+    "drivers_3": "three drivers",
+    "drivers_many": "{count} drivers",
+    "more_0": "no more drivers",
+    "more_1": "one more driver",
+    "more_2": "two more drivers",
+    "more_3": "three more drivers",
+    "more_many": "{count} more drivers",
+}

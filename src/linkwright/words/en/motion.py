@@ -1,0 +1,38 @@
+"""What is said about motion and its positions."""
+
+WORDS = {
+    "no_mode": "assembly.{joint}: {word!r} is no assembly mode of the {signature} group ({links}); {hint}",
+    "write_mode": "write {first} or {second}",
+    "inner_joints": "inner joints are: {names}",
+    "not_inner": "assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}",
+    "needs_drawing": "the group ({links}) of class {level} has no closed form; give the coordinates of its "
+    "points in a drawing of the assembled mechanism: drawing: {{{points}: [x, y]}}",
+    "bad_time": "a time is not a finite number; give times in seconds",
+    "no_input_to_set": "{name!r} has no driver, so there is no input to set; leave the input out",
+    "own_law": "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
+    "bad_input": "an input of driver {name!r} is not a finite number",
+    "bad_steps": "steps is {steps}; give one step or more",
+    "no_natural_end": "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
+    "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
+    "cycle_by_coordinate": "the cycle is given by the coordinate of driver {name!r}, which has no constant "
+    "speed; write cycle: {{duration: …}} instead",
+    "input": "input {parts}",
+    "only_position": "its only position",
+    "of_positions": "{where} ({failed} of {steps} positions fail)",
+    "refused": "{name!r} cannot be solved at {where}: {sentence}; {advice}",
+    "refused_told": "{name!r} cannot be solved at {where}: {sentence}; {told}; {advice}",
+    "advice": "change the dimensions, the assembly or the range of the input (cycle: {{from: …, to: …}}), or "
+    "ask for marked outcomes",
+    "power_varies": '"{text}" has a power that varies; write a whole or half exponent so that it can be swept',
+    "odd_power": '"{text}" has the power {exponent:g}; only whole and half ones can be swept',
+    "no_sweep": '"{text}" uses {name}(), which cannot be swept; vary the dimension itself instead',
+    "no_output": "there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its "
+    "displacement); {hint}",
+    "no_way_between": "the positions of this motion do not follow the law of driver {name!r} in time, so "
+    "there is no way between them; find limit positions in a motion over a cycle or at times",
+    "no_input": "{name!r} has no driver, so it has no input",
+    "no_coordinate": "there is no joint {name!r} with a coordinate; {hint}",
+    "several_points": "several links have a point {name!r} of their own; say which: {choices}",
+    "no_rank": "position {index} is not solved, so its Jacobian has no rank; choose another one",
+    "needs_pandas": "pandas is not installed; install it with: pip install pandas",
+}

@@ -1,0 +1,18 @@
+"""关于受力与平衡的说明。"""
+
+WORDS = {
+    "say_link": "运动副“{joint}”连接 {links}；请指明作用在哪个构件上：on={first!r}",
+    "not_touching": "运动副“{joint}”不在构件“{link}”上；它连接 {links}",
+    "one_sum": "有多个驱动时，由功率只能求得总和，而不是单个驱动的平衡力矩（力）",
+    "no_driver": "“{name}”没有驱动，因而没有平衡力矩",
+    "share": "平衡比例为 {share:g}；请给出 0（不平衡）到 1（完全平衡）之间的数",
+    "weight_radius": "构件“{link}”上配重的半径为 {distance:g} m；请给出正值",
+    "not_balanced": "“{name}”既不是四杆机构也不是曲柄滑块机构；公式配重只用于这两种，其他机构请在 study "
+    "中改变质量和质心",
+    "no_pin_shared": "构件“{a}”与“{b}”没有公共转动副，因此“{name}”不是四杆机构或曲柄滑块机构",
+    "needs_pin_radius": "joints.{name}：计算摩擦需要销轴半径；请加上 pin_radius，如 pin_radius: 20 mm",
+    "indeterminate": "移动副“{name}”的反力偶是静不定的，因为其他移动副也阻止同一转动：取为零，"
+    "全部由那些移动副的力偶承受",
+    "self_locking": "“{name}”在 {where}（rad 或 m）附近因摩擦自锁：运动副“{joint}”中的摩擦在迭代中无限增大，"
+    "任何平衡力矩（力）都不能使其运动；请减小摩擦系数或销轴半径，或改善该处的传动角",
+}

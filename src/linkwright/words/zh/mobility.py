@@ -1,0 +1,23 @@
+"""自由度与原动件数不符。"""
+
+WORDS = {
+    "has": "“{name}”的自由度为 {mobility}，有{drivers}",
+    "free": "{has}；构件 {links} 的运动不能确定；请给出{more}（driver: {{turn: …, about: …, speed: …}}），"
+    "或增加构件间的联接",
+    "islands": "{has}；文件中有 {count} 个只有机架相同的机构：{parts}；构件 {links} 的运动不能确定；"
+    "请给出{more}（driver: {{turn: …, about: …, speed: …}}），或增加构件间的联接",
+    "cannot_be_driven": "“{name}”按格吕布勒公式自由度为 {mobility}，不能驱动，却给出了{drivers}",
+    "cannot_be_driven_by_several": "“{name}”按格吕布勒公式自由度为 {mobility}，不能驱动，却给出了{drivers}",
+    "excess": "{why}；构件 {links} 受到重复约束（{extra} 等）；请去掉一个原动件、"
+    "一个多余的构件或一个多余的移动副",
+    "drivers_0": " 0 个原动件",
+    "drivers_1": "一个原动件",
+    "drivers_2": "两个原动件",
+    "drivers_3": "三个原动件",
+    "drivers_many": " {count} 个原动件",
+    "more_0": "另外零个原动件",
+    "more_1": "另外一个原动件",
+    "more_2": "另外两个原动件",
+    "more_3": "另外三个原动件",
+    "more_many": "另外 {count} 个原动件",
+}

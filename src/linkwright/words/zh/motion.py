@@ -1,0 +1,35 @@
+"""关于运动及其位置的说明。"""
+
+WORDS = {
+    "no_mode": "assembly.{joint}：“{word}”不是 {signature} 杆组（{links}）的装配模式；{hint}",
+    "write_mode": "请写 {first} 或 {second}",
+    "inner_joints": "内副有：{names}",
+    "not_inner": "assembly.{joint}：这不是有两种装配模式的杆组的内副；{hint}",
+    "needs_drawing": "杆组（{links}，{level} 级）没有闭式解；请在图中给出装配后各点的坐标：drawing: "
+    "{{{points}: [x, y]}}",
+    "bad_time": "有一个时刻不是有限的数；请以秒给出时刻",
+    "no_input_to_set": "“{name}”没有驱动，因此没有可设的输入；请去掉输入",
+    "own_law": "驱动“{name}”按自己的时间规律运动；请按时刻而不是按输入求位置",
+    "bad_input": "驱动“{name}”的一个输入不是有限的数",
+    "bad_steps": "步数为 {steps}；至少为 1",
+    "no_natural_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”不转动；请写 cycle: {{from: …, to: "
+    "…}}（驱动的坐标）或 cycle: {{duration: 2 s}}",
+    "cycle_by_coordinate": "循环以驱动“{name}”的坐标给出，而它不是匀速；请改写 cycle: {{duration: …}}",
+    "input": "输入 {parts}",
+    "only_position": "唯一的位置",
+    "of_positions": "{where}（{steps} 个位置中有 {failed} 个失败）",
+    "refused": "“{name}”在{where}处无法求解：{sentence}；{advice}",
+    "refused_told": "“{name}”在{where}处无法求解：{sentence}；{told}；{advice}",
+    "advice": "请修改尺寸、装配模式或输入的范围（cycle: {{from: …, to: …}}），或要求标出失败的位置",
+    "power_varies": "“{text}”的指数会变化；请写成整数或半整数，以便扫描",
+    "odd_power": "“{text}”的指数为 {exponent:g}；只有整数和半整数指数才能扫描",
+    "no_sweep": "“{text}”用了 {name}()，不能扫描；请直接改变该尺寸",
+    "no_output": "没有输出“{text}”；请写构件名（其角度）、点.x、点.y 或移动副名（其位移）；{hint}",
+    "no_way_between": "该运动的各位置不按驱动“{name}”的时间规律，因此位置之间没有通路；"
+    "请在一个循环或给定时刻的运动中求极限位置",
+    "no_input": "“{name}”没有驱动，因而没有输入",
+    "no_coordinate": "没有带坐标的运动副“{name}”；{hint}",
+    "several_points": "几个构件各有名为“{name}”的点；请指明：{choices}",
+    "no_rank": "位置 {index} 没有解，其雅可比矩阵没有秩；请另选位置",
+    "needs_pandas": "没有安装 pandas；安装命令：pip install pandas",
+}
