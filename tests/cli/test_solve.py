@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import linkwright as lw
 from linkwright.cli import main
 from linkwright.words.width import cells
 
@@ -87,10 +88,40 @@ def test_forces_as_reported_stand_in_the_data(capsys: pytest.CaptureFixture[str]
 def test_residuals_and_largest_forces_stand_beneath(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solve", CRUSHER]) == 0
     shown = capsys.readouterr().out
-    assert "Largest joint forces, over 361 positions" in shown
+    assert "Largest joint forces over the cycle" in shown
     assert "Check: driver power" in shown and "Check: forces on every link balance" in shown
     assert main(["solve", CRUSHER, "--no-forces"]) == 0
     assert "Check" not in capsys.readouterr().out
+    assert main(["solve", CRUSHER, "--at", "0 deg, 90 deg"]) == 0
+    assert "Largest joint forces, over 2 positions" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "model", ["jaw_crusher_sixbar", "jaw_crusher_fourbar", "shaper_quick_return", "swing_conveyor"]
+)
+def test_one_pin_has_one_peak_in_every_command(model: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The peak at a load's jump lies between positions: everywhere that of a very fine row of positions."""
+    crusher = lw.load(f"gallery:{model}")
+    fine = lw.solve_forces(crusher, steps=36_000)
+    table = lw.metrics(lw.solve_forces(crusher))
+    assert main(["solve", f"gallery:{model}"]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    shown = {
+        (cells[0], cells[1]): float(cells[2])
+        for cells in lines
+        if len(cells) == 6 and cells[0] in crusher.joints
+    }
+    assert shown
+    for (joint, link), peak in shown.items():
+        size = np.hypot(*fine.reaction(joint, on=link).T).max()
+        several = len(crusher.joints[joint].joined) > 2
+        exact = table["peak_reaction", f"{joint} on {link}" if several else joint].value
+        assert exact == pytest.approx(size, rel=1e-4)  # one step of the ramp
+        assert exact >= size * (1 - 1e-12)
+        assert peak == pytest.approx(exact, rel=6e-5)
+    worst = max(row.value for row in table["peak_reaction"])
+    study = lw.study(crusher, vary={"gravity.x": [0.0]}, metrics=["peak_reaction"])
+    assert study["peak_reaction"][0] == pytest.approx(worst, rel=1e-12)
 
 
 def test_steps_have_a_limit(capsys: pytest.CaptureFixture[str]) -> None:

@@ -35,16 +35,16 @@ def test_the_quick_return_ratio_follows_from_the_limits(crushers: Comparison) ->
 
 def test_every_value_is_the_one_of_the_machine_solved_alone(crushers: Comparison) -> None:
     for label, name, joint in ((SIX, "jaw_crusher_sixbar", "O5"), (FOUR, "jaw_crusher_fourbar", "O3")):
-        forces = lw.solve_forces(lw.load(f"gallery:{name}"))
+        forces = lw.solve_forces(lw.load(f"gallery:{name}"), steps=36_000)
         torque = forces.input_torque
         assert crushers.value("rms_input_torque", label) == pytest.approx(
             np.sqrt((torque**2).mean()), rel=1e-5
         )
-        assert crushers.value("peak_input_torque", label) == pytest.approx(np.abs(torque).max(), rel=1e-2)
+        assert crushers.value("peak_input_torque", label) == pytest.approx(np.abs(torque).max(), rel=1e-4)
         pivot = np.hypot(*forces.reaction(joint, on="jaw").T)
-        assert crushers.value("pivot_reaction", label) == pytest.approx(pivot.max(), rel=1e-12)
+        assert crushers.value("pivot_reaction", label) == pytest.approx(pivot.max(), rel=1e-4)
         assert crushers.value("output_acceleration", label) == pytest.approx(
-            np.abs(forces.motion.link("jaw").angular_acceleration).max(), rel=1e-12
+            np.abs(forces.motion.link("jaw").angular_acceleration).max(), rel=1e-8
         )
 
 
@@ -92,7 +92,7 @@ def test_a_weight_can_turn_the_ranking() -> None:
 def test_the_evaluation_says_the_numbers_in_both_languages(crushers: Comparison) -> None:
     for language in ("en", "zh"):
         text = crushers.text(language)
-        for part in ("2.2635°", "58927", "1633.7 N·m", "580.71 N·m", "O5", "O3", SIX, FOUR):
+        for part in ("2.2635°", "59066", "1633.7 N·m", "580.71 N·m", "O5", "O3", SIX, FOUR):
             assert part in text, (language, part)
         assert crushers.ranking[0].label in crushers.evaluation(language).splitlines()[-2]
     assert "平衡力矩" in crushers.evaluation("zh")

@@ -3,45 +3,88 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from linkwright.cli.columns import Column
-from linkwright.cli.solving import Solved, reaction_pairs
+from linkwright.cli.solving import Solved, reaction_pairs, steady
 from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.analysis import Kind
 from linkwright.words import Say
 from linkwright.words.width import aligned
 
 
+@dataclass(frozen=True)
+class Place:
+    """A number of a result where it is largest or smallest: ``value``, the input there as text, the time, s."""
+
+    value: float
+    input: str
+    time: float
+
+
 def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
-    """The largest force in every joint and the range of every driver's effort, over the fine grid."""
+    """The largest force in every joint and the range of every driver's effort.
+
+    Over the whole cycle these are found between the positions, as the design numbers are; of chosen positions, or of
+    a cycle that is not passed, they are those of the positions, and the title says so.
+    """
     forces = solved.forces
     if forces is None or not solved.motion.ok.any():
         return []
     several = solved.motion.steps > 1
-    title = (
-        say("solve.largest_forces", count=int(solved.motion.ok.sum()))
-        if several
-        else say("solve.joint_forces")
-    )
+    title = "largest_of_cycle" if solved.grid is not None else "largest_forces" if several else "joint_forces"
+    found = [
+        (joint, link, *_peak(solved, joint, link, degrees))
+        for joint, link in reaction_pairs(forces.mechanism)
+    ]
     rows = [
         tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))
     ]
-    for joint, link in reaction_pairs(forces.mechanism):
-        force = forces.reaction(joint, on=link)
-        size = np.hypot(force[:, 0], force[:, 1])
-        place = int(np.nanargmax(size))
-        number = Column("", "", "", "N", size[place : place + 1], solved.force_scale).text
-        texts = (number(size[place]), number(force[place, 0]), number(force[place, 1]))
-        rows.append((joint, link, *texts, input_text(solved, place, degrees=degrees)))
+    for joint, link, peak, force in found:
+        number = Column("", "", "", "N", np.array([peak.value]), solved.force_scale).text
+        rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
-    return [title, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
+    heading = say(f"solve.{title}", count=int(solved.motion.ok.sum()))
+    return [heading, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
+
+
+def _peak(solved: Solved, joint: str, link: str, degrees: bool) -> tuple[Place, Floats]:
+    """The largest size of a joint's force on a link, and the force there, (2,) N."""
+
+    def force(forces: Forces) -> Floats:
+        return forces.reaction(joint, on=link)
+
+    place = _extreme(solved, lambda forces: np.hypot(*force(forces).T), "max", degrees)
+    if solved.grid is None:
+        return place, force(_of(solved))[int(np.nanargmax(np.hypot(*force(_of(solved)).T)))]
+    return place, force(solved.analysis.resolver.at(np.array([place.time]), "forces"))[0]
+
+
+def _of(solved: Solved) -> Forces:
+    assert solved.forces is not None
+    return solved.forces
+
+
+def _extreme(solved: Solved, signal: Callable[[Forces], Floats], kind: Kind, degrees: bool) -> Place:
+    """An extreme of what the forces give: refined between the positions of a whole cycle, else that of a position."""
+    values = signal(_of(solved))
+    index = int(np.nanargmax(values) if kind == "max" else np.nanargmin(values))
+    found = solved.analysis.extreme(signal, kind, of="forces") if solved.grid is not None else None
+    if found is None:
+        where = input_text(solved.motion, index, degrees=degrees)
+        return Place(float(values[index]), where, float(solved.motion.time[index]))
+    there = solved.analysis.resolver.at(np.array([found.time]), "motion")
+    return Place(found.value, input_text(there, 0, degrees=degrees), found.time)
 
 
 def checks(solved: Solved, say: Say) -> list[str]:
@@ -86,16 +129,15 @@ def failures(solved: Solved, say: Say, language: str, *, degrees: bool) -> list[
     lines = [say("solve.not_reached", count=len(failed), of=len(ok))]
     outcomes = solved.motion.outcomes
     for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
-        first, last = (input_text(solved, int(place), degrees=degrees) for place in (run[0], run[-1]))
+        first, last = (input_text(solved.motion, int(place), degrees=degrees) for place in (run[0], run[-1]))
         where = first if first == last else f"{first} … {last}"
         lines.append(f"  {where}: {outcomes[int(run[0])].say(language)}")
     return lines
 
 
-def input_text(solved: Solved, place: int, *, degrees: bool) -> str:
+def input_text(motion: Motion, place: int, *, degrees: bool) -> str:
     """Where a position is: the drivers' coordinates, or the time where drivers follow laws of their own."""
-    motion = solved.motion
-    if not solved.steady:
+    if not steady(motion.mechanism):
         return f"t = {_short(motion.time[place])} s"
     texts = []
     for name, values in motion.inputs.items():
@@ -120,15 +162,15 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             continue
         unit = "N·m" if isinstance(forces.mechanism.joints[driver.joint], RevoluteJoint) else "N"
         number = Column("", "", "", unit, values, solved.force_scale).text
-        high, low = int(np.nanargmax(values)), int(np.nanargmin(values))
         if len(values) == 1:
             rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))
             continue
-        places = [say("solve.at", place=input_text(solved, place, degrees=degrees)) for place in (high, low)]
-        said = say("solve.effort_range", name=name, high=number(values[high]), low=number(values[low]), unit=unit,
-                   high_at=places[0], low_at=places[1])  # fmt: skip
-        if solved.motion.positions.closed and solved.motion.ok.all():
-            said += say("solve.effort_mean", mean=number(float(values[:-1].mean())), unit=unit)
+        effort = partial(Forces.driver_effort, name=key)
+        high, low = (_extreme(solved, effort, kind, degrees) for kind in ("max", "min"))
+        said = say("solve.effort_range", name=name, high=number(high.value), low=number(low.value), unit=unit,
+                   high_at=say("solve.at", place=high.input), low_at=say("solve.at", place=low.input))  # fmt: skip
+        if solved.grid is not None and solved.motion.positions.closed:
+            said += say("solve.effort_mean", mean=number(solved.analysis.mean_of(effort)), unit=unit)
         rows.append(said)
     return rows
 

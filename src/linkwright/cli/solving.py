@@ -18,6 +18,8 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.cycle_grid import CycleGrid
 from linkwright.model.mechanism import Mechanism
 from linkwright.words import Say
 
@@ -29,13 +31,17 @@ ROWS = 24
 
 @dataclass(frozen=True)
 class Solved:
-    """A motion, its forces where asked for, the indices of the rows that are shown, and what is to be said."""
+    """A motion, its forces where asked for, the indices of the rows that are shown, and what is to be said.
+
+    ``whole``: the positions are the cycle, not chosen ones.
+    """
 
     motion: Motion
     forces: Forces | None
     rows: NDArray[np.intp]
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
+    whole: bool = False
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -52,11 +58,15 @@ class Solved:
                 sizes.append(float(np.max(np.abs(force[np.isfinite(force)]), initial=0.0)))
         return max(sizes)
 
-    @property
-    def steady(self) -> bool:
-        """Whether inputs say where a position is: all drivers have constant speed."""
-        drivers = self.motion.mechanism.drivers.values()
-        return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
+    @cached_property
+    def analysis(self) -> Analysis:
+        """What numbers of the cycle are read from."""
+        return Analysis.of(self.motion if self.forces is None else self.forces)
+
+    @cached_property
+    def grid(self) -> CycleGrid | None:
+        """The cycle between its positions; None of chosen positions, and where it is not passed."""
+        return self.analysis.grid if self.whole else None
 
     def columns(self) -> dict[str, Floats]:
         """All results at the shown rows, by name with unit, SI."""
@@ -74,7 +84,14 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
             forces = solve_forces(motion, static=options.static)
         except LinkwrightError as error:
             trouble = error
-    return Solved(motion, forces, rows, tuple(warnings), trouble)
+    whole = options.at is None and options.times is None
+    return Solved(motion, forces, rows, tuple(warnings), trouble, whole)
+
+
+def steady(mechanism: Mechanism) -> bool:
+    """Whether inputs say where a position is: all drivers have constant speed."""
+    drivers = mechanism.drivers.values()
+    return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
 
 
 def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:

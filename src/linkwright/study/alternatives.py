@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -17,6 +17,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine import SteadyRunning, flywheel_inertia, steady_running
 from linkwright.metrics import Analysis
+from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
@@ -92,6 +93,21 @@ class Alternative:
         """Force on the output link at its pivot, (n, 2) N."""
         joint, link = self.pivot
         return self.forces.reaction(joint, on=link)
+
+    def force_extremes(self, signal: Callable[[Forces], Floats]) -> tuple[Extreme, Extreme]:
+        """Largest and smallest value over the cycle of what the forces give, found between the positions."""
+        most, least = (self.analysis.extreme(signal, kind, of="forces") for kind in ("max", "min"))
+        assert most is not None and least is not None
+        return most, least
+
+    def forces_at(self, time: float) -> Forces:
+        """The forces at a time of the cycle, s."""
+        resolver = self.analysis.resolver
+        if not resolver.possible:
+            index = int(np.abs(self.motion.time - time).argmin())
+            return solve_forces(solve_motion(self.mechanism, times=[float(self.motion.time[index])]))
+        forces: Forces = resolver.at(np.array([time]), "forces")
+        return forces
 
     def travel(self) -> tuple[Floats, Floats, Floats]:
         """The output and its rates in time, (n,) each."""

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
 from linkwright.metrics import METRICS, Metric, MetricValue
-from linkwright.metrics.outputs import turns_fully
+from linkwright.metrics.outputs import rate, second, turns_fully
+from linkwright.metrics.reactions import size
 from linkwright.registry import offered
 from linkwright.study.alternatives import IDLE, Alternative
 from linkwright.study.summary import KINDS, wanted
@@ -93,7 +96,7 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     if not metric.applies(each.analysis):
         return None
     values = metric.evaluate(each.analysis)
-    found = [v for v in values if v.subject == subject] if subject else _of_output(each, values)
+    found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
     if not found:
         subjects = [v.subject for v in values]
         if subject and values:
@@ -108,10 +111,13 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     return Measured(worst.value, worst.dimension, worst.at)
 
 
-def _of_output(each: Alternative, values: Iterable[MetricValue]) -> list[MetricValue]:
-    """Values of the shared output, if there are any; else all."""
+def _of_output(each: Alternative, metric: Metric, values: Iterable[MetricValue]) -> list[MetricValue]:
+    """Values of the shared output, where the number is one of outputs; else all.
+
+    Forces are of joints and drivers, of which one may bear the output's name.
+    """
     everything = list(values)
-    mine = [v for v in everything if v.subject == str(each.output)]
+    mine = [] if metric.needs_forces else [v for v in everything if v.subject == str(each.output)]
     return mine or everything
 
 
@@ -144,21 +150,24 @@ def _travel(each: Alternative) -> Measured | None:
     return Measured(float(np.ptp(values)), each.output.dimension)
 
 
-def _rate(each: Alternative) -> Measured:
-    rates = np.abs(each.travel()[1])
+def _rate(each: Alternative) -> Measured | None:
     dimension = "angular_velocity" if each.output.kind == "angle" else "velocity"
-    return Measured(float(rates.max()), dimension, float(each.motion.input[rates.argmax()]))
+    return _largest(each, lambda motion: np.abs(rate(motion, each.output)), dimension)
 
 
-def _acceleration(each: Alternative) -> Measured:
-    sizes = np.abs(each.travel()[2])
+def _acceleration(each: Alternative) -> Measured | None:
     dimension = "angular_acceleration" if each.output.kind == "angle" else "acceleration"
-    return Measured(float(sizes.max()), dimension, float(each.motion.input[sizes.argmax()]))
+    return _largest(each, lambda motion: np.abs(second(motion, each.output)), dimension)
 
 
-def _pivot(each: Alternative) -> Measured:
-    sizes = np.hypot(*each.pivot_force.T)
-    return Measured(float(sizes.max()), "force", float(each.motion.input[sizes.argmax()]))
+def _largest(each: Alternative, signal: Callable[[Motion], Floats], dimension: str) -> Measured | None:
+    found = each.analysis.extreme(signal, "max")
+    return None if found is None else Measured(found.value, dimension, found.input)
+
+
+def _pivot(each: Alternative) -> Measured | None:
+    found = each.analysis.extreme(size(*each.pivot), "max", of="forces")
+    return None if found is None else Measured(found.value, "force", found.input)
 
 
 def _flywheel(each: Alternative) -> Measured | None:

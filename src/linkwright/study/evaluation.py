@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.metrics.quantities import SHOWN, shown
+from linkwright.metrics.reactions import size
+from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import OWN
 from linkwright.words import Say, speaker
 from linkwright.words.width import aligned
@@ -101,38 +103,41 @@ def evaluation(comparison: Comparison, language: str) -> list[str]:
 def _motion(comparison: Comparison, say: Say) -> str:
     parts = []
     for each in comparison.alternatives:
-        angle = each.output.kind == "angle"
-        travel, rate, second = each.travel()
-        exact = OWN["travel"].measure(each)
-        reach = float(np.ptp(travel)) if exact is None else exact.value
         parts.append(
             say(
                 "compare.motion_of",
                 label=each.label,
                 output=str(each.output),
-                travel=told(reach, "angle" if angle else "length"),
-                rate=told(float(np.abs(rate).max()), "angular_velocity" if angle else "velocity"),
-                second=told(float(np.abs(second).max()), "angular_acceleration" if angle else "acceleration"),
+                travel=_measured(each, "travel")
+                or told(float(np.ptp(each.travel()[0])), each.output.dimension),
+                rate=_measured(each, "output_velocity"),
+                second=_measured(each, "output_acceleration"),
             )
         )
     return say("compare.motion", parts=say("compare.semicolon").join(parts))
 
 
+def _measured(each: Alternative, name: str) -> str:
+    """A number of the comparison for a sentence; empty where there is none."""
+    found = OWN[name].measure(each)
+    return "" if found is None else told(found.value, found.dimension)
+
+
 def _pivot(comparison: Comparison, say: Say) -> str:
     parts = []
     for each in comparison.alternatives:
-        force = each.pivot_force
-        sizes = np.hypot(force[:, 0], force[:, 1])
-        place = int(sizes.argmax())
+        joint, link = each.pivot
+        most, least = each.force_extremes(size(joint, link))
+        force = each.forces_at(most.time).reaction(joint, on=link)[0]
         parts.append(
             say(
                 "compare.pivot_of",
                 label=each.label,
-                joint=each.pivot[0],
-                most=told(float(sizes.max()), "force"),
-                least=told(float(sizes.min()), "force"),
-                direction=told(float(np.arctan2(force[place, 1], force[place, 0])), "angle"),
-                at=told(float(each.motion.input[place]), each.analysis.input_dimension),
+                joint=joint,
+                most=told(most.value, "force"),
+                least=told(least.value, "force"),
+                direction=told(float(np.arctan2(force[1], force[0])), "angle"),
+                at=told(most.input, each.analysis.input_dimension),
             )
         )
     return say("compare.pivot", parts=say("compare.semicolon").join(parts))
@@ -141,17 +146,17 @@ def _pivot(comparison: Comparison, say: Say) -> str:
 def _torque(comparison: Comparison, say: Say) -> str:
     parts = []
     for each in comparison.alternatives:
-        torque = each.forces.input_torque
+        most, least = each.force_extremes(lambda forces: forces.input_torque)
         dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
-        root = float(np.sqrt((torque * torque).mean()))
+        root = each.analysis.rms_of(lambda forces: forces.input_torque)
         speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
         gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
         parts.append(
             say(
                 "compare.torque_of",
                 label=each.label,
-                low=told(float(torque.min()), dimension),
-                high=told(float(torque.max()), dimension),
+                low=told(least.value, dimension),
+                high=told(most.value, dimension),
                 root=told(root, dimension),
                 gap=shown(gap, dimension, 2),
             )
