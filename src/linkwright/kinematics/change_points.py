@@ -17,6 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.size import mechanism_size
@@ -35,6 +36,9 @@ MEETING = 1e-18
 ON_IT = 1e-5
 #: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
 LARGEST_STEP = 0.55
+#: Largest step of a driver, rad or share of the size, in which a cycle is looked through; samples of laws that are no
+#: straight lines; and the most places that are looked at.
+FINE, SAMPLES, MOST = 0.05, 720, 40_000
 
 Kind = Literal["change", "meeting", "gap", "pole"]
 Way = Callable[[Floats], Positions]
@@ -45,9 +49,9 @@ class Passage:
     """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
     (``gap``), or infinitely far as its guides become parallel (``pole``).
 
-    It lies at ``share`` of the step from the position ``before`` to the position ``after``; ``quality`` is the
-    least square of the sine of the group's transmission angle there. ``flips``: the places between which the
-    group has its other sign because of it.
+    It lies at ``share`` of the step from the position ``before`` to the position ``after``, ``at`` the first driver's
+    coordinate (rad or m); ``quality`` is the least square of the sine of the group's transmission angle there.
+    ``flips``: the places between which the group has its other sign because of it.
     """
 
     group: str
@@ -56,6 +60,7 @@ class Passage:
     share: float
     quality: float
     kind: Kind
+    at: float
     flips: tuple[float, float] = (0.0, np.inf)
 
     @property
@@ -75,7 +80,9 @@ class Passage:
 
 
 def is_way(positions: Positions) -> bool:
-    """Whether the positions follow each other closely enough to be one motion."""
+    """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
+    if positions.cycle:
+        return True
     if positions.count < 3:
         return False
     steps = [
@@ -88,7 +95,41 @@ def passages(solver: MotionSolver, positions: Positions, followed: Followed | No
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not is_way(positions):
         return []
-    return _Search(solver, positions, followed).found()
+    parts = _parts(solver, positions)
+    if parts == 1:
+        return _Search(solver, positions, followed).found()
+    divided = _divided(solver, positions, parts)
+    followed = None if followed is None else solver.follow(divided)
+    return _Search(solver, divided, followed, parts).found_between()
+
+
+def _parts(solver: MotionSolver, positions: Positions) -> int:
+    """How often the steps of a cycle must be divided, so that no driver moves farther than :data:`FINE` in one."""
+    if not positions.cycle or not positions.coordinates:
+        return 1
+    mechanism = solver.mechanism
+    step = _step(positions)
+    rates = positions.coordinates
+    if any(type(driver.law) is not ConstantSpeed for driver in mechanism.drivers.values()):
+        span = step * (positions.count if positions.closed else positions.count - 1)
+        rates = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1)).coordinates
+    size = mechanism_size(mechanism)
+    farthest = max(
+        float(np.abs(rate).max()) * abs(step) / (1.0 if positions.rotary[name] else size)
+        for name, (_, rate, _) in rates.items()
+    )
+    return min(int(np.ceil(farthest / FINE - 1e-9)) or 1, max(MOST // positions.count, 1))
+
+
+def _step(positions: Positions) -> float:
+    """Time between two positions of a cycle, s."""
+    return float(positions.time[1] - positions.time[0]) if positions.count > 1 else positions.period or 0.0
+
+
+def _divided(solver: MotionSolver, positions: Positions, parts: int) -> Positions:
+    count = positions.count * parts if positions.closed else (positions.count - 1) * parts + 1
+    time = positions.time[0] + _step(positions) / parts * np.arange(count)
+    return replace(at_times(solver.mechanism, time, positions.closed, positions.period), cycle=True)
 
 
 def way(solver: MotionSolver, positions: Positions) -> Way:
@@ -128,11 +169,14 @@ def modal(solver: MotionSolver) -> list[str]:
 class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
-    def __init__(self, solver: MotionSolver, positions: Positions, followed: Followed | None) -> None:
+    def __init__(
+        self, solver: MotionSolver, positions: Positions, followed: Followed | None, parts: int = 1
+    ) -> None:
         self.base = solver.with_flips(())
         self.solver = self.base
         self.positions = positions
         self.followed = followed
+        self.parts = parts
         self.passing: list[Passage] = []
 
     @cached_property
@@ -155,6 +199,48 @@ class _Search:
                 self.solver = self.base.with_flips({p.group for p in self.passing if p.touches})
                 rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
         return self.passing + self._poles()
+
+    def found_between(self) -> list[Passage]:
+        """Passages by the numbers of positions of which each step was divided, with stretches out of reach."""
+        parts = self.parts
+        found = [self._undivided(p) for p in [*self.found(), *self._stretches()]]
+        return sorted(
+            (replace(p, flips=(p.flips[0] / parts, p.flips[1] / parts)) for p in found), key=lambda p: p.place
+        )
+
+    def _undivided(self, p: Passage) -> Passage:
+        n = -(-self.positions.count // self.parts)
+        place = p.place / self.parts
+        before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
+        return replace(p, before=before, after=(before + 1) % n, share=place - before)
+
+    def _stretches(self) -> list[Passage]:
+        """Where a dyad cannot be assembled though it can at both positions beside."""
+        whole = np.arange(float(self.positions.count))
+        codes = self._evaluate(("outcome",), whole, at_positions=True)[0]
+        good = codes == 0.0
+        asked = good[:: self.parts]
+        asked = np.append(asked, asked[:1]) if self.positions.closed else asked
+        groups = list(self.base.motion.placed.values())
+        found = []
+        for i in np.flatnonzero(asked[:-1] & asked[1:]):
+            inner = codes[i * self.parts + 1 : (i + 1) * self.parts]
+            for k in np.flatnonzero(inner > 0.0)[:1]:
+                group = groups[int(inner[k]) - 1]
+                if group.dyad is not None:
+                    place = self._edge(float(i * self.parts + k))
+                    found.append(self._passage(group.group.name, place, 0.0, "gap"))
+        return found
+
+    def _edge(self, low: float) -> float:
+        """The last place in the step after ``low`` at which everything can be assembled."""
+        high = low + 1.0
+        for _ in range(10):
+            places = np.linspace(low, high, 17)
+            fails = self._evaluate(("outcome",), places)[0][1:] != 0.0
+            k = int(np.argmax(fails)) + 1 if fails.any() else 16
+            low, high = float(places[k - 1]), float(places[k])
+        return low
 
     def _poles(self) -> list[Passage]:
         """Where two guides of a group become parallel, and its pin goes through infinity."""
@@ -257,7 +343,13 @@ class _Search:
         if self.positions.closed and place <= 0.0:
             place += n
         before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
-        return Passage(group, before, (before + 1) % n, place - before, quality, kind)
+        return Passage(group, before, (before + 1) % n, place - before, quality, kind, self._input(place))
+
+    def _input(self, place: float) -> float:
+        """The first driver's coordinate at a place."""
+        n = self.positions.count
+        turn = np.array([place % n if self.positions.closed else place])
+        return float(next(iter(self.way(turn).coordinates.values()))[0][0])
 
     def _evaluate(self, names: tuple[str, ...], places: Floats, at_positions: bool = False) -> Floats:
         n = self.positions.count
@@ -342,8 +434,6 @@ def notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, .
 
 
 def _note(p: Passage, positions: Positions) -> Sentence:
-    name, (q, *_) = next(iter(positions.coordinates.items()))
-    ahead = q[p.after] if p.after > p.before else 2 * q[p.before] - q[p.before - 1]
-    place = float(q[p.before] + p.share * (ahead - q[p.before]))
-    where = f"{name} = " + (f"{np.degrees(place):.6g}°" if positions.rotary[name] else f"{place:.6g} m")
+    name = next(iter(positions.coordinates))
+    where = f"{name} = " + (f"{np.degrees(p.at):.6g}°" if positions.rotary[name] else f"{p.at:.6g} m")
     return Sentence(f"passage.{p.kind}", links=tuple(p.group.split("+")), where=where)

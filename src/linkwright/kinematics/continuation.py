@@ -57,6 +57,7 @@ class Followed:
     margin: Floats
     stops: tuple[Stop, ...]
     stop_of: NDArray[np.intp]
+    closed: bool
     returns: bool | None
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
@@ -66,10 +67,13 @@ class Followed:
         """
         n, follower = len(self.inputs), self.follower
         a = np.minimum(np.floor(places).astype(int), n - 1)
-        b = (a + 1) % n if self.returns else np.minimum(a + 1, n - 1)
+        around = self.closed and self.returns is not False
+        b = (a + 1) % n if around else np.minimum(a + 1, n - 1)
         found = np.full((len(places), follower.loops.n), math.nan)
         known = np.flatnonzero(
-            np.isfinite(self.coordinates[a]).all(axis=1) & np.isfinite(self.coordinates[b]).all(axis=1)
+            np.isfinite(self.coordinates[a]).all(axis=1)
+            & np.isfinite(self.coordinates[b]).all(axis=1)
+            & ((a != b) | (places == a))
         )
         if len(known):
             found[known], sure = self._read(a[known], b[known], (places - a)[known], inputs[known])
@@ -295,6 +299,7 @@ class _Journey:
             margin,
             stops,
             self.stop_of,
+            self.positions.closed,
             self.returns,
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -28,7 +28,8 @@ class CycleError(LinkwrightError):
 class Positions:
     """n positions of the input: ``time`` (n,) s; per driver coordinate, rate, second derivative, (n,) each.
 
-    ``closed``: the cycle returns to its first position after the last one; ``period`` in s, if it has one.
+    ``closed``: the cycle returns to its first position after the last one; ``period`` in s, if it has one;
+    ``cycle``: the positions are equal steps of one motion, however large the steps are.
     """
 
     time: Floats
@@ -36,6 +37,7 @@ class Positions:
     rotary: Mapping[str, bool]
     closed: bool
     period: float | None
+    cycle: bool = False
 
     @property
     def count(self) -> int:
@@ -53,15 +55,6 @@ class Positions:
                 found[f"slide:{name}"] = q
             found[f"rate:{name}"], found[f"second:{name}"] = rate, second
         return found
-
-    def between(self, a: int, b: int, share: float) -> Positions:
-        """One position on the straight way from position a to position b (for continuation)."""
-        mixed = {
-            name: tuple(row[a : a + 1] + share * (row[b : b + 1] - row[a : a + 1]) for row in rows)
-            for name, rows in self.coordinates.items()
-        }
-        time = self.time[a : a + 1] + share * (self.time[b : b + 1] - self.time[a : a + 1])
-        return Positions(time, mixed, self.rotary, False, None)  # type: ignore[arg-type]
 
 
 def at_times(
@@ -117,7 +110,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     start, duration, closed = time_span(mechanism)
     count = steps if closed and not endpoint else steps + 1
     time = start + duration * np.arange(count) / steps
-    return at_times(mechanism, time, closed, abs(duration) if closed else None)
+    return replace(at_times(mechanism, time, closed, abs(duration) if closed else None), cycle=True)
 
 
 def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
