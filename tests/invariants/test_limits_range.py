@@ -162,7 +162,7 @@ def test_kite_passes_the_point_where_its_pins_meet() -> None:
 def test_named_driver_of_several() -> None:
     found = input_range(lw.load("gallery:dyad_prp"), "swing")
     assert ends(found) == pytest.approx((-pi / 2, pi / 2), abs=2e-15)
-    with pytest.raises(lw.LinkwrightError, match="did you mean 'swing'"):
+    with pytest.raises(lw.LinkwrightError, match='did you mean "swing"'):
         input_range(lw.load("gallery:dyad_prp"), "swings")
 
 

@@ -17,8 +17,9 @@ from linkwright.kinematics.fold import fold
 from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import no_such
 from linkwright.structure.group import Group
+from linkwright.words.sentence import Sentence
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
 #: sliding one is followed, in sizes.
@@ -78,27 +79,26 @@ class InputRange:
 
     def explain(self) -> str:
         """The range in a sentence."""
-        verb = "turn" if self.rotary else "slide"
+        kind = "turn" if self.rotary else "slide"
         if self.full:
-            way = "turn fully" if self.rotary else "slide without finding an end"
-            return f"the {self.link} can {way}"
-        parts = []
-        if self.low is not None:
-            parts.append(f"from {_shown(self.low.value, self.rotary)}")
-        if self.high is not None:
-            parts.append(f"to {_shown(self.high.value, self.rotary)}")
-        return f"the {self.link} can {verb} {' '.join(parts)}; {self._ends()}"
+            return Sentence(f"range.full_{kind}", link=self.link)
+        shown = {
+            side: _shown(end.value, self.rotary)
+            for side, end in (("low", self.low), ("high", self.high))
+            if end is not None
+        }
+        way = Sentence(f"range.{'_'.join(shown)}", **shown)
+        return Sentence(f"range.{kind}", link=self.link, way=way, ends=self._ends())
 
-    def _ends(self) -> str:
+    def _ends(self) -> str | tuple[str, ...]:
         low, high = self.low, self.high
         if low is not None and high is not None and (low.group, low.how) == (high.group, high.how):
-            return f"at both ends {low.group} {low.how}"
-        said = [
-            f"at {_shown(end.value, self.rotary)} {end.group} {end.how}"
+            return Sentence("range.both_ends", group=low.group, how=low.how)
+        return tuple(
+            Sentence("range.at", place=_shown(end.value, self.rotary), group=end.group, how=end.how)
             for end in (low, high)
             if end is not None
-        ]
-        return ", ".join(said)
+        )
 
 
 def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
@@ -115,9 +115,9 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     """
     name = driver or next(iter(mechanism.drivers), None)
     if name is None or name not in mechanism.drivers:
-        offer = nearest(str(driver), list(mechanism.drivers))
-        hint = f"; did you mean {offer!r}?" if offer else ""
-        raise RequestError(f"{mechanism.name!r} has no driver{f' {driver!r}' if driver else ''}{hint}")
+        if not driver:
+            raise RequestError(Sentence("range.no_driver", name=mechanism.name))
+        raise RequestError(no_such("driver", driver, mechanism.drivers))
     search = _Search(mechanism, name)
     high = search.end(1.0)
     low = search.end(-1.0) if high is not None or not search.rotary else None
@@ -190,8 +190,12 @@ class _Search:
             if len(good):
                 return float(q[good[0]])
         raise LinkwrightError(
-            f"{self.mechanism.name!r} cannot be assembled at any coordinate of driver {self.driver!r} near "
-            f"{_shown(nominal, self.rotary)}, so it has no range; check the dimensions"
+            Sentence(
+                "range.not_assembled",
+                name=self.mechanism.name,
+                driver=self.driver,
+                place=_shown(nominal, self.rotary),
+            )
         )
 
     # one direction --------------------------------------------------------------------------------
@@ -219,7 +223,12 @@ class _Search:
             )
             rounding = ROUNDED if stop.unknowns is None else CONTINUED
             value, precision = good, abs(bad - good) + rounding * (1.0 + abs(good))
-        return RangeEnd(value, f"group {group.signature} ({', '.join(group.links)})", how, precision)
+        return RangeEnd(
+            value,
+            Sentence("range.group", signature=group.signature, links=tuple(group.links)),
+            how,
+            precision,
+        )
 
     def _to_singular(self, stop: _Stop) -> _Stop:
         """Where the closed loops become singular before ``bad``: there, unless a dyad ends before."""
@@ -356,7 +365,7 @@ class _Search:
         stuck = stop.group or stuck
         assert stuck is not None
         if placed[stuck].dyad is None:
-            return groups[stuck], "is singular"
+            return groups[stuck], Sentence("range.singular")
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
         return groups[stuck], _how(groups[stuck].signature, dict(zip(facts, map(float, row), strict=True)))
@@ -365,12 +374,10 @@ class _Search:
 def _how(signature: str, facts: Mapping[str, float]) -> str:
     if {"distance²", "first²", "second²"} <= set(facts):
         distance, a, b = (math.sqrt(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
-        return "is stretched" if abs(distance - a - b) < abs(distance - abs(a - b)) else "is folded"
-    said: dict[str, str] = {
-        "RRP": "has its link perpendicular to the guide",
-        "RPR": "has its outer pins as close as the offset of the guide allows",
-    }
-    return said.get(signature, "has its guides parallel")
+        apart, near = abs(distance - a - b), abs(distance - abs(a - b))
+        return Sentence("range.stretched" if apart < near else "range.folded")
+    known = {"RRP": "range.perpendicular", "RPR": "range.closest"}
+    return Sentence(known.get(signature, "range.parallel"))
 
 
 def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, nodes
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.words.sentence import Sentence
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
 BALANCE = 1e-9
@@ -45,9 +46,12 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
     done = max(abs(driver.mean), abs(load.mean)) * excess.period
     if abs(work.total) > BALANCE * max(done, float(np.abs(work(work.edges)).max())):
         raise LinkwrightError(
-            f"driver and load do not balance: over a cycle {work.total:.6g} J are left, so the speed would "
-            f"{'rise' if work.total > 0 else 'fall'} from cycle to cycle; make their mean torques equal "
-            f"({driver.mean:.6g} N·m and {load.mean:.6g} N·m)"
+            Sentence(
+                "running.speeds_up" if work.total > 0 else "running.slows_down",
+                total=work.total,
+                mean=driver.mean,
+                load=load.mean,
+            )
         )
     return of_energy(work, work.edges, balance=work.total)
 
@@ -70,14 +74,12 @@ def fluctuation_from_areas(
     """
     given = np.asarray(areas, dtype=float)
     if given.ndim != 1 or not given.size or not np.isfinite(given).all():
-        raise LinkwrightError("give the areas as a list of numbers in mm², in the order of the diagram")
+        raise LinkwrightError(Sentence("running.areas_list"))
     if not (torque_scale > 0 and angle_scale > 0):
-        raise LinkwrightError("the scales of the torque diagram must be above zero: N·m per mm, rad per mm")
+        raise LinkwrightError(Sentence("running.scales"))
     energy = np.concatenate([[0.0], np.cumsum(given)]) * torque_scale * angle_scale
     if abs(given.sum()) > BALANCE * np.abs(given).sum():
-        raise LinkwrightError(
-            f"the areas add up to {given.sum():g} mm², not to zero: the mean line is misplaced or an area is missing"
-        )
+        raise LinkwrightError(Sentence("running.areas_sum", total=given.sum()))
     low, high = int(energy.argmin()), int(energy.argmax())
     number = np.arange(len(energy), dtype=float)
     value = float(energy[high] - energy[low])

@@ -13,6 +13,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.metrics.analysis import Analysis
+from linkwright.words.sentence import Sentence
 
 
 def equivalent_inertia(motion: Motion) -> Floats:
@@ -102,10 +103,7 @@ def equivalent(forces: Forces) -> Equivalent:
     period = abs(rate) * (motion.positions.period or 0.0)
     begin, grid = float(motion.time[0]), Analysis.of(forces).grid
     if grid is None:
-        raise LinkwrightError(
-            f"the positions of {motion.mechanism.name!r} pass a change point or follow no law in time, so the "
-            "machine cannot be evaluated between them; solve its cycle without change points first"
-        )
+        raise LinkwrightError(Sentence("running.not_between", name=motion.mechanism.name))
 
     edges = abs(rate) * (grid.edges - begin)
     torque = direction * equivalent_torque(grid.forces)
@@ -128,23 +126,15 @@ def _steady_rate(motion: Motion) -> float:
     """The input's constant speed, rad/s."""
     name = motion.mechanism.name
     if len(motion.mechanism.drivers) != 1 or not next(iter(motion.positions.rotary.values())):
-        raise LinkwrightError(
-            f"a flywheel and the speed over the cycle need one turning driver; {name!r} has another kind or number"
-        )
+        raise LinkwrightError(Sentence("running.one_driver", name=name))
     rate = _rates(motion)[0]
     if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
-        raise LinkwrightError(
-            f"the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law"
-        )
+        raise LinkwrightError(Sentence("running.not_constant", name=name))
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
-        raise LinkwrightError(
-            f"the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns"
-        )
+        raise LinkwrightError(Sentence("running.not_whole_turns", name=name))
     if not motion.ok.all():
-        raise LinkwrightError(
-            f"{name!r} does not reach all positions of its cycle, so it cannot run steadily"
-        )
+        raise LinkwrightError(Sentence("running.not_all_reached", name=name))
     return float(rate[0])
 
 

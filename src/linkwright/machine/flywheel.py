@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import pi
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words.sentence import Sentence
 
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:
@@ -27,7 +28,7 @@ def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present
 def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
     """Coefficient of speed fluctuation δ = ΔE/(J ω²) that an inertia gives, by the same formula."""
     if not inertia > 0:
-        raise RequestError(f"the moment of inertia is {inertia:g} kg·m²; give a value above zero")
+        raise RequestError(Sentence("running.bad_inertia", inertia=inertia))
     _require(1.0, speed)
     return energy / (inertia * speed * speed)
 
@@ -38,9 +39,7 @@ def on_faster_shaft(inertia: float, ratio: float) -> float:
     Raises LinkwrightError for a ratio of zero.
     """
     if not abs(ratio) > 0:
-        raise RequestError(
-            "the speed ratio of the flywheel's shaft to the crank is zero; give another number"
-        )
+        raise RequestError(Sentence("running.bad_ratio"))
     return inertia / (ratio * ratio)
 
 
@@ -82,13 +81,11 @@ def rim(
     J = ρ π b (D⁴ - d⁴)/32 with d = D (1 - 2 thickness_ratio). Raises LinkwrightError for values out of range.
     """
     given = (inertia, density, width_ratio, thickness_ratio)
-    for name, value in zip(("moment of inertia", "density", "width", "thickness"), given, strict=True):
+    for name, value in zip(("inertia", "density", "width", "thickness"), given, strict=True):
         if not value > 0:
-            raise RequestError(f"the {name} of the flywheel is {value:g}; give a value above zero")
+            raise RequestError(Sentence("running.bad_size", name=Sentence(f"running.{name}"), value=value))
     if thickness_ratio > 0.5:
-        raise RequestError(
-            f"a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less"
-        )
+        raise RequestError(Sentence("running.bad_rim", thickness_ratio=thickness_ratio))
     hole = 1.0 - 2.0 * thickness_ratio
     diameter = (32 * inertia / (density * pi * width_ratio * (1 - hole**4))) ** 0.2
     width = width_ratio * diameter
@@ -98,10 +95,6 @@ def rim(
 
 def _require(fluctuation: float, speed: float) -> None:
     if not fluctuation > 0:
-        raise RequestError(
-            f"the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, such as 0.02"
-        )
+        raise RequestError(Sentence("running.bad_coefficient", fluctuation=fluctuation))
     if not abs(speed) > 0:
-        raise LinkwrightError(
-            "the mean speed of the flywheel's shaft is zero; a flywheel needs a turning shaft"
-        )
+        raise LinkwrightError(Sentence("running.still_shaft"))

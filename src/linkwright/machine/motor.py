@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.errors import RequestError
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: 
     Raises LinkwrightError for values out of range.
     """
     if not 0 < efficiency <= 1:
-        raise RequestError(f"the efficiency is {efficiency:g}; give a value above 0 and up to 1")
+        raise RequestError(Sentence("running.bad_efficiency", efficiency=efficiency))
     if not margin >= 1:
-        raise RequestError(f"the margin on the motor's power is {margin:g}; give 1 or more")
+        raise RequestError(Sentence("running.bad_margin", margin=margin))
     return Motor(mean_torque, mean_torque * speed, efficiency, margin)

@@ -17,6 +17,7 @@ from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve, speed_of
 from linkwright.metrics.quantities import shown
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
@@ -166,15 +167,9 @@ def _at_constant_speed(reduced: Equivalent, work: Integral) -> EnergyFluctuation
 def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
     if abs(mean) <= NOTHING * largest or largest == 0:
-        raise LinkwrightError(
-            f"the mean torque of {forces.mechanism.name!r} over its cycle is zero: no work is done, so there is no "
-            "motor to choose and no flywheel to lay out; give the machine a load (loads: …)"
-        )
+        raise LinkwrightError(Sentence("running.no_work", name=forces.mechanism.name))
     if mean < 0:
-        raise LinkwrightError(
-            f"the mean torque of {forces.mechanism.name!r} over its cycle is {mean:.6g} N·m: the loads drive the "
-            "machine instead of resisting; check the direction of the loads"
-        )
+        raise LinkwrightError(Sentence("running.driven_by_loads", name=forces.mechanism.name, mean=mean))
 
 
 def _with_flywheel(reduced: Equivalent, work: Integral, flywheel: float) -> SpeedCurve:

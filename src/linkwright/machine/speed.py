@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.piecewise import POINTS, Floats, Function, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.words.sentence import Sentence
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops.
 STOPPED = 1e-9
@@ -68,7 +69,7 @@ def true_speed(
     from linkwright.machine.energy import energy_fluctuation
 
     if not speed > 0:
-        raise LinkwrightError(f"the mean speed is {speed:g} rad/s; give a value above zero")
+        raise LinkwrightError(Sentence("running.bad_speed", speed=speed))
     given = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
     if driver is not None:
         energy_fluctuation(driver, load)
@@ -101,7 +102,7 @@ def speed_of(
 
 def _constant(inertia: float) -> Function:
     if not inertia > 0:
-        raise LinkwrightError(f"the moment of inertia is {inertia:g} kg·m²; give a value above zero")
+        raise LinkwrightError(Sentence("running.bad_inertia", inertia=inertia))
     return lambda angle: np.full(angle.shape, float(inertia))
 
 
@@ -111,9 +112,7 @@ def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float
     ``weights`` of the mean over the angle at the places of ``work`` and ``inertia``; ``least``: smallest work, J.
     """
     if not (inertia > 0).all():
-        raise LinkwrightError(
-            "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel"
-        )
+        raise LinkwrightError(Sentence("running.no_inertia"))
     low, scale = -least, 0.5 * speed * speed * float(inertia.max())
     high = low + scale
     energy = high
@@ -131,8 +130,5 @@ def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float
             break
         energy = following
     if energy + least <= STOPPED * scale:
-        raise LinkwrightError(
-            "the kinetic energy does not suffice to carry the machine over its cycle at this mean speed: it would "
-            "stop; add a flywheel or raise the speed"
-        )
+        raise LinkwrightError(Sentence("running.would_stop"))
     return energy

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
@@ -49,7 +50,7 @@ class TorqueCurve:
         Raises LinkwrightError for a text that is no expression of theta, or a period that is not above zero.
         """
         if not period > 0:
-            raise LinkwrightError(f"the period of a torque curve is {period:g} rad; give an angle above zero")
+            raise LinkwrightError(Sentence("running.bad_period", period=period))
         if isinstance(torque, str):
             return cls(_expression(torque), period)
         if callable(torque):
@@ -68,11 +69,11 @@ class TorqueCurve:
         """
         x, y = np.atleast_1d(np.asarray(angle, dtype=float)), np.atleast_1d(np.asarray(torque, dtype=float))
         if x.shape != y.shape or x.ndim != 1 or len(x) < 2:
-            raise LinkwrightError("a torque table needs as many torques as angles, two or more of each")
+            raise LinkwrightError(Sentence("running.bad_table"))
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
-            raise LinkwrightError("a torque table holds a number that is not finite")
+            raise LinkwrightError(Sentence("running.table_not_finite"))
         if (np.diff(x) < 0).any() or x[-1] - x[0] > period * (1 + 1e-12):
-            raise LinkwrightError("the angles of a torque table must increase and lie within one period")
+            raise LinkwrightError(Sentence("running.table_order"))
         if x[-1] - x[0] < period * (1 - 1e-12):
             x, y = np.append(x, x[0] + period), np.append(y, y[0])
         return cls(lambda theta: _linear(x, y, theta), period, float(x[0]), tuple(x.tolist()))
@@ -112,8 +113,11 @@ class TorqueCurve:
         long, short = max(self.period, other.period), min(self.period, other.period)
         if abs(long / short - round(long / short)) > 1e-9:
             raise LinkwrightError(
-                f"torque curves with periods of {np.degrees(self.period):g}° and {np.degrees(other.period):g}° have "
-                "no common cycle; give both over the same angle"
+                Sentence(
+                    "running.no_common_period",
+                    period=np.degrees(self.period),
+                    period2=np.degrees(other.period),
+                )
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
         return TorqueCurve(lambda theta: self(theta) - other(theta), long, self.start, tuple(knots))

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.quantities import si_unit
 from linkwright.registry import Registry
-from linkwright.words import say
+from linkwright.words import has, say
 
 Better = Literal["higher", "lower"]
 
@@ -110,12 +110,14 @@ class Metric(ABC):
         return self.meaning_in("en")
 
     def label_in(self, language: str) -> str:
-        """Its name in words."""
-        return say(f"metrics.{self.name}.label", language)
+        """Its name in words; the plain name where the catalogue has none, as for numbers of other packages."""
+        key = f"metrics.{self.name}.label"
+        return say(key, language) if has(key) else self.name.replace("_", " ")
 
     def meaning_in(self, language: str) -> str:
-        """What it says, in one sentence."""
-        return say(f"metrics.{self.name}.meaning", language)
+        """What it says, in one sentence; the class's own first line where the catalogue has none."""
+        key = f"metrics.{self.name}.meaning"
+        return say(key, language) if has(key) else (self.__doc__ or self.name).strip().splitlines()[0]
 
     def applies(self, result: Result) -> bool:
         """Whether the mechanism has this number, and the result what it takes to find it."""

@@ -17,6 +17,7 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
 from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.plane import cross, crossings
 from linkwright.metrics.quantities import shown
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
@@ -65,9 +66,7 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     motion = analysis.motion
     if not analysis.whole:
-        raise LinkwrightError(
-            f"the path of {point} is not closed: solve a whole cycle of {motion.mechanism.name!r}"
-        )
+        raise LinkwrightError(Sentence("metrics.path_open", point=point, name=motion.mechanism.name))
     track = motion.point(point)
     position, velocity = track.position[analysis.once], track.velocity[analysis.once]
     period = motion.positions.period or 0.0

@@ -10,6 +10,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
+from linkwright.words.sentence import Sentence
 
 
 def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -> MetricsTable:
@@ -45,5 +46,5 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
 def _refusal(name: str, analysis: Analysis) -> str:
     title = analysis.motion.mechanism.name
     if METRICS[name].needs_forces and analysis.forces is None:
-        return f'"{name}" needs the joint forces of {title!r}; give it the result of solve_forces'
-    return f'"{name}" does not apply to {title!r}: {METRICS[name]().meaning}'
+        return Sentence("metrics.needs_forces", name=name, title=title)
+    return Sentence("metrics.does_not_apply", name=name, title=title, meaning=METRICS[name]().meaning_in)

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ class MetricsTable(Sequence[MetricValue]):
         if found:
             return found
         METRICS[name]
-        raise RequestError(f'"{name}" is not in the table: it does not apply here or was not asked for')
+        raise RequestError(Sentence("metrics.not_in_table", name=name))
 
     def _one(self, name: str, subject: str) -> MetricValue:
         rows = self._of(name)
@@ -82,9 +83,8 @@ class MetricsTable(Sequence[MetricValue]):
             if row.subject == subject:
                 return row
         subjects = [row.subject for row in rows]
-        offer = nearest(subject, subjects)
-        hint = f'did you mean "{offer}"?' if offer else f"there is {', '.join(subjects)}"
-        raise RequestError(f'"{name}" has no value for "{subject}"; {hint}')
+        hint = offered(subject, subjects)
+        raise RequestError(Sentence("metrics.no_value", name=name, subject=subject, hint=hint))
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
@@ -111,7 +111,7 @@ class MetricsTable(Sequence[MetricValue]):
         try:
             import pandas
         except ImportError:
-            raise RequestError("tables need pandas; install it: pip install linkwright[notebook]") from None
+            raise RequestError(Sentence("metrics.needs_pandas")) from None
         return pandas.DataFrame(self.data())
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:

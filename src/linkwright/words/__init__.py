@@ -23,6 +23,15 @@ def say(key: str, language: str = "en", **values: object) -> str:
     return text.format(**values) if values else text
 
 
+def has(key: str) -> bool:
+    """Whether the catalogue has a key."""
+    area, _, name = key.partition(".")
+    try:
+        return name in catalogue(area, LANGUAGES[0])
+    except KeyError:
+        return False
+
+
 def speaker(language: str) -> Say:
     """``say`` for one language: ``speaker("zh")("cli.error")``."""
     if language not in LANGUAGES:

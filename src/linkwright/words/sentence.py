@@ -20,7 +20,7 @@ class Sentence(str):
     """The English text of a key with its values; ``say("zh")`` is the same in Chinese.
 
     Values may be sentences themselves, anything else that has ``say(language)`` such as an error, or tuples of
-    these, which are said with commas in between, or lists, with semicolons.
+    these, which are said with commas in between, or lists, with semicolons; or functions of the language.
     """
 
     key: str
@@ -65,6 +65,8 @@ def _value(value: object, language: str) -> object:
     if isinstance(value, tuple | list):
         between = say("finding.comma" if isinstance(value, tuple) else "finding.semicolon", language)
         return between.join(str(_value(each, language)) for each in value)
+    if callable(value):
+        return value(language)
     if isinstance(value, SaidAnywhere):
         return value.say(language)
     return value

@@ -26,7 +26,8 @@ linkwright beam gallery:pitman_bending --plot bending.svg""",
     "safety": "safety against the strength",
     "needed_modulus": "needed section modulus",
     "step_reactions": "Reactions and equilibrium",
-    "step_segments": "Shear force, moment, slope and deflection, segment by segment (ξ from the segment's start)",
+    "step_segments": "Shear force, moment, slope and deflection, segment by segment (ξ from the segment's "
+    "start)",
     "segment": "from {start} to {end}, EI = {rigidity} N·m²",
     "determinate": "Equilibrium alone gives the reactions.",
     "indeterminate": "Statically indeterminate to degree {degree}: the stiffness decides with equilibrium.",
@@ -65,8 +66,8 @@ linkwright beam gallery:pitman_bending --plot bending.svg""",
     "largest_stress": "largest stress |N|/A + |M|/W",
     "at_input": "at {at}, x = {x}",
     "closure": "gap of forces at the far end",
-    "negative_density": "Mass, centre and inertia of {link} cannot be spread along it without a negative density: "
-    "the mass does not lie along the line, and the moments between the points are approximate.",
+    "negative_density": "Mass, centre and inertia of {link} cannot be spread along it without a negative "
+    "density: the mass does not lie along the line, and the moments between the points are approximate.",
     "mass_span": "The inertia of {link} is smaller than that of an even bar: "
     "its mass is spread evenly from {start} to {end}.",
     "as_resultant": "The loads on {link} act as their resultant where its line meets the link.",

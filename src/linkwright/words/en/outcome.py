@@ -5,8 +5,8 @@ WORDS = {
     "barred": "the way from the first position to this one is barred by a position out of reach",
     "lost": "group {signature} ({links}) cannot be followed to this position: it is out of reach or beyond a "
     "singular position",
-    "stopped": "group {signature} ({links}) cannot be followed to this position: on the way it becomes singular at "
-    "{where}",
+    "stopped": "group {signature} ({links}) cannot be followed to this position: on the way it becomes "
+    "singular at {where}",
     "followed": "assembled; the assembly is followed, but not certified",
     "singular": "group {signature} ({links}) is at a singular position (dead point or change point), where its "
     "motion is not determined by the driver",
