@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.engine import machine_code
+from linkwright.engine import ir_kernel, machine_code
 from linkwright.engine.derivative import value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -163,12 +164,18 @@ def test_numpy_and_scalar_agree_with_direct_evaluation(seed: int) -> None:
             agree(np.array(outputs), want[:, i])
 
 
-@pytest.fixture(params=["own", "x86-64-v3", "x86-64"])
+@pytest.fixture(params=["own", "in blocks", "x86-64-v3", "x86-64"])
 def vectors(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Code for this machine, and for older ones with narrower vectors."""
+    """Code for this machine, the same cut into blocks as for large programs, and for older machines."""
     if request.param == "own" or not available():
         return
     here = machine_code.host()
+    if request.param == "in blocks":
+        monkeypatch.setattr(ir_kernel, "LARGE", 60)
+        monkeypatch.setattr(ir_kernel, "_BLOCK", 13)
+        apart = dataclasses.replace(here, description=f"{here.description} in blocks")
+        monkeypatch.setattr(machine_code, "host", lambda: apart)
+        return
     if not here.features or "+avx2" not in here.features:
         pytest.skip("this machine cannot run code for other vector widths")
     features = "+avx,+avx2,+fma" if request.param == "x86-64-v3" else ""

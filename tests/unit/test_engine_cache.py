@@ -45,9 +45,9 @@ def count_compilations(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     compiled: list[str] = []
     original = machine_code.object_code
 
-    def counted(text: str) -> bytes:
+    def counted(text: str, level: int) -> bytes:
         compiled.append(text)
-        return original(text)
+        return original(text, level)
 
     monkeypatch.setattr(machine_code, "object_code", counted)
     return compiled

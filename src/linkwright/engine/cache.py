@@ -35,8 +35,8 @@ _memory: OrderedDict[str, machine_code.Loaded] = OrderedDict()
 _lock = threading.RLock()
 
 
-def loaded_code(key: str, text: Callable[[], str], entry: str) -> machine_code.Loaded:
-    """Code for ``key``: from memory, from the folder, or compiled from ``text()``."""
+def loaded_code(key: str, text: Callable[[], tuple[str, int]], entry: str) -> machine_code.Loaded:
+    """Code for ``key``: from memory, from the folder, or compiled from ``text()``, a module and a level."""
     place = f"{machine_code.host().description} {key}"
     with _lock:
         if place in _memory:
@@ -44,7 +44,7 @@ def loaded_code(key: str, text: Callable[[], str], entry: str) -> machine_code.L
             return _memory[place]
         loaded = _from_folder(key, entry)
         if loaded is None:
-            code = machine_code.object_code(text())
+            code = machine_code.object_code(*text())
             loaded = machine_code.Loaded(code, entry)
             with suppress(OSError):
                 _write(key, code)

@@ -12,6 +12,11 @@ from linkwright.engine.ir_lookup import lookup_functions
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import PLACE, Accumulation
 
+#: Texts of more lines than this are compiled without optimisation, in blocks: the time of the optimising
+#: compiler grows with the square of a block's length, that of the plain one not.
+LARGE = 6_000
+#: Instructions of one block of a large program.
+_BLOCK = 256
 #: Name of the function: one argument, the address of the call block.
 ENTRY = "linkwright_run"
 
@@ -45,8 +50,14 @@ class Shape:
         return cls(parameters, positions, fields, states, len(lines.outputs), tables)
 
 
+def kernel(lines: Lines, width: int, accumulation: Accumulation | None) -> tuple[str, int]:
+    """The module, and how much it is to be optimised. Lanes are positions, or designs where states are carried."""
+    text = kernel_text(lines, width, accumulation)
+    return text, 0 if text.count("\n") > LARGE else 3
+
+
 def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None) -> str:
-    """The module: lanes are positions, or designs where states are carried."""
+    """The module's text."""
     if lines.carried:
         from linkwright.engine.ir_states import StateKernel
 
@@ -69,6 +80,7 @@ class PositionKernel:
         """The module's text."""
         self._write_lines()
         updates = [] if self.sums is None else self._updates()
+        preamble, ready = in_blocks("design", [*self._design_inputs(), *self.writer.preamble])
         body = [
             f"define void @{ENTRY}(ptr noalias readonly %block) nounwind {{",
             "entry:",
@@ -76,11 +88,10 @@ class PositionKernel:
             *self._tail_mask(),
             "br label %design",
             "design:",
-            "%d = phi i64 [ 0, %entry ], [ %d.next, %finish ]",
-            *self._design_inputs(),
-            *self.writer.preamble,
+            "%d = phi i64 [ 0, %entry ], [ %d.next, %advance ]",
+            *preamble,
             "br label %segment",
-            *self._segment(),
+            *self._segment(f"%{ready}"),
             *self._loop(updates),
             *self._finish(),
             "}",
@@ -165,15 +176,15 @@ class PositionKernel:
             f"<{', '.join(['i1 true'] * self.width)}>, {self.writer.mask} %tail.mask",
         ]
 
-    def _segment(self) -> list[str]:
+    def _segment(self, ready: str) -> list[str]:
         mask = self.writer.mask
         return [
             "segment:",
-            "%start = phi i64 [ %first.start, %design ], [ %tail.start, %turned ]",
-            "%end = phi i64 [ %first.end, %design ], [ %tail.end, %turned ]",
-            "%again = phi i1 [ %first.again, %design ], [ false, %turned ]",
-            f"%fresh = phi {mask} [ %first.mask, %design ], [ %tail.mask, %turned ]",
-            *self._phis("s", {"%design": None, "%turned": "b"}),
+            f"%start = phi i64 [ %first.start, {ready} ], [ %tail.start, %turned ]",
+            f"%end = phi i64 [ %first.end, {ready} ], [ %tail.end, %turned ]",
+            f"%again = phi i1 [ %first.again, {ready} ], [ false, %turned ]",
+            f"%fresh = phi {mask} [ %first.mask, {ready} ], [ %tail.mask, %turned ]",
+            *self._phis("s", {ready: None, "%turned": "b"}),
             "br label %loop",
         ]
 
@@ -202,12 +213,12 @@ class PositionKernel:
         return code
 
     def _loop(self, updates: list[str]) -> list[str]:
+        code, last = in_blocks("loop", [*self.writer.body, *updates])
         return [
             "loop:",
-            "%i = phi i64 [ %start, %segment ], [ %i.next, %loop ]",
-            *self._phis("a", {"%segment": "s", "%loop": "b"}),
-            *self.writer.body,
-            *updates,
+            f"%i = phi i64 [ %start, %segment ], [ %i.next, %{last} ]",
+            *self._phis("a", {"%segment": "s", f"%{last}": "b"}),
+            *code,
             f"%i.next = add i64 %i, {self.width}",
             "%more = icmp slt i64 %i.next, %end",
             "br i1 %more, label %loop, label %turned",
@@ -216,7 +227,7 @@ class PositionKernel:
         ]
 
     def _finish(self) -> list[str]:
-        code = ["finish:"]
+        code: list[str] = []
         steps = self.sums.steps if self.sums is not None else ()
         order = sorted(
             range(len(steps)), key=lambda k: ("arg" in steps[k].kind) + 2 * ("at_" in steps[k].kind)
@@ -225,9 +236,11 @@ class PositionKernel:
             assert self.sums is not None
             code += self.sums.finish_lanes(k)
             code += self._store_result(k, f"%r{k}")
-        code += self._follow()
         return [
-            *code,
+            "finish:",
+            *in_blocks("finish", [*code, *self._follow()])[0],
+            "br label %advance",
+            "advance:",
             "%d.next = add i64 %d, 1",
             "%d.more = icmp slt i64 %d.next, %designs",
             "br i1 %d.more, label %design, label %done",
@@ -259,6 +272,19 @@ def _load_parameter(name: str, place: int) -> list[str]:
         f"{name}.at = getelementptr double, ptr %p.row, i64 {place}",
         f"{name} = load double, ptr {name}.at, align 8",
     ]
+
+
+def in_blocks(label: str, code: list[str]) -> tuple[list[str], str]:
+    """Instructions behind a label, cut into blocks if there are many; and the last block's label."""
+    if len(code) <= LARGE // 2:
+        return code, label
+    cut: list[str] = []
+    for number, first in enumerate(range(0, len(code), _BLOCK)):
+        if number:
+            following = f"{label}.{number}"
+            cut += [f"br label %{following}", f"{following}:"]
+        cut += code[first : first + _BLOCK]
+    return cut, f"{label}.{number}"
 
 
 def lane_numbers(width: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after import following_lines
-from linkwright.engine.ir_kernel import ENTRY, Shape, lane_numbers, load_block, module_text
+from linkwright.engine.ir_kernel import ENTRY, Shape, in_blocks, lane_numbers, load_block, module_text
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
@@ -28,6 +28,8 @@ class StateKernel:
         """The module's text."""
         self._write_lines()
         updates = [] if self.sums is None else self.sums.update()
+        preamble, ready = in_blocks("design", [*self._design_inputs(), *self.writer.preamble])
+        code, last = in_blocks("loop", [*self._position_inputs(), *self.writer.body, *updates])
         body = [
             f"define void @{ENTRY}(ptr noalias readonly %block) nounwind {{",
             "entry:",
@@ -37,16 +39,13 @@ class StateKernel:
             *self._splat("%length", "%length.all"),
             "br label %design",
             "design:",
-            "%d = phi i64 [ 0, %entry ], [ %d.next, %finish ]",
-            *self._design_inputs(),
-            *self.writer.preamble,
+            "%d = phi i64 [ 0, %entry ], [ %d.next, %advance ]",
+            *preamble,
             "br label %loop",
             "loop:",
-            "%i = phi i64 [ 0, %design ], [ %i.next, %loop ]",
-            *self._phis(),
-            *self._position_inputs(),
-            *self.writer.body,
-            *updates,
+            f"%i = phi i64 [ 0, %{ready} ], [ %i.next, %{last} ]",
+            *self._phis(f"%{ready}", f"%{last}"),
+            *code,
             "%i.next = add i64 %i, 1",
             "%more = icmp slt i64 %i.next, %length",
             "br i1 %more, label %loop, label %finish",
@@ -123,17 +122,17 @@ class StateKernel:
         base = f"{name}.base = getelementptr double, ptr %parameters, i64 {place}"
         return [base, *self._gather(name, f"{name}.base", "%parameter.offset")]
 
-    def _phis(self) -> list[str]:
+    def _phis(self, ready: str, last: str) -> list[str]:
         v = self.writer
         code = []
         for index, line in enumerate(self.lines.lines):
             if line.op == "state":
                 following = v.operand(self.lines.carried[line.place], True)
-                edges = f"[ %start{line.place}, %design ], [ {following}, %loop ]"
+                edges = f"[ %start{line.place}, {ready} ], [ {following}, {last} ]"
                 code.append(f"%v{index} = phi {v.vector} {edges}")
         for k, step in enumerate(self.sums.steps if self.sums else ()):
             assert self.sums is not None
-            edges = f"[ {self.sums.start(step.kind)}, %design ], [ %b{k}, %loop ]"
+            edges = f"[ {self.sums.start(step.kind)}, {ready} ], [ %b{k}, {last} ]"
             code.append(f"%a{k} = phi {self.sums.kind(step.kind)} {edges}")
         return code
 
@@ -152,7 +151,8 @@ class StateKernel:
         return code
 
     def _finish(self) -> list[str]:
-        code, values = ["finish:"], []
+        code: list[str] = []
+        values: list[str] = []
         for k in range(len(self.sums.steps) if self.sums else 0):
             assert self.sums is not None
             converted, value = self.sums.as_double(k)
@@ -167,7 +167,10 @@ class StateKernel:
             code.append(f"%z{k} = getelementptr double, ptr %out, i64 {k}")
             code += self._scatter(value, f"%z{k}", "%out.offset", f"%z{k}")
         return [
-            *code,
+            "finish:",
+            *in_blocks("finish", code)[0],
+            "br label %advance",
+            "advance:",
             f"%d.next = add i64 %d, {self.width}",
             "%d.more = icmp slt i64 %d.next, %designs",
             "br i1 %d.more, label %design, label %done",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from linkwright.engine.program import Program
 from linkwright.engine.trace import COMPARISONS
@@ -11,8 +12,7 @@ INPUTS = frozenset({"parameter", "position", "field", "state"})
 LOGIC = frozenset({"and", "or", "not"})
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(NamedTuple):
     """One evaluation step.
 
     ``op``: an operation of :class:`~linkwright.engine.trace.Node`, or ``number`` (a truth value

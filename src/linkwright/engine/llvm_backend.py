@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
 from linkwright.engine.call_block import Inputs, SingleCall, address_of, aligned
-from linkwright.engine.ir_kernel import ENTRY, kernel_text
+from linkwright.engine.ir_kernel import ENTRY, kernel
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
@@ -50,7 +50,7 @@ def _compile(program: Program, accumulation: Accumulation | None) -> CompiledPro
         raise ValueError(f"no next values of the states {names} are given: take the states as fields")
     width = machine_code.host().width
     key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
-    code = loaded_code(key, lambda: kernel_text(Lines.of(needed), width, accumulation), ENTRY)
+    code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation), ENTRY)
     return CompiledProgram(needed, accumulation, code, width)
 
 

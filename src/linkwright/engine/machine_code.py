@@ -74,28 +74,28 @@ def _binding() -> Any:
     return binding
 
 
-def _target_machine() -> Any:
+def _target_machine(level: int = 3) -> Any:
     here = host()
     target = _binding().Target.from_default_triple()
     return target.create_target_machine(
-        cpu=here.cpu, features=here.features, opt=3, reloc="default", codemodel="jitdefault", jit=True
+        cpu=here.cpu, features=here.features, opt=level, reloc="default", codemodel="jitdefault", jit=True
     )
 
 
-def object_code(text: str) -> bytes:
-    """Object code of a module."""
+def object_code(text: str, level: int = 3) -> bytes:
+    """Object code of a module; ``level``: how much the compiler optimises, 0 to 3."""
     with _LOCK:
-        machine = _target_machine()
+        machine = _target_machine(level)
         module = _binding().parse_assembly(text)
         module.triple = machine.triple
         module.data_layout = str(machine.target_data)
         return bytes(machine.emit_object(module))
 
 
-def assembly(text: str) -> str:
+def assembly(text: str, level: int = 3) -> str:
     """Readable machine code of a module."""
     with _LOCK:
-        machine = _target_machine()
+        machine = _target_machine(level)
         module = _binding().parse_assembly(text)
         module.triple = machine.triple
         module.data_layout = str(machine.target_data)

@@ -132,18 +132,20 @@ def _spelled(node: Node) -> str:
 
 def needed(nodes: Sequence[Node], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
     """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out."""
-    seen: set[int] = set()
-    stack = list(wanted)
+    seen = set(wanted)
+    stack = list(seen)
     while stack:
         index = stack.pop()
-        if index not in seen:
-            seen.add(index)
-            if index not in stop:
-                stack.extend(nodes[index].args)
+        if index not in stop:
+            for arg in nodes[index].args:
+                if arg not in seen:
+                    seen.add(arg)
+                    stack.append(arg)
     return sorted(seen)
 
 
 def _renumbered(node: Node, number: Mapping[int, int]) -> Node:
     if not node.args:
         return node
-    return node._replace(args=tuple(number[i] for i in node.args))
+    op, args, constant, name, varies = node
+    return Node(op, tuple([number[i] for i in args]), constant, name, varies)

@@ -35,6 +35,10 @@ class Node(NamedTuple):
     varies: bool = False  # differs from position to position (else one value per design)
 
 
+#: Makes a line without the detour through its keyword arguments.
+_new_node = tuple.__new__
+
+
 class Value:
     """A number that is not known yet: a line of a trace."""
 
@@ -140,28 +144,31 @@ class Trace:
 
     # operations ---------------------------------------------------------------------------
     def add(self, a: Scalar, b: Scalar) -> Scalar:
-        if _is(a, 0.0):
+        if not isinstance(b, Value):
+            if b == 0.0:
+                return a
+            if not isinstance(a, Value):
+                return a + b
+        elif not isinstance(a, Value) and a == 0.0:
             return b
-        if _is(b, 0.0):
-            return a
-        if isinstance(a, float | int) and isinstance(b, float | int):
-            return a + b
         negated = self._negated(b)
         if negated is not None:
             return self.sub(a, negated)
         negated = self._negated(a)
         if negated is not None:
             return self.sub(b, negated)
-        return self._operation("add", a, b)
+        return self._pair("add", a, b)
 
     def sub(self, a: Scalar, b: Scalar) -> Scalar:
-        if _is(b, 0.0):
-            return a
-        if _is(a, 0.0):
-            return self.neg(b)
-        if isinstance(a, float | int) and isinstance(b, float | int):
-            return a - b
-        if _same(a, b):
+        if not isinstance(b, Value):
+            if b == 0.0:
+                return a
+            if not isinstance(a, Value):
+                return a - b
+        elif not isinstance(a, Value):
+            if a == 0.0:
+                return self.neg(b)
+        elif _same(a, b):
             return 0.0
         negated = self._negated(b)
         if negated is not None:
@@ -169,42 +176,38 @@ class Trace:
         negated = self._negated(a)
         if negated is not None:
             return self.neg(self.add(negated, b))
-        return self._operation("sub", a, b)
+        return self._pair("sub", a, b)
 
     def mul(self, a: Scalar, b: Scalar) -> Scalar:
-        if _is(a, 0.0) or _is(b, 0.0):
-            return 0.0
-        if _is(a, 1.0):
-            return b
-        if _is(b, 1.0):
-            return a
-        if _is(a, -1.0):
-            return self.neg(b)
-        if _is(b, -1.0):
-            return self.neg(a)
-        if isinstance(a, float | int) and isinstance(b, float | int):
-            return a * b
+        if not isinstance(b, Value):
+            if not isinstance(a, Value):
+                return a * b if a and b else 0.0
+            a, b = b, a
+        if not isinstance(a, Value):
+            if a == 0.0 or a == 1.0:
+                return b if a else 0.0
+            if a == -1.0:
+                return self.neg(b)
         left, right = self._negated(a), self._negated(b)
+        if left is None and right is None:
+            return self._pair("mul", a, b)
         if left is not None and right is not None:
             return self.mul(left, right)
-        if left is not None:
-            return self.neg(self.mul(left, b))
-        if right is not None:
-            return self.neg(self.mul(a, right))
-        return self._operation("mul", a, b)
+        return self.neg(self.mul(a if left is None else left, b if right is None else right))
 
     def div(self, a: Scalar, b: Scalar) -> Scalar:
-        if _is(b, 1.0):
-            return a
-        if _is(a, 0.0):
-            return 0.0
-        if isinstance(a, float | int) and isinstance(b, float | int):
-            return a * reciprocal(b) if b == 0 else a / b
-        if _same(a, b):
-            return 1.0
-        if isinstance(b, float | int):
+        if not isinstance(b, Value):
+            if b == 1.0:
+                return a
+            if not isinstance(a, Value):
+                return a / b if b else (a * math.inf if a else 0.0)
             return self.mul(a, reciprocal(b))
-        return self._operation("div", a, b)
+        if not isinstance(a, Value):
+            if a == 0.0:
+                return 0.0
+        elif _same(a, b):
+            return 1.0
+        return self._pair("div", a, b)
 
     def neg(self, a: Scalar) -> Scalar:
         if isinstance(a, float | int):
@@ -271,19 +274,33 @@ class Trace:
             return value.index
         return self._line(Node("constant", constant=float(value))).index
 
-    def _operation(self, op: str, *values: Scalar | bool) -> Value:
-        args = tuple([self.lift(value) for value in values])
-        if op in COMMUTATIVE and args[0] > args[1]:
-            args = (args[1], args[0])
-        index = self._known.get((op, args))
+    def _pair(self, op: str, a: Scalar, b: Scalar) -> Value:
+        """An operation on two numbers."""
+        i, j = self.lift(a), self.lift(b)
+        if i > j and op in COMMUTATIVE:
+            i, j = j, i
+        key = (op, i, j)
+        index = self._known.get(key)
         if index is None:
             nodes = self.nodes
-            index = self._known[op, args] = len(nodes)
-            nodes.append(Node(op, args, varies=any(nodes[i].varies for i in args)))
+            index = self._known[key] = len(nodes)
+            nodes.append(_new_node(Node, (op, (i, j), 0.0, "", nodes[i][4] or nodes[j][4])))
+        return Value(self, index)
+
+    def _operation(self, op: str, *values: Scalar | bool) -> Value:
+        if len(values) == 2:
+            return self._pair(op, *values)
+        args = tuple([self.lift(value) for value in values])
+        key = (op, *args)
+        index = self._known.get(key)
+        if index is None:
+            nodes = self.nodes
+            index = self._known[key] = len(nodes)
+            nodes.append(_new_node(Node, (op, args, 0.0, "", any(nodes[i].varies for i in args))))
         return Value(self, index)
 
     def _line(self, node: Node) -> Value:
-        key = (node.op, node.args, repr(node.constant), node.name)
+        key = (node.op, node.name, *node.args, repr(node.constant))
         index = self._known.get(key)
         if index is None:
             index = self._known[key] = len(self.nodes)
@@ -292,10 +309,11 @@ class Trace:
 
     def _negated(self, value: Scalar) -> Value | None:
         """The value under a negation, if the last operation was one."""
-        if not isinstance(value, Value):
-            return None
-        node = self.nodes[value.index]
-        return Value(self, node.args[0]) if node.op == "neg" else None
+        if isinstance(value, Value):
+            node = self.nodes[value.index]
+            if node[0] == "neg":
+                return Value(self, node[1][0])
+        return None
 
 
 def _is(value: object, number: float) -> bool:
