@@ -60,6 +60,9 @@ COMMANDS = {
     "rigid_body": "statics",
     "belt": "statics",
     "wedge": "statics",
+    "vibration": "vibration",
+    "follower": "vibration",
+    "mounts": "vibration",
 }
 
 

@@ -29,6 +29,12 @@ if TYPE_CHECKING:
     from linkwright.parts.statics.forces import ForceSystem as ForceSystem
     from linkwright.parts.statics.structure import equilibrium as equilibrium
     from linkwright.parts.statics.wedge import Wedge as Wedge
+    from linkwright.parts.vibration.follower import FollowerSpring as FollowerSpring
+    from linkwright.parts.vibration.mounts import Mounts as Mounts
+    from linkwright.parts.vibration.system import Excitation as Excitation
+    from linkwright.parts.vibration.system import Start as Start
+    from linkwright.parts.vibration.system import Tie as Tie
+    from linkwright.parts.vibration.system import VibratingSystem as VibratingSystem
 
 offer(
     __name__,
@@ -44,5 +50,13 @@ offer(
         "linkwright.parts.statics.forces": ("Force", "ForceSystem"),
         "linkwright.parts.statics.structure": ("equilibrium",),
         "linkwright.parts.statics.wedge": ("Wedge",),
+        "linkwright.parts.vibration.follower": ("FollowerSpring",),
+        "linkwright.parts.vibration.mounts": ("Mounts",),
+        "linkwright.parts.vibration.system": (
+            "Excitation",
+            "Start",
+            "Tie",
+            "VibratingSystem",
+        ),
     },
 )

@@ -27,6 +27,9 @@ KINDS: Mapping[str, str] = {
     "rigid_body": "linkwright.parts.statics.body.RigidBody",
     "belt": "linkwright.parts.statics.belt.Belt",
     "wedge": "linkwright.parts.statics.wedge.Wedge",
+    "vibration": "linkwright.parts.vibration.system.VibratingSystem",
+    "follower": "linkwright.parts.vibration.follower.FollowerSpring",
+    "mounts": "linkwright.parts.vibration.mounts.Mounts",
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {

@@ -1,0 +1,1 @@
+"""Vibration: masses, springs and dampers; a cam follower's spring; a machine on its mounts."""

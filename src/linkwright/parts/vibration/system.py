@@ -1,0 +1,479 @@
+"""Masses joined by springs and dampers, or discs by shafts: free and forced vibration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding, ModelError
+from linkwright.model.fields import Quantities, Quantity, Text
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.display import number
+from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
+from linkwright.parts.steps import put
+from linkwright.parts.vibration.linear import Complexes, Linear, tuned
+from linkwright.units import DIMENSIONS
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+GROUND = "ground"
+#: Curves of frequency and time have so many points.
+POINTS = 801
+#: A mode without damping this near to the excitation is in resonance, relative.
+RESONANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A spring or damper ``between`` two masses, or a mass and ``ground``; its ``rate`` N/m, N·s/m (N·m/rad …)."""
+
+    between: tuple[str, ...]
+    rate: float
+
+
+@dataclass(frozen=True)
+class Start:
+    """Displacement (m, rad) and velocity (m/s, rad/s) of a mass at the time zero."""
+
+    displacement: float = 0.0
+    velocity: float = 0.0
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """What shakes the system: ``force`` (amplitude, N or N·m) or ``unbalance`` (kg·m) ``on`` a mass, or the motion
+    ``base`` of the ground (amplitude, m or rad), each with its ``frequency`` (rad/s); or forces at ``times``.
+    """
+
+    on: str = ""
+    force: float | None = None
+    base: float | None = None
+    unbalance: float | None = None
+    frequency: float | None = None
+    times: tuple[float, ...] = ()
+    forces: tuple[float, ...] = ()
+
+
+def _excitation(**given: Any) -> Excitation:
+    hertz, speed = given.pop("hertz", None), given.pop("speed", None)
+    table = given.pop("table", None) or {}
+    for name in ("force", "base"):
+        if name in given:
+            given[name] = given[name][0]
+    frequency = 2 * math.pi * hertz if hertz is not None else speed
+    return Excitation(**given, frequency=frequency, **table)
+
+
+def _tie(between: tuple[str, ...], rate: tuple[float, Any]) -> dict[str, Any]:
+    return {"between": between, "rate": rate}
+
+
+TIE = {"between": Listed(Text(), "[ground, body]", required=True, doc="two masses, or ground and a mass")}
+SPRING = Table(
+    {**TIE, "rate": AnyQuantity(required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft")}, _tie
+)
+DAMPER = Table({**TIE, "rate": AnyQuantity(required=True, key="damping", doc="N·s/m, or N·m·s/rad")}, _tie)
+EXCITATION = {
+    "on": Text(doc="the mass on which it acts"),
+    "force": AnyQuantity(doc="amplitude of a harmonic force (or torque)"),
+    "base": AnyQuantity(doc="amplitude of the motion of the ground"),
+    "unbalance": Quantity("mass_moment", above=0.0, doc="mass times eccentricity of a rotor"),
+    "hertz": Quantity("frequency", above=0.0, key="frequency", doc="frequency"),
+    "speed": Quantity("angular_velocity", above=0.0, doc="or speed of the rotor"),
+    "table": Table(
+        {
+            "times": Quantities("time", required=True, key="time", doc="increasing times"),
+            "forces": Quantities("force", required=True, key="force", doc="measured force at each time"),
+        },
+        doc="a measured force: {time: […], force: […]}",
+    ),
+}
+START = {
+    "displacement": Quantity("length", doc="at the time zero"),
+    "velocity": Quantity("velocity", doc="at the time zero"),
+}
+
+
+@dataclass(frozen=True)
+class VibratingSystem(Problem):
+    """Masses (kg; or discs with inertias, kg·m², ``turning``) by name, springs and dampers between them.
+
+    ``excitation``; ``start`` of masses for the free response; ``duration`` (s) of responses in time.
+    """
+
+    kind: ClassVar[str] = "vibration"
+    fields: ClassVar[Mapping[str, Any]] = {
+        "masses": Named(AnyQuantity(), "mass", required=True, doc="masses (kg) or inertias (kg·m²) by name"),
+        "springs": Named(
+            SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"
+        ),
+        "dampers": Named(
+            DAMPER, "damper", doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"
+        ),
+        "excitation": Table(EXCITATION, _excitation, doc="what shakes it: force, unbalance, base or table"),
+        "start": Named(Table(START, Start), "mass", doc="start of the free vibration by mass"),
+        "duration": Quantity("time", above=0.0, doc="how long responses in time are shown"),
+        "absorber": Table(
+            {
+                "on": Text(required=True, doc="the mass that is to be quieted"),
+                "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
+            },
+            doc="adds the best damped absorber: {on: body, mass: 5 kg}",
+        ),
+    }
+    masses: Mapping[str, float]
+    springs: Mapping[str, Tie] = field(default_factory=dict)
+    dampers: Mapping[str, Tie] = field(default_factory=dict)
+    excitation: Excitation | None = None
+    start: Mapping[str, Start] = field(default_factory=dict)
+    duration: float | None = None
+    turning: bool = False
+    name: str = ""
+    source: str = ""
+
+    @classmethod
+    def of_file(cls, values: Mapping[str, Any], folder: Path) -> VibratingSystem:
+        given = dict(values)
+        turning = any(kind == DIMENSIONS["inertia"] for _, kind in given["masses"].values())
+        wrong = _mixed(given, turning)
+        if wrong:
+            raise ModelError(wrong)
+        given["masses"] = {name: value for name, (value, _) in given["masses"].items()}
+        for what in ("springs", "dampers"):
+            ties = given.get(what, {})
+            given[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
+        absorber = given.pop("absorber", None)
+        system = cls(**given, turning=turning)
+        return system if absorber is None else system.quieted(absorber["on"], absorber["mass"])
+
+    def quieted(self, on: str, mass: float) -> VibratingSystem:
+        """The system with the best damped absorber on its one mass; raises ModelError for other systems."""
+        if list(self.masses) != [on] or self.dampers or self.turning:
+            raise ModelError([fault("vibration.absorber_alone", "absorber")])
+        stiffness = sum(spring.rate for spring in self.springs.values())
+        spring, damper = tuned(self.masses[on], stiffness, mass)
+        between = (on, "absorber")
+        return replace(
+            self, masses={**self.masses, "absorber": mass},
+            springs={**self.springs, "absorber": Tie(between, spring)}, dampers={"absorber": Tie(between, damper)},
+        )  # fmt: skip
+
+    def findings(self) -> list[Finding]:
+        found = [] if self.masses else [fault("vibration.no_mass", "masses")]
+        found += [fault("vibration.mass_above_zero", f"masses.{n}") for n, m in self.masses.items() if m <= 0]
+        for what, ties in (("springs", self.springs), ("dampers", self.dampers)):
+            for name, tie in ties.items():
+                found += self._tie_findings(f"{what}.{name}", tie)
+        found += [
+            fault("vibration.no_such_mass", f"start.{name}", name=name, known=", ".join(self.masses))
+            for name in self.start
+            if name not in self.masses
+        ]
+        return found or self._excitation_findings()
+
+    def _tie_findings(self, key: str, tie: Tie) -> list[Finding]:
+        known = [GROUND, *self.masses]
+        if len(tie.between) != 2 or tie.between[0] == tie.between[-1]:
+            return [fault("vibration.two_ends", f"{key}.between")]
+        found = [
+            fault("vibration.no_such_mass", f"{key}.between", name=end, known=", ".join(known))
+            for end in tie.between
+            if end not in known
+        ]
+        return [*found, fault("vibration.rate_negative", key)] if tie.rate < 0 else found
+
+    def _excitation_findings(self) -> list[Finding]:
+        given = self.excitation
+        if given is None:
+            return []
+        forms = [n for n in ("force", "base", "unbalance") if getattr(given, n) is not None]
+        forms += ["table"] if given.times else []
+        if len(forms) != 1 or (forms[0] != "table" and given.frequency is None):
+            return [fault("vibration.excitation_form", "excitation")]
+        if forms[0] != "base" and given.on not in self.masses:
+            return [
+                fault("vibration.no_such_mass", "excitation.on", name=given.on, known=", ".join(self.masses))
+            ]
+        if given.times and (len(given.times) != len(given.forces) or len(given.times) < 2 or
+                            any(b <= a for a, b in zip(given.times, given.times[1:], strict=False))):  # fmt: skip
+            return [fault("vibration.table", "excitation.table")]
+        linear = self.linear
+        for i, own in enumerate(linear.modes[0]):
+            near = given.frequency is not None and abs(own - given.frequency) <= RESONANCE * given.frequency
+            if near and linear.damping_ratios[i] == 0.0:
+                return [fault("vibration.resonance", "excitation", hertz=own / (2 * math.pi))]
+        return []
+
+    @cached_property
+    def linear(self) -> Linear:
+        """The matrices, masses in their order."""
+        return Linear(
+            np.diag(list(self.masses.values())), self._matrix(self.dampers), self._matrix(self.springs)
+        )
+
+    def _matrix(self, ties: Mapping[str, Tie]) -> Floats:
+        place = {name: i for i, name in enumerate(self.masses)}
+        found = np.zeros((len(place), len(place)))
+        for tie in ties.values():
+            ends = [place[end] for end in tie.between if end != GROUND]
+            for i in ends:
+                found[i, i] += tie.rate
+            if len(ends) == 2:
+                found[ends[0], ends[1]] -= tie.rate
+                found[ends[1], ends[0]] -= tie.rate
+        return found
+
+    def to_ground(self, ties: Mapping[str, Tie]) -> Floats:
+        """Rates of ties between each mass and the ground, (n,)."""
+        names = list(self.masses)
+        found = np.zeros(len(names))
+        for tie in ties.values():
+            if GROUND in tie.between:
+                found[names.index(next(end for end in tie.between if end != GROUND))] += tie.rate
+        return found
+
+    def solve(self) -> Vibration:
+        """Modes and responses. Raises ModelError with all findings."""
+        self.require()
+        return Vibration(self)
+
+
+def _mixed(given: Mapping[str, Any], turning: bool) -> list[Finding]:
+    """Findings where straight and turning motion, or wrong units, come together."""
+    kinds = ("inertia", "torsional_stiffness", "torsional_damping", "torque", "angle")
+    kinds = kinds if turning else ("mass", "stiffness", "damping", "force", "length")
+    values = {f"masses.{n}": (kind, kinds[0]) for n, (_, kind) in given["masses"].items()}
+    for what, key, expected in (("springs", "stiffness", kinds[1]), ("dampers", "damping", kinds[2])):
+        values |= {f"{what}.{n}.{key}": (t["rate"][1], expected) for n, t in given.get(what, {}).items()}
+    return [
+        fault("vibration.mixed", key, needed=expected.replace("_", " "))
+        for key, (kind, expected) in values.items()
+        if kind != DIMENSIONS[expected]
+    ]
+
+
+@dataclass(frozen=True, repr=False)
+class Vibration(Result):
+    """Natural frequencies, modes and damping; amplitudes under the excitation; responses over frequency and time."""
+
+    area: ClassVar[str] = "vibration"
+    system: VibratingSystem
+
+    @property
+    def title(self) -> str:
+        return self.system.name
+
+    @property
+    def linear(self) -> Linear:
+        """The matrices M, C, K."""
+        return self.system.linear
+
+    @property
+    def frequencies(self) -> Floats:
+        """Undamped natural frequencies (n,), rad/s."""
+        return self.linear.modes[0]
+
+    @property
+    def damping_ratios(self) -> Floats:
+        """Damping ratios of the modes, (n,)."""
+        return self.linear.damping_ratios
+
+    @property
+    def shapes(self) -> Floats:
+        """Modes in columns, each with its largest part 1, (n, n)."""
+        raw = self.linear.modes[1]
+        largest = raw[np.abs(raw).argmax(axis=0), range(len(raw))]
+        shown = raw / largest
+        return np.where(np.abs(shown) < 1e-12, 0.0, shown)
+
+    def forces(self, frequency: Floats) -> Complexes:
+        """Amplitudes (f, n) of the exciting forces at angular frequencies (f,)."""
+        given = self.system.excitation
+        names = list(self.system.masses)
+        found = np.zeros((len(frequency), len(names)), dtype=complex)
+        if given is None or given.times:
+            return found
+        if given.base is not None:
+            spring, damper = (self.system.to_ground(t) for t in (self.system.springs, self.system.dampers))
+            return np.asarray((spring + 1j * frequency[:, None] * damper) * given.base)
+        strength = given.force if given.force is not None else (given.unbalance or 0.0) * frequency**2
+        found[:, names.index(given.on)] = strength
+        return found
+
+    def amplitudes(self, frequency: Floats) -> Complexes:
+        """Complex amplitudes (f, n) of the masses at angular frequencies (f,)."""
+        return self.linear.response(frequency, self.forces(frequency))
+
+    def transmissibility(self, frequency: Floats) -> Floats:
+        """Force on the ground over exciting force; with a moving base the first mass' amplitude over the base's."""
+        moved, given = self.amplitudes(frequency), self.system.excitation
+        if given is not None and given.base is not None:
+            return np.asarray(np.abs(moved[:, 0]) / given.base)
+        spring, damper = (self.system.to_ground(t) for t in (self.system.springs, self.system.dampers))
+        passed = ((spring + 1j * frequency[:, None] * damper) * moved).sum(axis=1)
+        return np.asarray(np.abs(passed) / np.abs(self.forces(frequency)).sum(axis=1))
+
+    @property
+    def harmonic(self) -> bool:
+        """Whether a harmonic excitation is given."""
+        return self.system.excitation is not None and not self.system.excitation.times
+
+    @property
+    def in_time(self) -> bool:
+        """Whether there is a response in time: from a start, or under a measured force."""
+        return bool(self.system.start) or (
+            self.system.excitation is not None and bool(self.system.excitation.times)
+        )
+
+    def sweep(self) -> tuple[Floats, Complexes]:
+        """Angular frequencies around all modes, and the complex amplitudes there; poles without damping avoided."""
+        moving = self.frequencies[self.frequencies > 0]
+        low, high = (moving[0] / 5, moving[-1] * 4) if len(moving) else (0.1, 10.0)
+        grid = np.geomspace(low, high, POINTS)
+        near = [f * (1 + d) for f in moving for d in (-1e-3, 1e-3)]
+        clear = np.abs(grid[:, None] / moving - 1).min(axis=1, initial=1.0) > 1e-6
+        frequency = np.unique(np.concatenate([grid[clear], near]))
+        return frequency, self.amplitudes(frequency)
+
+    def response(self) -> tuple[Floats, Floats]:
+        """Times (t,) and displacements (t, n) from the start, under a measured force where one is given."""
+        system = self.system
+        given = system.excitation
+        last = given.times[-1] if given is not None and given.times else 0.0
+        moving = self.frequencies[self.frequencies > 0]
+        slow = 2 * math.pi / moving[0] if len(moving) else 1.0
+        time = np.linspace(0.0, system.duration or max(last, 6 * slow), 4 * POINTS)
+        force = np.zeros((len(time), len(system.masses)))
+        if given is not None and given.times:
+            column = list(system.masses).index(given.on)
+            force[:, column] = np.interp(time, given.times, given.forces, left=0.0, right=0.0)
+        starts = [system.start.get(name, Start()) for name in system.masses]
+        first = np.array([s.displacement for s in starts]), np.array([s.velocity for s in starts])
+        return time, self.linear.in_time(time, force, *first)
+
+    def columns(self) -> dict[str, Floats]:
+        names = list(self.system.masses)
+        if self.in_time:
+            time, shown = self.response()
+            return {"time [s]": time, **{f"{n} [m]": shown[:, i] for i, n in enumerate(names)}}
+        if not self.harmonic:
+            return {}
+        frequency, moved = self.sweep()
+        found = {"frequency [Hz]": frequency / (2 * math.pi)}
+        for i, name in enumerate(names):
+            found[f"{name} amplitude [m]"] = np.abs(moved[:, i])
+            found[f"{name} phase [rad]"] = np.angle(moved[:, i])
+        return found
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = []
+        for i, own in enumerate(self.frequencies):
+            mode = ", ".join(
+                f"{n} {number(float(s), digits=5)}"
+                for n, s in zip(self.system.masses, self.shapes[:, i], strict=True)
+            )
+            label = say("vibration.mode", index=i + 1)
+            rows.append(
+                Row(
+                    f"frequency_{i + 1}",
+                    own / (2 * math.pi),
+                    "frequency",
+                    label,
+                    say("vibration.shape", mode=mode),
+                )
+            )
+            rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", "  ω"))
+            if self.linear.damping.any():
+                rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", "  ζ"))
+        loose = int((self.frequencies == 0).sum())
+        remarks = (say("vibration.loose", count=loose),) if loose else ()
+        found = [Block("modes", say("vibration.modes"), rows, remarks)]
+        for name in ("absorber",):
+            if name in self.system.springs and name in self.system.dampers:
+                tied = [Row("absorber_stiffness", self.system.springs[name].rate, "stiffness"),
+                        Row("absorber_damping", self.system.dampers[name].rate, "damping")]  # fmt: skip
+                found.append(Block("absorber", say("vibration.absorber"), tied))
+        if self.harmonic:
+            found.append(self._forced(say))
+        if self.in_time:
+            found.append(self._timed(say))
+        return found
+
+    def _forced(self, say: Say) -> Block:
+        given = self.system.excitation
+        assert given is not None and given.frequency is not None
+        at = np.array([given.frequency])
+        moved = self.amplitudes(at)[0]
+        length = "angle" if self.system.turning else "length"
+        rows = []
+        for name, value in zip(self.system.masses, moved, strict=True):
+            rows.append(
+                Row(f"{name}.amplitude", float(abs(value)), length, say("vibration.amplitude", name=name))
+            )
+            rows.append(
+                Row(f"{name}.phase", float(np.angle(value)), "angle", say("vibration.phase", name=name))
+            )
+        rows.append(Row("transmissibility", float(self.transmissibility(at)[0])))
+        return Block("forced", say("vibration.forced", hertz=number(given.frequency / (2 * math.pi))), rows)
+
+    def _timed(self, say: Say) -> Block:
+        time, moved = self.response()
+        length = "angle" if self.system.turning else "length"
+        rows = []
+        for i, name in enumerate(self.system.masses):
+            k = int(np.abs(moved[:, i]).argmax())
+            note = say("vibration.at_time", time=number(float(time[k])))
+            rows.append(
+                Row(f"{name}.largest", float(moved[k, i]), length, say("vibration.largest", name=name), note)
+            )
+        return Block("response", say("vibration.response"), rows)
+
+    def steps(self, say: Say) -> list[Step]:
+        matrices, modes = Step("1", say("vibration.step_matrices")), Step("2", say("vibration.step_modes"))
+        matrices.say(say("vibration.order", names=", ".join(self.system.masses)))
+        for symbol, matrix in (
+            ("M", self.linear.mass),
+            ("C", self.linear.damping),
+            ("K", self.linear.stiffness),
+        ):
+            for row in matrix:
+                matrices.say(f"  {symbol} = [ {'  '.join(number(float(c)) for c in row)} ]")
+        modes.say(say("vibration.characteristic"))
+        for i, own in enumerate(self.frequencies):
+            put(
+                modes,
+                f"ω{i + 1}",
+                "√(k/m)" if len(self.frequencies) == 1 else "",
+                float(own),
+                "angular_velocity",
+            )
+            put(modes, f"f{i + 1}", f"ω{i + 1}/(2π)", own / (2 * math.pi), "frequency")
+            if self.linear.damping.any():
+                one = len(self.frequencies) == 1
+                put(modes, f"ζ{i + 1}", "c/(2√(k·m))" if one else "−Re λ/|λ|", float(self.damping_ratios[i]))
+        found = [matrices, modes]
+        if self.harmonic:
+            forced = Step("3", say("vibration.step_forced"))
+            forced.say("  (K − ω²M + iωC)·X = F")
+            for row in self._forced(say).rows:
+                put(
+                    forced,
+                    row.label or say("vibration.transmissibility"),
+                    "",
+                    float(row.value),
+                    row.dimension,
+                )
+            found.append(forced)
+        if self.in_time:
+            timed = Step(str(len(found) + 1), say("vibration.response"))
+            timed.say("  M·ẍ + C·ẋ + K·x = F(t)")
+            for row in self._timed(say).rows:
+                put(timed, row.label, "", float(row.value), row.dimension)
+            found.append(timed)
+        return found

@@ -1,0 +1,48 @@
+"""Vibration that has no answer is refused with the reason."""
+
+import pytest
+
+import linkwright as lw
+from linkwright import parts
+
+HEAD = "format: 1\nkind: vibration\nmasses: {body: 25 kg}\n"
+HEAD += "springs: {k: {between: [ground, body], stiffness: 10 kN/m}}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (HEAD + "excitation: {on: body, force: 5 N, frequency: 3.1830988618379066 Hz}\n", "resonance"),
+        (HEAD + "excitation: {on: body, force: 5 N}\n", "neither complete nor unique"),
+        (HEAD + "excitation: {on: head, force: 5 N, frequency: 3 Hz}\n", 'no mass "head"'),
+        (HEAD.replace("[ground, body]", "[ground, bodi]"), 'no mass "bodi"'),
+        (HEAD.replace("[ground, body]", "[body, body]"), "two different ends"),
+        (HEAD.replace("25 kg}", "25 kg, disc: 3 kg·m²}"), "stand together"),
+        (HEAD.replace("10 kN/m", "10 kN·m"), "a stiffness is needed here"),
+        (HEAD.replace("25 kg", "-25 kg"), "zero or less"),
+        (HEAD + "absorber: {on: bodi, mass: 3 kg}\n", "one mass without dampers"),
+        (HEAD + "excitation: {on: body, table: {time: [0 s, 0 s], force: [1 N, 1 N]}}\n", "increasing times"),
+    ],
+)
+def test_systems(text: str, words: str) -> None:
+    with pytest.raises(lw.ModelError, match=words) as error:
+        parts.loads(text, "v.yaml").solve()
+    assert error.value.say("zh") != str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("law", "words"),
+    [("cyclical", "cannot be read"), ("u^2*3", "goes from 0 to 3"), ("u/0", "cannot be read")],
+)
+def test_followers(law: str, words: str) -> None:
+    with pytest.raises(lw.ModelError, match=words):
+        parts.FollowerSpring(1.0, 1e4, 0.01, 0.1, law).solve()
+
+
+def test_mounts() -> None:
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    with pytest.raises(lw.ModelError, match="lighter than its moving links"):
+        parts.Mounts(crusher, 100.0, 1e6, 1e6).solve()
+    own = 8000.0 * (2 * 3.141592653589793 * 170 / 60) ** 2
+    with pytest.raises(lw.ModelError, match="resonance"):
+        parts.Mounts(crusher, 8000.0, own, 1e6).solve()

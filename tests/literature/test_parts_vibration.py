@@ -1,0 +1,154 @@
+"""Vibration against the theory of one and two degrees of freedom, and closed forms of motion laws."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright import parts
+from linkwright.parts.vibration.linear import tuned
+
+M, K = 25.0, 1e4
+W = math.sqrt(K / M)
+SPRING = {"k": parts.Tie(("ground", "body"), K)}
+
+
+def one(damping: float = 0.0, **given: object) -> parts.VibratingSystem:
+    dampers = {"c": parts.Tie(("ground", "body"), damping)} if damping else {}
+    return parts.VibratingSystem({"body": M}, SPRING, dampers, **given)  # type: ignore[arg-type]
+
+
+def test_two_equal_masses() -> None:
+    found = parts.load("gallery:two_masses").solve()
+    assert found.frequencies == pytest.approx([20.0, 20.0 * math.sqrt(3)], rel=1e-12)
+    assert found.shapes == pytest.approx(np.array([[1, 1], [1, -1]]), abs=1e-12)
+
+
+def test_two_unequal_masses_against_the_characteristic_equation() -> None:
+    m1, m2, k1, k2 = 12.0, 3.0, 5e3, 2e3
+    ties = {"a": parts.Tie(("ground", "x"), k1), "b": parts.Tie(("x", "y"), k2)}
+    found = parts.VibratingSystem({"x": m1, "y": m2}, ties).solve()
+    half = (k1 + k2) / (2 * m1) + k2 / (2 * m2)
+    root = math.sqrt(half**2 - k1 * k2 / (m1 * m2))
+    assert found.frequencies == pytest.approx([math.sqrt(half - root), math.sqrt(half + root)], rel=1e-12)
+    for own, shape in zip(found.frequencies, found.shapes.T, strict=True):
+        assert shape[1] / shape[0] == pytest.approx(k2 / (k2 - m2 * own**2), rel=1e-9)
+
+
+def test_two_discs_on_a_shaft_turn_freely_and_swing() -> None:
+    found = parts.VibratingSystem(
+        {"a": 0.4, "b": 0.1}, {"s": parts.Tie(("a", "b"), 900.0)}, turning=True
+    ).solve()
+    assert found.frequencies == pytest.approx([0.0, math.sqrt(900 * 0.5 / 0.04)], abs=1e-9)
+
+
+def test_free_decay() -> None:
+    """x = x0 e^(−ζωt) (cos ω_d t + ζω/ω_d sin ω_d t)."""
+    found = one(100.0, start={"body": parts.Start(0.01)}, duration=2.0).solve()
+    time, moved = found.response()
+    zeta = 100.0 / (2 * math.sqrt(K * M))
+    damped = W * math.sqrt(1 - zeta**2)
+    expected = (
+        0.01 * np.exp(-zeta * W * time) * (np.cos(damped * time) + zeta * W / damped * np.sin(damped * time))
+    )
+    assert found.damping_ratios[0] == pytest.approx(zeta, rel=1e-12)
+    assert np.abs(moved[:, 0] - expected).max() < 1e-9 * 0.01
+
+
+@pytest.mark.parametrize("r", [0.3, 0.999, 1.4, 3.0])
+def test_forced_by_force_ground_and_unbalance(r: float) -> None:
+    zeta = 0.07
+    c, w = 2 * zeta * math.sqrt(K * M), np.array([r * W])
+    shaken = math.sqrt((1 - r * r) ** 2 + (2 * zeta * r) ** 2)
+    passed = math.sqrt(1 + (2 * zeta * r) ** 2) / shaken
+    force = one(c, excitation=parts.Excitation("body", force=30.0, frequency=w[0])).solve()
+    assert abs(force.amplitudes(w)[0, 0]) == pytest.approx(30 / K / shaken, rel=1e-9)
+    assert -np.angle(force.amplitudes(w)[0, 0]) == pytest.approx(
+        math.atan2(2 * zeta * r, 1 - r * r), rel=1e-9
+    )
+    assert force.transmissibility(w)[0] == pytest.approx(passed, rel=1e-9)
+    ground = one(c, excitation=parts.Excitation(base=0.002, frequency=w[0])).solve()
+    assert ground.transmissibility(w)[0] == pytest.approx(passed, rel=1e-9)
+    rotor = one(c, excitation=parts.Excitation("body", unbalance=0.05, frequency=w[0])).solve()
+    assert abs(rotor.amplitudes(w)[0, 0]) == pytest.approx(0.05 / M * r * r / shaken, rel=1e-9)
+
+
+def test_measured_force_of_one_step_and_one_ramp() -> None:
+    """F0 from 0 on: x = F0/k (1 − cos ωt); a ramp F0 t/T: x = F0/(kT) (t − sin ωt/ω)."""
+    step = parts.Excitation("body", times=(0.0, 3.0), forces=(50.0, 50.0))
+    time, moved = one(excitation=step, duration=2.0).solve().response()
+    assert np.abs(moved[:, 0] - 50 / K * (1 - np.cos(W * time))).max() < 1e-9 * 50 / K
+    ramp = parts.Excitation("body", times=(0.0, 3.0), forces=(0.0, 50.0))
+    time, moved = one(excitation=ramp, duration=2.0).solve().response()
+    assert np.abs(moved[:, 0] - 50 / K / 3 * (time - np.sin(W * time) / W)).max() < 1e-9 * 50 / K
+
+
+def test_tuned_absorber_has_peaks_near_the_fixed_points() -> None:
+    """At both fixed points, with any damping, |X| k/F = √(1 + 2/μ) (Den Hartog)."""
+    ratio = 0.05
+    stiffness, damping = tuned(100.0, 4e5, 5.0)
+    w0, height = math.sqrt(4e5 / 100.0), math.sqrt(1 + 2 / ratio)
+    centre = 1 / (1 + ratio)
+    squares = [centre * (1 + sign * math.sqrt(ratio / (2 + ratio))) for sign in (-1, 1)]
+    for scale in (1.0, 0.2, 3.0):
+        ties = {"k": parts.Tie(("ground", "m"), 4e5), "a": parts.Tie(("m", "a"), stiffness)}
+        dampers = {"c": parts.Tie(("m", "a"), scale * damping)}
+        force = parts.Excitation("m", force=1.0, frequency=w0)
+        found = parts.VibratingSystem({"m": 100.0, "a": 5.0}, ties, dampers, force).solve()
+        size = np.abs(found.amplitudes(w0 * np.sqrt(squares))[:, 0]) * 4e5
+        assert size == pytest.approx([height, height], rel=1e-9)
+    best = parts.load("gallery:tuned_absorber")
+    assert best.springs["absorber"].rate == pytest.approx(stiffness)
+    frequency = np.linspace(0.8 * w0, 1.2 * w0, 4001)
+    assert np.abs(found.linear.response(frequency, np.array([1.0, 0]))).max() > 0
+    peak = np.abs(best.linear.response(frequency, np.array([1.0, 0.0]))[:, 0]).max() * 4e5
+    assert height <= peak < 1.01 * height
+
+
+@pytest.mark.parametrize("n", [0.4, 1.3, 2.516, 4.5])
+def test_residual_vibration_of_motion_laws(n: float) -> None:
+    """Closed forms of |∫ s̈ e^(iωt) dt|/(ωh) for laws of sines and for a constant velocity."""
+    time = 0.02
+    expected = {
+        "cycloidal": abs(math.sin(math.pi * n)) / (math.pi * n * abs(1 - n * n)),
+        "simple_harmonic": abs(math.cos(math.pi * n)) / abs(1 - 4 * n * n),
+        "constant_velocity": abs(math.sin(math.pi * n)) / (math.pi * n),
+        "u - sin(2*pi*u)/(2*pi)": abs(math.sin(math.pi * n)) / (math.pi * n * abs(1 - n * n)),
+    }
+    for law, share in expected.items():
+        problem = parts.FollowerSpring(0.4, 0.4 * (2 * math.pi * n / time) ** 2, 0.01, time, law)
+        found = problem.solve()
+        assert found.ratio == pytest.approx(n)
+        assert found.residual()[0] / 0.01 == pytest.approx(share, rel=1e-9)
+
+
+def test_response_in_time_leaves_the_residual_amplitude() -> None:
+    problem = parts.FollowerSpring(0.4, 0.4 * (2 * math.pi * 1.3 / 0.02) ** 2, 0.01, 0.02, "polynomial_345")
+    found = problem.solve()
+    time, cam, follower = found.curves
+    after = np.abs(follower - cam)[time > 0.02].max()
+    assert after == pytest.approx(found.residual()[0], rel=2e-4)
+
+
+ROTOR = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {rotor: {points: [O], also: {E: [10 mm, 0 m]}, mass: 4 kg, inertia: 0.1 kg·m², mass_centre: [10 mm, 0 m]}}
+driver: {turn: rotor, about: O, speed: 900 rpm}
+"""
+
+
+def test_unbalanced_rotor_on_mounts() -> None:
+    """m e ω² turns with the rotor: x = m e ω²/√((k − Mω²)² + (cω)²)."""
+    mechanism = lw.loads(ROTOR)
+    found = parts.Mounts(mechanism, 60.0, 2e5, 3e5, 0.08, steps=48).solve()
+    w = 900 * 2 * math.pi / 60
+    for i, k in enumerate((2e5, 3e5)):
+        c = 2 * 0.08 * math.sqrt(k * 60)
+        x = 0.04 * w * w / math.hypot(k - 60 * w * w, c * w)
+        assert abs(found.moved[1, i]) == pytest.approx(x, rel=1e-9)
+        assert abs(found.passed[1, i]) == pytest.approx(x * math.hypot(k, c * w), rel=1e-9)
+    assert found.listed() == [1]
+    largest = np.abs(found.columns()["machine x [m]"]).max()
+    assert largest == pytest.approx(abs(found.moved[1, 0]), rel=3e-3)
