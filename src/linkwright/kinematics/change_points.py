@@ -17,6 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.search import ends, lowest
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
@@ -263,13 +264,10 @@ class _Search:
 
     def _crossing(self, name: str, low: float) -> float:
         """The place in the step after ``low`` where a value changes its sign."""
-        high = low + 1.0
-        for _ in range(13):
-            places = np.linspace(low, high, 17)
-            row = self._evaluate((name,), places)[0]
-            k = max(int(np.argmax(np.sign(row) != np.sign(row[0]))), 1)
-            low, high = float(places[k - 1]), float(places[k])
-        return low
+        start = np.array([low])
+        first = np.sign(self._evaluate((name,), start)[0])
+        before = ends(lambda place: np.sign(self._evaluate((name,), place)[0]) == first, start, start + 1.0)
+        return float(before[0])
 
     def _flips(self, p: Passage, blocked: NDArray[np.bool_]) -> tuple[float, float]:
         """From there on; in a closed cycle that cannot be passed, backwards from its first position."""
@@ -316,18 +314,11 @@ class _Search:
         return [(max(i - 1.0, first), min(i + 1.0, last)) for i in np.flatnonzero(lowest)]
 
     def _lowest(self, name: str, low: float, high: float) -> tuple[float, float]:
-        """Place and value of the minimum, by sections over blocks of places."""
-        best, at = np.inf, 0.5 * (low + high)
-        for _ in range(16):
-            places = np.linspace(low, high, 17)
-            row = self._evaluate((name,), places)[0]
-            if not np.isfinite(row).any():
-                break
-            k = int(np.nanargmin(row))
-            if row[k] < best:
-                best, at = float(row[k]), float(places[k])
-            low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, 16)])
-        return at, best
+        """Place and value of the minimum."""
+        at, best = lowest(
+            lambda places: self._evaluate((name,), places[0])[0][None, :], np.array([low]), np.array([high])
+        )
+        return float(at[0]), float(best[0])
 
     def _centred(self, name: str, place: float) -> float:
         """The zero of the root (which passes through zero in a straight line) from its values on both sides."""

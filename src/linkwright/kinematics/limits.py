@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.search import ends, zeros
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
@@ -30,8 +31,6 @@ Indices = NDArray[np.intp]
 #: Rates below this share of the largest one, or of the whole mechanism's, are rounding errors of zero.
 STILL = 1e-12
 CONSTANT = 1e-10
-#: A Newton step of this share of the distance between two positions ends the refinement.
-FINE = 1e-13
 #: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
 BLURRED = 1e-10
 #: Where a group cannot be computed at its change point, the mean from this share of a step on both sides is taken.
@@ -257,13 +256,9 @@ class _Search:
 
     def _split(self, dips: Brackets, still: float) -> list[Brackets]:
         """Where the rate dips below zero between two positions: both halves."""
-        low, high = dips.low.copy(), dips.high.copy()
-        second = self._rates(dips, low)[1]
-        for _ in range(50):
-            middle = 0.5 * (low + high)
-            rate, there = self._rates(dips, middle)
-            same = np.sign(there) == np.sign(second)
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        second = np.sign(self._rates(dips, dips.low)[1])
+        middle = ends(lambda share: np.sign(self._rates(dips, share)[1]) == second, dips.low, dips.high)
+        rate = self._rates(dips, middle)[0]
         found = (np.abs(rate) > still) & (np.sign(rate) != np.sign(dips.rate_low)) & np.isfinite(rate)
         some, middle, rate = dips.of(found), middle[found], rate[found]
         return [
@@ -279,21 +274,15 @@ class _Search:
 
     def _refined(self, brackets: Brackets) -> Floats:
         """Shares where the rate is zero, by Newton's steps inside the brackets; NaN where it is not (a pole)."""
-        low, high = brackets.low.copy(), brackets.high.copy()
         a, b = brackets.rate_low, brackets.rate_high
-        here = low + (high - low) * a / (a - b)
-        before = high - low
-        for _ in range(100):
-            rate, second = self._rates(brackets, here)
-            same = np.sign(rate) == np.sign(a)
-            low, high = np.where(same, here, low), np.where(same, high, here)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                newton = here - rate / (second * brackets.span)
-            sound = (newton >= low) & (newton <= high) & (np.abs(newton - here) <= 0.5 * before)
-            there = np.where(rate == 0.0, here, np.where(sound, newton, 0.5 * (low + high)))
-            before, here = np.abs(there - here), there
-            if (before <= FINE).all():
-                break
+
+        def rate_and_slope(share: Floats) -> tuple[Floats, Floats]:
+            rate, second = self._rates(brackets, share)
+            return rate, second * brackets.span
+
+        straight = brackets.low + (brackets.high - brackets.low) * a / (a - b)
+        here = zeros(rate_and_slope, brackets.low, brackets.high, a, straight)
+        rate = self._rates(brackets, here)[0]
         lost = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
         time = self.motion.time[brackets.before] + here * brackets.span
         for k in np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED)):

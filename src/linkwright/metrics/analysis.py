@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.search import lowest
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -22,10 +23,6 @@ from linkwright.model.signal_fields import Output
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: Points per bracket and rounds of the search between positions; a parabola ends it.
-POINTS, ROUNDS = 17, 5
-#: The same for mechanisms whose positions are found by iteration, and how many peaks are searched.
-COSTLY_POINTS, COSTLY_ROUNDS = 5, 3
 
 
 @dataclass(frozen=True)
@@ -195,36 +192,13 @@ class Analysis:
     def _narrowed(
         self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme
     ) -> Extreme:
-        """The best of some brackets, each narrowed around its best point again and again."""
-        points, rounds = (COSTLY_POINTS, COSTLY_ROUNDS) if self.resolver.costly else (POINTS, ROUNDS)
-        found = [(sign * first.value, first.time)]
-        shares = np.linspace(0.0, 1.0, points)
-        for _ in range(rounds):
-            grid = low[:, None] + (high - low)[:, None] * shares
-            values = signal(grid.ravel()).reshape(grid.shape)
-            values = np.where(np.isfinite(values), values, -np.inf)
-            best = values.argmax(axis=1)
-            rows = np.arange(len(low))
-            top = int(values[rows, best].argmax())
-            found.append((float(values[top, best[top]]), float(grid[top, best[top]])))
-            step = (high - low) / (points - 1)
-            low, high = np.maximum(grid[rows, best] - step, low), np.minimum(grid[rows, best] + step, high)
-        vertex = _vertex(grid[top], values[top], int(best[top]))
-        if vertex is not None:
-            found.append((float(signal(np.array([vertex]))[0]), vertex))
-        value, time = max(found, key=lambda each: each[0] if np.isfinite(each[0]) else -np.inf)
-        return Extreme(sign * value, time, self.resolver.input_at(time), True)
-
-
-def _vertex(time: Floats, values: Floats, best: int) -> float | None:
-    """Where the parabola through the best of equally spaced points and its neighbours is highest."""
-    if not 0 < best < len(time) - 1:
-        return None
-    a, b, c = values[best - 1 : best + 2]
-    bend = a - 2.0 * b + c
-    if not (np.isfinite(bend) and bend < 0.0):
-        return None
-    return float(time[best] + 0.5 * (a - c) / bend * (time[best + 1] - time[best]))
+        """The best of some brackets of a signal, of which ``sign`` makes the largest the extreme, and a sample."""
+        places, least = lowest(lambda time: -signal(time.ravel()).reshape(time.shape), low, high)
+        best = int(least.argmin())
+        if not -least[best] > sign * first.value:
+            return Extreme(first.value, first.time, first.input, True)
+        time = float(places[best])
+        return Extreme(-sign * float(least[best]), time, self.resolver.input_at(time), True)
 
 
 def _peaks(values: Floats, closed: bool) -> NDArray[np.intp]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.piecewise import POINTS, SMOOTH, Extreme, Piecewise, edges_between, nodes, tails
+from linkwright.core.search import ends
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -20,8 +21,8 @@ from linkwright.model.signal_fields import Phase
 
 #: Pieces of one cycle before the places where something jumps or bends are cut out.
 PIECES = 24
-#: Halvings of pieces that polynomials do not meet, and of a step in which a load begins or ends to act.
-HALVINGS, SWITCH_HALVINGS = 24, 48
+#: Halvings of pieces that polynomials do not meet.
+HALVINGS = 24
 #: More rough pieces than this are noise.
 _NOISE = 96
 
@@ -132,12 +133,10 @@ class CycleGrid:
         if signals.closes is not None:
             where, time = np.append(where, where[0]), np.append(time, time[0] + signals.closes[0])
         steps = np.flatnonzero(where[:-1] != where[1:])
-        low, high, before = time[steps].copy(), time[steps + 1].copy(), where[steps]
-        for _ in range(SWITCH_HALVINGS if len(steps) else 0):
-            middle = 0.5 * (low + high)
-            same = self.resolver.active(phase, middle) == before
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        return np.asarray(0.5 * (low + high))
+        if not len(steps):
+            return np.empty(0)
+        before = where[steps]
+        return ends(lambda at: self.resolver.active(phase, at) == before, time[steps], time[steps + 1])
 
 
 def cycle_grid(resolver: Resolver, motion: Motion, forces: Forces | None) -> CycleGrid | None:

@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.core.search import ends
 from linkwright.kinematics.cycle import Floats
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
@@ -14,7 +15,6 @@ from linkwright.metrics.closure import dyads, transmission_angle
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 
-HALVINGS = 50
 #: Transmission angle, rad, below which a position counts as a dead point.
 DEAD = 1e-6
 
@@ -27,10 +27,7 @@ def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
     inside = np.where(change[where] < 0, motion.time[where], motion.time[where + 1])
     outside = np.where(change[where] < 0, motion.time[where + 1], motion.time[where])
     if analysis.resolver.possible and len(where):
-        for _ in range(HALVINGS):
-            middle = 0.5 * (inside + outside)
-            good = analysis.resolver.motion(middle).ok
-            inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+        inside = ends(lambda time: analysis.resolver.motion(time).ok, inside, outside)
     return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
 
 

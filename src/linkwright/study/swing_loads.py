@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.search import zeros
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -26,10 +27,6 @@ Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
 TURN = 2 * np.pi
-#: Newton steps and halvings of the brackets of limit positions.
-STEPS = 60
-#: A step of this size, rad, ends the search.
-FINE = 1e-14
 
 
 def swings(traced: Traced, names: tuple[str, ...], columns: Mapping[str, Floats]) -> bool:
@@ -131,23 +128,13 @@ class SwingLoads:
     def _refined(self, fine: NumpyProgram, table: Floats, low: Floats, kind: str) -> Floats:
         """The input (designs,) at which the rate changes its sign, from the position before it."""
         step = TURN / len(self.input) * self.sign
-        a, b = low.copy(), low + step
-        place = low + 0.5 * step
-        falling = 1.0 if kind == "max" else -1.0
-        for _ in range(STEPS):
+
+        def rate_and_slope(place: Floats) -> tuple[Floats, Floats]:
             arrays = {f"cos:{self.name}": np.cos(place)[:, None], f"sin:{self.name}": np.sin(place)[:, None]}
             rate, second = fine.run_designs(table, {}, arrays, length=1)[:, :, 0].T
-            before = falling * rate > 0
-            a, b = np.where(before, place, a), np.where(before, b, place)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                newton = place - rate / second * self._speed()
-            inside = (newton - a) * (newton - b) <= 0.0
-            new = np.where(inside, newton, 0.5 * (a + b))
-            change = np.abs(new - place).max(initial=0.0)
-            place = new
-            if not change > FINE * (1.0 + np.abs(place).max(initial=0.0)):
-                break
-        return np.asarray(place)
+            return rate, second / self._speed()
+
+        return zeros(rate_and_slope, low, low + step, np.full(len(low), 1.0 if kind == "max" else -1.0))
 
     def _speed(self) -> float:
         (driver,) = self.traced.mechanism.drivers.values()

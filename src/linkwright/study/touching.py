@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import modal_groups
@@ -20,8 +21,6 @@ from linkwright.study.traced import Traced
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
-#: Sections of a stretch, and how often the best one is cut again.
-SECTIONS, ROUNDS = 17, 13
 #: Designs whose positions are evaluated together.
 BLOCK = 4096
 
@@ -60,24 +59,19 @@ class Touching:
         design, group, place = np.nonzero(valleys)
         if not len(design):
             return design
-        lowest = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
-        return np.unique(design[np.abs(lowest) <= TOUCH])
+        least = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
+        return np.unique(design[np.abs(least) <= TOUCH])
 
     def _refined(self, table: Floats, group: Numbers, place: Numbers) -> Floats:
         """The smallest value of each group's quality between the neighbours of a position."""
-        low, high = np.zeros(len(place)), np.ones(len(place))
         rows = np.arange(len(place))
-        shares = np.linspace(0.0, 1.0, SECTIONS)
-        best = np.full(len(place), np.inf)
-        for _ in range(ROUNDS):
-            at = low[:, None] + (high - low)[:, None] * shares
-            found = self.anywhere.run_designs(table, {}, self._inputs(place, at), length=SECTIONS)
-            quality = found[rows, group]
-            quality = np.where(np.isnan(quality), np.inf, quality)
-            lowest = quality.argmin(axis=1)
-            best = quality[rows, lowest]
-            low, high = at[rows, np.maximum(lowest - 1, 0)], at[rows, np.minimum(lowest + 1, SECTIONS - 1)]
-        return best
+
+        def quality(share: Floats) -> Floats:
+            inputs = self._inputs(place, share)
+            found = self.anywhere.run_designs(table, {}, inputs, length=share.shape[1])
+            return np.asarray(found[rows, group])
+
+        return lowest(quality, np.zeros(len(place)), np.ones(len(place)))[1]
 
     def _inputs(self, place: Numbers, share: Floats) -> dict[str, Floats]:
         """Inputs at shares of the way from the position before to the one after."""
