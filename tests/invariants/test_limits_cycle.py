@@ -133,7 +133,9 @@ def test_rest_between_rise_and_fall_is_one_limit() -> None:
 
 def test_kink_of_a_linear_table_is_a_limit() -> None:
     law = "table: {time: [0 s, 0.7 s, 2 s], position: [0 m, 0.1 m, 0 m], interpolation: linear}"
-    low, high = sorted(limit_positions(lw.solve_motion(driven(law), steps=33), "guide"), key=lambda e: e.value)
+    low, high = sorted(
+        limit_positions(lw.solve_motion(driven(law), steps=33), "guide"), key=lambda e: e.value
+    )
     assert (low.kind, high.kind) == ("min", "max")
     assert high.time == pytest.approx(0.7, abs=1e-12)
     assert min(low.time, 2.0 - low.time) == pytest.approx(0.0, abs=1e-12)  # the cycle's end is its beginning
