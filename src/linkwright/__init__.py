@@ -47,6 +47,12 @@ if TYPE_CHECKING:
     from linkwright.study.sensitivity import sensitivity as sensitivity
     from linkwright.study.study import Study as Study
     from linkwright.study.study import study as study
+    from linkwright.synthesis.motion_generation.generate import motion_generation as motion_generation
+    from linkwright.synthesis.path_generation.generate import path_generation as path_generation
+    from linkwright.synthesis.result import Candidate as Candidate
+    from linkwright.synthesis.result import Synthesis as Synthesis
+    from linkwright.synthesis.result import SynthesisError as SynthesisError
+    from linkwright.synthesis.tasks import synthesize as synthesize
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
@@ -73,6 +79,10 @@ PUBLIC = {
     "linkwright.study.prepared": ("Prepared", "prepare"),
     "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
     "linkwright.study.study": ("Study", "study"),
+    "linkwright.synthesis.motion_generation.generate": ("motion_generation",),
+    "linkwright.synthesis.path_generation.generate": ("path_generation",),
+    "linkwright.synthesis.result": ("Candidate", "Synthesis", "SynthesisError"),
+    "linkwright.synthesis.tasks": ("synthesize",),
     "linkwright.worked.solution": ("Worked", "worked"),
 }
 

@@ -1,0 +1,133 @@
+"""``linkwright synthesize``: dimensions from what the machine must do."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.synthesis.result import Synthesis, SynthesisError
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    from linkwright.synthesis.names import TASK_NAMES
+
+    parser.add_argument(
+        "task", metavar="FILE|TASK", help=say("synthesize.task_help", tasks=", ".join(TASK_NAMES))
+    )
+    parser.add_argument("demands", metavar="KEY=VALUE", nargs="*", help=say("synthesize.demands_help"))
+    parser.add_argument("--output", metavar="FOLDER", help=say("synthesize.output_help"))
+    parser.add_argument("--plot", metavar="FILE", help=say("synthesize.plot_help"))
+    parser.add_argument("--mass", metavar="KG/M", help=say("synthesize.mass_help"))
+    parser.add_argument("--speed", default="60 rpm", metavar="SPEED", help=say("synthesize.speed_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Runs the task and shows or writes its candidates."""
+    from linkwright.cli.tables import PICTURES, refuse_output
+    from linkwright.synthesis.result import SynthesisError
+
+    say = session.say
+    refuse_output(options.plot, PICTURES, say, force=options.force)
+    if options.output is not None and not Path(options.output).is_dir():
+        raise UsageError(say("synthesize.no_folder", path=options.output))
+    mass = _mass(options.mass, say)
+    try:
+        found = _solve(options, session)
+    except SynthesisError as error:
+        return _unmet(error, options, mass, session)
+    _show(found, options, mass, session)
+    return 0
+
+
+def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
+    from linkwright.synthesis.names import TASK_NAMES
+    from linkwright.synthesis.tasks import synthesize_file, synthesize_text
+
+    if options.task not in TASK_NAMES and not options.demands:
+        near = Path(options.task)
+        if not near.suffix and not near.exists():
+            from linkwright.synthesis.tasks import synthesize
+
+            return synthesize(options.task)
+        return synthesize_file(options.task)
+    for text in options.demands:
+        if not text.partition("=")[1]:
+            raise UsageError(session.say("synthesize.bad_demand", text=text))
+    pairs = (text.partition("=") for text in options.demands)
+    lines = [f"  {key.strip()}: {value.strip()}" for key, _, value in pairs]
+    return synthesize_text("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
+
+
+def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | None, session: Session) -> int:
+    """Says which demand fails, and shows the nearest solution."""
+    from linkwright.cli.data import json_text
+    from linkwright.words.sentence import in_language
+
+    sentence = in_language(error.sentence, session.language)
+    session.tell(f"{session.alarm(session.say('cli.error'))}: {sentence}")
+    if session.json:
+        nearest = None if error.nearest is None else error.nearest.data()
+        session.show(json_text({"ok": False, "error": sentence, "nearest": nearest}))
+    elif error.nearest is not None:
+        _show(error.nearest, options, mass, session)
+    return 1
+
+
+def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, session: Session) -> None:
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+
+    efforts = [each.loads(mass, speed=options.speed) for each in found] if mass is not None else []
+    written = []
+    if options.output is not None:
+        for index in range(len(found)):
+            path = Path(options.output) / f"{found.task}_{index + 1}.yaml"
+            write_whole(path, found.model_text(index), session.say, force=options.force)
+            written.append(path)
+    if options.plot is not None:
+        path = Path(options.plot)
+        content = found.plot(language=session.language).content(path.suffix.lower())
+        write_whole(path, content, session.say, force=options.force)
+        written.append(path)
+    if session.json:
+        data = found.data()
+        for each, effort in zip(data["candidates"], efforts, strict=False):
+            each |= effort
+        session.show(json_text({"ok": True, **data}))
+        return
+    session.show(found.text(session.language))
+    if efforts:
+        session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
+    for path in written:
+        session.show(session.say("cli.written", path=path))
+
+
+def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
+    from linkwright.words.width import aligned
+
+    rows = [[say(f"synthesize.column.{name}") for name in ("number", "torque", "reaction")]]
+    rows += [
+        [str(number), f"{each['peak_input_torque']:.5g} N·m", f"{each['peak_reaction']:.5g} N"]
+        for number, each in enumerate(efforts, 1)
+    ]
+    return aligned(rows, ">>>")
+
+
+def _mass(text: str | None, say: Say) -> float | None:
+    if text is None:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise UsageError(say("synthesize.bad_mass", text=text))
+    return value

@@ -1,0 +1,86 @@
+"""What a synthesis found: target, candidates and their curves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, style
+from linkwright.synthesis.result import Candidate, Synthesis
+from linkwright.words import say
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SHOWN = 4
+
+
+@RESULT_DIAGRAMS.register("synthesis")
+class SynthesisDiagram(ResultKind):
+    """The best candidates in their first pose with the curves they draw, the target, and Burmester's curves.
+
+    Functions are drawn beside them over the input.
+    """
+
+    name = "synthesis"
+    takes = Synthesis
+
+    def draw(self, result: Synthesis, request: Request) -> Figure:
+        with style(request.language):
+            from matplotlib.figure import Figure
+
+            function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
+            figure = Figure(figsize=request.size or ((11, 5.2) if function else (7.5, 6)), layout="constrained")
+            axes = figure.subplots(1, 2 if function else 1, squeeze=False)[0]
+            self._plane(axes[0], result, request.language)
+            if function:
+                self._function(axes[1], result, request.language)
+            title = say("synthesize.title", request.language, task=result.task, count=len(result))
+            figure.suptitle(title if request.title is None else request.title)
+        return figure
+
+    def _plane(self, axes: Any, result: Synthesis, language: str) -> None:
+        for name, curve in result.curves.items():
+            label = say(f"synthesize.legend.{name}", language)
+            axes.plot(curve.real, curve.imag, ".", ms=2.5, color=FAINT if "centre" in name else "#d9a13b", label=label)
+        for number, each in enumerate(result.candidates[:SHOWN]):
+            colour = COLOURS[number % len(COLOURS)]
+            if each.curve is not None and each.curve.ndim == 1:
+                axes.plot(each.curve.real, each.curve.imag, color=colour, lw=1)
+            _links(axes, each, colour, say("synthesize.legend.candidate", language, number=number + 1))
+        target = result.target
+        if target is not None and np.iscomplexobj(target):
+            places = target if target.ndim == 1 else target[0]
+            label = say("synthesize.legend.target", language)
+            axes.plot(places.real, places.imag, "o", ms=4, mfc="none", color=INK, label=label)
+            if target.ndim == 2:
+                axes.quiver(places.real, places.imag, target[1].real, target[1].imag, color=INK, width=0.003)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel(say("synthesize.axis.x", language))
+        axes.set_ylabel(say("synthesize.axis.y", language))
+        axes.margins(0.05)
+        axes.legend()
+
+    def _function(self, axes: Any, result: Synthesis, language: str) -> None:
+        for number, each in enumerate(result.candidates[:SHOWN]):
+            if each.curve is not None and each.curve.ndim == 2:
+                axes.plot(*each.curve, color=COLOURS[number % len(COLOURS)])
+        target = result.target
+        if target is not None and not np.iscomplexobj(target):
+            axes.plot(*target, "o", ms=4, mfc="none", color=INK)
+        axes.set_xlabel(say("synthesize.axis.input", language))
+        axes.set_ylabel(say("synthesize.axis.output", language))
+
+
+def _links(axes: Any, each: Candidate, colour: str, label: str) -> None:
+    points = each.linkage.points
+    for names in each.linkage.links.values():
+        if len(names) > 1:
+            ring = [*names, names[0]] if len(names) > 2 else list(names)
+            places = np.array([points[name] for name in ring])
+            axes.plot(places.real, places.imag, "-o", ms=3.5, color=colour, lw=1.8, label=label)
+            label = "_"
+    pivots = np.array([points[name] for name in each.linkage.frame])
+    axes.plot(pivots.real, pivots.imag, "^", ms=7, color=colour)

@@ -1,0 +1,1 @@
+"""Synthesis: dimensions from what the machine must do."""

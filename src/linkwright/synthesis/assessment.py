@@ -1,0 +1,196 @@
+"""What a designer must know about a four-bar or slider-crank: type, defects, transmission angle, link ratio.
+
+All functions take many linkages at once. Positions are complex numbers (x + iy, m): pivots (N,), moving pins at the
+n demanded positions (N, n). The input link turns about O1.
+
+Type: Grashof 1883, s + l < p + q. Input range: the diagonal A–O2 of a four-bar lies between |b - c| and b + c, so
+
+    cos θ_min,max = (a² + d² - (b ± c)²) / (2 a d),    θ from the line O1→O2;
+
+of a slider-crank |a sin θ - e| ≤ b, θ from the guide. Positions on one *circuit* can be reached without dismantling; on
+one *branch* of it without passing a dead point of the input (sign of the sine of the transmission angle); they are in
+*order* where an input that turns one way meets them as they are numbered.
+Source: Chase and Mirth 1993, "Circuits and branches of single-degree-of-freedom planar linkages", J. Mech. Des. 115.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+Whole = NDArray[np.int64]
+
+#: Positions this near to a dead point, relative to the lengths, may lie on either branch.
+EQUAL = 1e-9
+TYPES = (
+    "crank_rocker", "rocker_crank", "double_crank", "double_rocker", "triple_rocker", "change_point",
+    "slider_crank", "slider_rocker",
+)  # fmt: skip
+FULL, NEAR_ZERO, NEAR_PI, PAIR, NOWHERE = range(5)
+
+
+@dataclass(frozen=True, eq=False)
+class Assessment:
+    """Facts about N linkages, arrays (N,).
+
+    ``kind``: index into TYPES; ``turns``: the input link turns fully; ``order``, ``branch``, ``circuit``: defects;
+    ``transmission``: smallest transmission angle over a turn of the input, or between its first and last position
+    where it does not turn (rad); ``ratio``: longest to shortest link; ``first``, ``last``: input angles of that range
+    from the line O1→O2 or the guide (rad).
+    """
+
+    kind: Whole
+    turns: Flags
+    order: Flags
+    branch: Flags
+    circuit: Flags
+    transmission: Floats
+    ratio: Floats
+    first: Floats
+    last: Floats
+
+    @property
+    def sound(self) -> Flags:
+        """Linkages without any defect."""
+        return np.asarray(~(self.order | self.branch | self.circuit))
+
+    def defects(self, index: int) -> tuple[str, ...]:
+        """Words of the defects of one linkage."""
+        return tuple(name for name in ("circuit", "branch", "order") if getattr(self, name)[index])
+
+
+def assess_four_bars(o1: Complexes, a: Complexes, b: Complexes, o2: Complexes) -> Assessment:
+    """Facts about four-bars O1 A B O2 whose pins A and B have n positions (N, n)."""
+    frame = o2 - o1
+    lengths = np.stack([np.abs(a[:, 0] - o1), np.abs(b[:, 0] - a[:, 0]), np.abs(b[:, 0] - o2), np.abs(frame)])
+    kind = grashof_types(lengths)
+    low, high, place = four_bar_range(lengths)
+    theta = np.angle((a - o1[:, None]) / frame[:, None])
+    sine = _cross(o2[:, None] - a, b - a)
+    size = np.abs(o2[:, None] - a) * np.abs(b - a)
+    branch = _sign(sine, size)
+    rocking = (place == PAIR)[:, None]
+    circuit = np.where(
+        (place == FULL)[:, None], branch, np.where(rocking, _sign(np.sin(theta), np.ones_like(theta)), 0)
+    )
+    first, last, order = _working_range(theta, place)
+    extremes = _cosines(first, last, np.pi * np.arange(-3, 4))
+    square = lengths[0] ** 2 + lengths[3] ** 2 - 2 * lengths[0] * lengths[3] * extremes
+    cosine = (lengths[1] ** 2 + lengths[2] ** 2 - square) / (2 * lengths[1] * lengths[2])
+    transmission = np.arccos(np.clip(np.nanmax(np.abs(cosine), 0), 0, 1))
+    return _assessment(kind, place, order, branch, circuit, transmission, _ratio(lengths), first, last)
+
+
+def assess_slider_cranks(
+    o1: Complexes, a: Complexes, b: Complexes, direction: Complexes, offset: Floats
+) -> Assessment:
+    """Facts about slider-cranks O1 A B; the guide of B has a unit ``direction``, ``offset`` (m) left of O1."""
+    crank, rod = np.abs(a[:, 0] - o1), np.abs(b[:, 0] - a[:, 0])
+    place = slider_range(crank, rod, offset)
+    theta = np.angle((a - o1[:, None]) / direction[:, None])
+    branch = _sign(((b - a) * direction.conj()[:, None]).real, np.abs(b - a))
+    circuit = np.where(
+        (place == FULL)[:, None],
+        branch,
+        np.where((place == PAIR)[:, None], _sign(np.cos(theta), np.ones_like(theta)), 0),
+    )
+    shifted = np.angle(np.exp(1j * theta) * np.where(offset < 0, 1j, -1j)[:, None])
+    upright = np.where(place == PAIR, PAIR, np.where(place == FULL, FULL, NEAR_ZERO))
+    first, last, order = _working_range(np.where((place == FULL)[:, None], theta, shifted), upright)
+    middle = np.where(place == FULL, 0.0, np.where(offset < 0, -np.pi / 2, np.pi / 2))
+    first, last = first + middle, last + middle
+    height = np.abs(crank * _sines(first, last) - offset) / rod
+    transmission = np.arccos(np.clip(np.nanmax(height, 0), 0, 1))
+    kind = np.where(place == FULL, TYPES.index("slider_crank"), TYPES.index("slider_rocker"))
+    ratio = np.maximum(crank, rod) / np.minimum(crank, rod)
+    return _assessment(kind, place, order, branch, circuit, transmission, ratio, first, last)
+
+
+def grashof_types(lengths: Floats) -> Whole:
+    """Index into TYPES for lengths (4, N) of input, coupler, output, frame."""
+    ordered = np.sort(lengths, axis=0)
+    margin = ordered[1] + ordered[2] - ordered[0] - ordered[3]
+    names = ("crank_rocker", "double_rocker", "rocker_crank", "double_crank")
+    kind = np.array([TYPES.index(name) for name in names])[lengths.argmin(0)]
+    kind = np.where(margin < 0, TYPES.index("triple_rocker"), kind)
+    return np.where(np.abs(margin) <= 1e-12 * ordered[3], TYPES.index("change_point"), kind)
+
+
+def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Whole]:
+    """Least and greatest cosine of the input angle of four-bars (4, N), and where the input's range lies."""
+    a, b, c, d = lengths
+    low = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
+    high = (a * a + d * d - (b - c) ** 2) / (2 * a * d)
+    return low, high, _place(low, high)
+
+
+def slider_range(crank: Floats, rod: Floats, offset: Floats) -> Whole:
+    """Where the input's range of slider-cranks lies: the whole turn, both sides of the guide, or one side."""
+    low, high = (np.abs(offset) - rod) / crank, (np.abs(offset) + rod) / crank
+    return _place(low, high)
+
+
+def _place(low: Floats, high: Floats) -> Whole:
+    from_minus, to_plus = low <= -1 + 1e-14, high >= 1 - 1e-14
+    place = np.where(from_minus, np.where(to_plus, FULL, NEAR_PI), np.where(to_plus, NEAR_ZERO, PAIR))
+    return np.where((low > 1) | (high < -1), NOWHERE, place)
+
+
+def _working_range(theta: Floats, place: Whole) -> tuple[Floats, Floats, Flags]:
+    """First and last input angle, (N,), and whether the positions are not in order, (N,)."""
+    near_pi = np.mod(theta, 2 * np.pi)
+    signed = np.where((place == NEAR_PI)[:, None], near_pi, theta)
+    pair_low = np.where(theta < 0, -theta, theta)
+    steps = np.diff(signed, axis=1)
+    tiny = 1e-9
+    rocking = (steps > -tiny).all(1) | (steps < tiny).all(1)
+    forward = np.mod(np.diff(theta, axis=1) + tiny, 2 * np.pi).sum(1)
+    backward = np.mod(tiny - np.diff(theta, axis=1), 2 * np.pi).sum(1)
+    turning = np.minimum(forward, backward) < 2 * np.pi + theta.shape[1] * tiny
+    full = place == FULL
+    first = np.where(full, 0.0, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.min(1), signed.min(1)))
+    last = np.where(full, 2 * np.pi, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.max(1), signed.max(1)))
+    return np.minimum(first, last), np.maximum(first, last), ~np.where(full, turning, rocking)
+
+
+def _cosines(first: Floats, last: Floats, special: Floats) -> Floats:
+    """Cosines at the ends of the ranges and at the special angles inside, (k, N)."""
+    inside = (special[:, None] >= first) & (special[:, None] <= last)
+    middle = np.where(inside, np.cos(special)[:, None], np.nan)
+    return np.concatenate([np.cos(first)[None], np.cos(last)[None], middle])
+
+
+def _sines(first: Floats, last: Floats) -> Floats:
+    return _cosines(first - np.pi / 2, last - np.pi / 2, np.pi * np.arange(-3, 4))
+
+
+def _assessment(
+    kind: Whole, place: Whole, order: Flags, branch: Whole, circuit: Whole,
+    transmission: Floats, ratio: Floats, first: Floats, last: Floats,
+) -> Assessment:  # fmt: skip
+    off_circuit, off_branch = _differs(circuit), _differs(branch)
+    return Assessment(
+        kind, place == FULL, order, off_branch & ~off_circuit, off_circuit, transmission, ratio, first, last
+    )
+
+
+def _differs(sign: Whole) -> Flags:
+    """Whether both signs occur; 0 fits both."""
+    return np.asarray((sign.max(1) > 0) & (sign.min(1) < 0))
+
+
+def _sign(value: Floats, size: Floats) -> Whole:
+    return np.where(np.abs(value) <= EQUAL * size, 0, np.sign(value)).astype(np.int64)
+
+
+def _cross(u: Complexes, v: Complexes) -> Floats:
+    return np.asarray((u.conj() * v).imag)
+
+
+def _ratio(lengths: Floats) -> Floats:
+    return np.asarray(lengths.max(0) / np.maximum(lengths.min(0), 1e-300))

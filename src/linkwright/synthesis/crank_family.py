@@ -1,0 +1,100 @@
+"""Four-bars with a turning crank of length 1, by three free numbers; their paths and the path's derivatives.
+
+With the crank of length 1, coupler b, output c and frame d, the transmission angle never falls below μ just where
+(κ = cos μ, s = b + c, m = b - c)
+
+    s² (1 + κ) + m² (1 - κ) ≥ 2 (d + 1)²  and  s² (1 - κ) + m² (1 + κ) ≤ 2 (d - 1)²
+
+(the law of cosines where the crank lies along the frame; κ = 1 is Grashof's b + c ≥ d + 1, |b - c| ≤ |d - 1|: the
+crank turns fully). So with d₀ = (1 + tan μ/2)/(1 - tan μ/2) three free numbers reach every such four-bar and no other,
+the border included:
+
+    d = d₀ + eˣ (crank-rockers) or 1/(d₀ + eˣ) (double cranks),
+    m = sin z √((d - 1)²(1 + κ) - (d + 1)²(1 - κ)) / √(2κ),   s² = lowest + (highest - lowest) sin² y;
+
+for μ = 0, where s has no highest value, s = d + 1 + y².
+
+The coupler's unit vector U at crank angle θ, with A = e^{iθ} and D = d - A, is
+U = D (t + i √(4 b² D·D - t²)) / (2 b D·D), t = D·D + b² - c². From |b U - D| = c follow its rates: with V = b U - D,
+dU = i U dψ,  dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U),  dD = dd - i A dθ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+Whole = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class CrankFamily:
+    """K four-bars by free numbers (K, 3): ``double`` (K,) marks double cranks, ``transmission`` is μ in rad."""
+
+    double: Flags
+    transmission: float = 0.0
+
+    @classmethod
+    def random(cls, rng: np.random.Generator, count: int, transmission: float = 0.0) -> tuple[CrankFamily, Floats]:
+        """A family and free numbers spread over link ratios up to about eight."""
+        x = rng.uniform(np.log(0.08), np.log(7.0), count)
+        y = rng.uniform(0.05, 2.6 if transmission == 0.0 else np.pi / 2, count)
+        z = rng.uniform(-np.pi / 2, np.pi / 2, count)
+        return cls(rng.random(count) < 0.3, transmission), np.stack([x, y, z], 1)
+
+    def chosen(self, rows: Whole) -> CrankFamily:
+        """The family of some of its rows."""
+        return CrankFamily(self.double[rows], self.transmission)
+
+    def lengths(self, free: Floats) -> Floats:
+        """Lengths b, c, d, (3, K)."""
+        grown = np.exp(np.clip(free[:, 0], -30, 12))
+        slope = np.tan(self.transmission / 2)
+        d = (1 + slope) / (1 - slope) + grown
+        d = np.where(self.double, 1 / d, d)
+        k = np.cos(self.transmission)
+        room = np.maximum((d - 1) ** 2 * (1 + k) - (d + 1) ** 2 * (1 - k), 0.0)
+        difference = np.sin(free[:, 2]) * np.sqrt(room / (2 * k))
+        lowest = (2 * (d + 1) ** 2 - difference**2 * (1 - k)) / (1 + k)
+        if self.transmission == 0.0:
+            total = np.sqrt(lowest) + free[:, 1] ** 2
+        else:
+            highest = (2 * (d - 1) ** 2 - difference**2 * (1 + k)) / (1 - k)
+            total = np.sqrt(lowest + np.maximum(highest - lowest, 0.0) * np.sin(free[:, 1]) ** 2)
+        return np.stack([0.5 * (total + difference), 0.5 * (total - difference), d])
+
+    def rates(self, free: Floats) -> Floats:
+        """Derivatives of b, c, d by the free numbers, (3, K, 3): central differences."""
+        step = 1e-6
+        moved = [step * np.eye(3)[j] for j in range(3)]
+        x = free[:, :3]
+        return np.stack([(self.lengths(x + h) - self.lengths(x - h)) / (2 * step) for h in moved], 2)
+
+
+def couplers(theta: Floats, shape: Floats) -> tuple[Complexes, Complexes]:
+    """Crank pin A and coupler's unit vector U, (K, n), of angles (K, n) or (n,) and lengths (3, K)."""
+    b, c, d = shape[:, :, None]
+    a = np.exp(1j * theta) * np.ones_like(b)
+    reach = d - a
+    square = reach.real**2 + reach.imag**2
+    t = square + b * b - c * c
+    root = np.sqrt(np.maximum(4 * b * b * square - t * t, 0.0))
+    return a, reach * (t + 1j * root) / (2 * b * square)
+
+
+def coupler_rates(a: Complexes, u: Complexes, shape: Floats, rates: Floats) -> tuple[Complexes, Complexes]:
+    """Derivatives of U by the free numbers, (K, n, 3), and by θ, (K, n)."""
+    b, c, d = shape[:, :, None]
+    db, dc, dd = rates[:, :, None]
+    v = b * u - (d - a)
+    across = -(v.conj() * u).imag * b
+    across = np.where(np.abs(across) < 1e-9, np.copysign(1e-9, across), across)
+    toward = (v.conj() * u).real
+    turned = c[:, :, None] * dc - toward[:, :, None] * db + v.real[:, :, None] * dd
+    by_angle = (v.conj() * (-1j * a)).real / across
+    return 1j * u[:, :, None] * turned / across[:, :, None], 1j * u * by_angle

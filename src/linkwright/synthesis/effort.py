@@ -1,0 +1,35 @@
+"""Peak torque and reactions of a candidate whose links are given a mass per length."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from linkwright.kinematics import solve_motion
+from linkwright.kinetostatics.forces import solve_forces
+from linkwright.synthesis.linkage import Linkage
+
+
+def peak_loads(linkage: Linkage, mass_per_length: float, speed: str, steps: int) -> dict[str, float]:
+    """``peak_input_torque`` (N·m) and ``peak_reaction`` (N) over the cycle, links as slender rods, no gravity.
+
+    Raises PositionError where the linkage does not pass its cycle.
+    """
+    mechanism = linkage.mechanism(speed=speed)
+    links = {}
+    for name, link in mechanism.links.items():
+        points = linkage.links[name]
+        length = linkage.length(*points[:2]) if len(points) > 1 else 0.0
+        mass = mass_per_length * length
+        middle = np.mean([link.points[each] for each in points[:2]], axis=0)
+        centre = (float(middle[0]), float(middle[1]))
+        links[name] = replace(link, mass=mass, inertia=mass * length**2 / 12, mass_centre=centre)
+    forces = solve_forces(solve_motion(replace(mechanism, links=links), steps=steps))
+    reactions = [
+        np.hypot(*forces.reaction(name, on=joint.joined[0]).T).max() for name, joint in mechanism.joints.items()
+    ]
+    return {
+        "peak_input_torque": float(np.abs(forces.input_torque).max()),
+        "peak_reaction": float(max(reactions)),
+    }

@@ -1,0 +1,222 @@
+"""Dyads that pass two, three, four, five or more poses: finite sets, and evenly sampled families.
+
+Four poses: the circle-point curve is where the three bisectors of a point's positions meet in one point,
+
+    det [Re q_j, Im q_j, Re(q_j* z) + |q_j|²/2] = 0,  q_j the displacement to pose j:
+
+a cubic in z, cut by horizontal and vertical lines. One of its points runs on a straight line: the second intersection of
+two circles through the pole P₀₁. Three poses: any point has its circle; those on a circle through the pole run on
+straight lines. Two poses: any point, and any centre on the bisector of its two positions.
+Source: Bottema and Roth 1979, Theoretical Kinematics, ch. 8; McCarthy and Soh 2011, Geometric Design of Linkages.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.least_squares import minimise
+from linkwright.synthesis.motion_generation.burmester import (
+    FAR,
+    Dyads,
+    circles,
+    five_poses,
+    join,
+    moved,
+    relative_poses,
+    sliders,
+)
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+
+LINES, GRID, SPREAD = 60, 18, 9
+SUBSETS, FIT_STEPS = 60, 60
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the frame in which pivots may lie: corners, m."""
+
+    low: complex
+    high: complex
+
+    def holds(self, z: Complexes) -> NDArray[np.bool_]:
+        """Which places lie inside."""
+        across = (z.real >= self.low.real) & (z.real <= self.high.real)
+        return np.asarray(across & (z.imag >= self.low.imag) & (z.imag <= self.high.imag))
+
+
+def usual_window(p: Complexes) -> Window:
+    """Three times the extent of the poses' places about their middle."""
+    middle = complex(np.mean([p.real.min(), p.real.max()]), np.mean([p.imag.min(), p.imag.max()]))
+    half = 1.5 * max(float(np.ptp(p.real)), float(np.ptp(p.imag)), 1e-9)
+    return Window(middle - half * (1 + 1j), middle + half * (1 + 1j))
+
+
+def dyads(p: Complexes, phi: Floats, window: Window) -> Dyads:
+    """Dyads of n poses (n,): all of them for five, a sample of those within the window for fewer."""
+    d, e = relative_poses(p, phi)
+    if len(p) == 5:
+        return _five(p, phi)
+    if len(p) == 4:
+        found = join(circles(circle_points(d, e, _shifted(window, p)), p, d, e), sliders(_slider_of_four(d, e), p, d, e))
+    elif len(p) == 3:
+        found = join(circles(_grid(window, p), p, d, e), sliders(_sliders_of_three(d, e), p, d, e))
+    else:
+        found = _two(p, d, e, window)
+    inside = window.holds(found.positions[:, 0]) & (found.slides | window.holds(found.centre))
+    return found[np.flatnonzero(inside)]
+
+
+def _five(p: Complexes, phi: Floats) -> Dyads:
+    z, c, real, slides = (each[0] for each in five_poses(p[None], phi[None]))
+    d, e = relative_poses(p, phi)
+    pins, guides = z[real & ~slides], z[real & slides]
+    found = circles(pins, p, d, e)
+    exact = Dyads(found.point, found.positions, p[0] + c[real & ~slides], found.direction)
+    return join(exact, sliders(guides, p, d, e)) if len(guides) else exact
+
+
+def circle_points(d: Complexes, e: Complexes, window: Window) -> Complexes:
+    """Points of the circle-point curve of four poses on a net of lines, (K,), in axes at the first pose."""
+    xs = np.linspace(window.low.real, window.high.real, LINES)
+    ys = np.linspace(window.low.imag, window.high.imag, LINES)
+    middle, half = 0.5 * (window.low + window.high), 0.5 * (window.high - window.low)
+    origin = np.concatenate([xs + 1j * middle.imag, middle.real + 1j * ys])
+    along = np.concatenate([np.full(LINES, 1j * half.imag), np.full(LINES, half.real + 0j)])
+    return on_lines(d, e, origin, along)
+
+
+def on_lines(d: Complexes, e: Complexes, origin: Complexes, along: Complexes) -> Complexes:
+    """Points of the circle-point curve on the segments origin ± along, (K,)."""
+    nodes = np.cos((2 * np.arange(4) + 1) * np.pi / 8)
+    values = cubic(origin[:, None] + nodes * along[:, None], d, e)
+    coefficients = np.linalg.solve(np.vander(nodes, increasing=True), values.T).T
+    lead = coefficients[:, 3]
+    usable = np.abs(lead) > 1e-12 * np.abs(coefficients).max(1)
+    companion = np.zeros((int(usable.sum()), 3, 3))
+    companion[:, [1, 2], [0, 1]] = 1
+    companion[:, :, 2] = -coefficients[usable, :3] / lead[usable, None]
+    t = np.linalg.eigvals(companion)
+    real = (np.abs(t.imag) < 1e-9) & (np.abs(t.real) <= 1)
+    return np.asarray((origin[usable, None] + t.real * along[usable, None])[real])
+
+
+def cubic(z: Complexes, d: Complexes, e: Complexes) -> Floats:
+    """The circle-point curve's function at places z of any shape."""
+    q = d[1:4] + (e[1:4] - 1) * z[..., None]
+    third = (q.conj() * z[..., None]).real + np.abs(q) ** 2 / 2
+    return np.asarray(np.linalg.det(np.stack([q.real, q.imag, third], -1)))
+
+
+def inverse_poses(p: Complexes, phi: Floats) -> tuple[Complexes, Floats]:
+    """The frame's poses seen from the body: its circle points are the centre points, in axes at pose 0."""
+    d, e = relative_poses(p, phi)
+    return -d * e.conj(), -(phi - phi[0])
+
+
+def _slider_circle(d: Complexes, e: Complexes, j: int) -> tuple[complex, float]:
+    """Centre and radius of the points whose positions 0, 1 and j lie in a line; it passes the pole P₀₁."""
+    curvature = ((e[1].conj() - 1) * (e[j] - 1)).imag
+    linear = d[1].conj() * (e[j] - 1) - (e[1] - 1) * d[j].conj()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = -np.conj(-0.5j * linear) / curvature
+        pole = d[1] / (1 - e[1])
+    return complex(centre), float(abs(pole - centre))
+
+
+def _slider_of_four(d: Complexes, e: Complexes) -> Complexes:
+    (c2, _), (c3, _) = _slider_circle(d, e, 2), _slider_circle(d, e, 3)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pole, axis = d[1] / (1 - e[1]), c3 - c2
+        other = c2 + axis * np.conj((pole - c2) / axis)
+    return np.array([other]) if np.isfinite(other) else np.empty(0, complex)
+
+
+def _sliders_of_three(d: Complexes, e: Complexes) -> Complexes:
+    centre, radius = _slider_circle(d, e, 2)
+    if not np.isfinite(radius):
+        return np.empty(0, complex)
+    return np.asarray(centre + radius * np.exp(2j * np.pi * np.arange(72) / 72))
+
+
+def _shifted(window: Window, p: Complexes) -> Window:
+    return Window(window.low - complex(p[0]), window.high - complex(p[0]))
+
+
+def _grid(window: Window, p: Complexes) -> Complexes:
+    xs = np.linspace(window.low.real, window.high.real, GRID)
+    ys = np.linspace(window.low.imag, window.high.imag, GRID)
+    return np.asarray((xs[:, None] + 1j * ys).ravel() - p[0])
+
+
+def _two(p: Complexes, d: Complexes, e: Complexes, window: Window) -> Dyads:
+    z = _grid(window, p)[::2].repeat(SPREAD)
+    positions = p[0] + z[:, None] + moved(z, d, e)
+    chord = positions[:, 1] - positions[:, 0]
+    reach = abs(window.high - window.low) / 2
+    slide = np.tile(np.linspace(-1, 1, SPREAD), len(z) // SPREAD) * reach
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = positions.mean(1) + 1j * slide * chord / np.abs(chord)
+    found = Dyads(z, positions, centre, np.full(len(z), np.nan + 0j))
+    lines = sliders(z[::SPREAD], p, d, e)
+    return join(found[np.flatnonzero(np.isfinite(centre))], lines)
+
+
+def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, Floats]:
+    """Dyads of least Σ (|Z_j - C| - R)² over any number of poses, best first, and that sum (K,), m².
+
+    Starts: the Burmester points of many sets of five poses (four of them and the start set's own where there are
+    five), real parts of complex ones included.
+    """
+    d, e = relative_poses(p, phi)
+    size = float(np.sqrt(np.mean(np.abs(d) ** 2))) or 1.0
+    z, c = _fit_starts(p, phi, rng)
+    z, c = np.clip(z.real, -50 * size, 50 * size) + 1j * np.clip(z.imag, -50 * size, 50 * size), c
+
+    def system(x: Floats, who: Whole) -> tuple[Floats, Floats]:
+        point, centre = x[:, 0] + 1j * x[:, 1], x[:, 2] + 1j * x[:, 3]
+        off = point[:, None] + moved(point, d, e) - centre[:, None]
+        distance = np.abs(off) + 1e-300
+        unit = off.conj() / distance
+        ones = np.ones_like(distance)
+        slope = np.stack([(unit * e).real, (unit * 1j * e).real, -unit.real, (unit * -1j).real], 2)
+        slope = slope - slope.mean(1, keepdims=True)
+        return distance - distance.mean(1, keepdims=True) * ones, slope
+
+    start = np.column_stack([z.real, z.imag, c.real, c.imag])
+    x, f, _ = minimise(system, start, steps=FIT_STEPS, keep=len(start))
+    point, centre = x[:, 0] + 1j * x[:, 1], x[:, 2] + 1j * x[:, 3]
+    kept = _different(np.column_stack([point, centre]), size)
+    kept = kept[(np.abs(centre[kept]) < 100 * size) & np.isfinite(f[kept])]
+    positions = p[0] + point[kept, None] + moved(point[kept], d, e)
+    empty = np.full(len(kept), np.nan + 0j)
+    return Dyads(point[kept], positions, centre[kept] + p[0], empty), f[kept]
+
+
+def _fit_starts(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Complexes, Complexes]:
+    n = len(p)
+    every = list(combinations(range(n), 5)) if n < 12 else [sorted(rng.choice(n, 5, replace=False)) for _ in range(SUBSETS)]
+    chosen = np.array([every[i] for i in rng.permutation(len(every))[:SUBSETS]])
+    z, c, _, slides = five_poses(p[chosen], phi[chosen])
+    first = chosen[:, :1]
+    turn = np.exp(1j * (phi[first] - phi[0]))
+    good = np.isfinite(z) & np.isfinite(c) & ~slides & (np.abs(c) < FAR)
+    body = (z / turn) + (p[0] - p[first]) * 0
+    return body[good] + 0j, (c + p[first] - p[0])[good]
+
+
+def _different(x: Complexes, size: float) -> Whole:
+    """Rows that differ from every row before them."""
+    kept: list[int] = []
+    for i in range(len(x)):
+        if all(np.abs(x[i] - x[j]).max() > 1e-5 * size for j in kept):
+            kept.append(i)
+        if len(kept) == 24:
+            break
+    return np.array(kept, dtype=np.int64)

@@ -1,0 +1,219 @@
+"""Motion generation: four-bars and slider-cranks whose coupler takes given poses."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
+from linkwright.synthesis.build import (
+    candidate,
+    four_bar_candidate,
+    path_of_four_bar,
+    slider_crank,
+    working_span,
+)
+from linkwright.synthesis.motion_generation.burmester import Dyads, circles, join, relative_poses
+from linkwright.synthesis.motion_generation.families import (
+    Window,
+    circle_points,
+    dyads,
+    fitted,
+    inverse_poses,
+    usual_window,
+)
+from linkwright.synthesis.result import Candidate, Synthesis, note, ranking, refuse
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+Pose = Sequence[float]
+
+MOST_DYADS = 360
+
+
+def motion_generation(
+    poses: ArrayLike,
+    *,
+    within: tuple[tuple[float, float], tuple[float, float]] | None = None,
+    fixed_pivots: Sequence[tuple[float, float]] = (),
+    moving_pivots: Sequence[tuple[float, float]] = (),
+    link_ratio: float = 10.0,
+    count: int = 6,
+) -> Synthesis:
+    """Linkages whose coupler takes the poses: all dyads and all their pairs.
+
+    Args:
+        poses: (n, 3) x (m), y (m) and angle (rad) of the coupler, n ≥ 2. Five poses: all real Burmester dyads; two
+            to four: dyads sampled from their families; six and more: dyads of least squares.
+        within: lower left and upper right corner (m) in which pivots lie at the first pose (n ≤ 4); default: three
+            times the extent of the poses.
+        fixed_pivots, moving_pivots: pivots that dyads must have (n ≤ 3): places in the frame, moving ones at the
+            first pose, m.
+        link_ratio: candidates with a larger ratio of longest to shortest link come last.
+        count: candidates wanted.
+
+    Returns:
+        Candidates without circuit, branch and order defects, by transmission angle. ``error``: the greatest
+        difference of a link's length between poses, m: 0 for exact ones.
+
+    Raises:
+        SynthesisError: fewer than two real dyads, or no pair that moves through the poses in order without being
+            dismantled; ``nearest`` has the best ones with their defects or errors.
+    """
+    p, phi = _read(poses)
+    window = usual_window(p) if within is None else Window(complex(*within[0]), complex(*within[1]))
+    found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots)
+    counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
+    if len(found) < 2 and len(p) == 5:
+        raise refuse("motion.no_dyads", _nearest(p, phi, link_ratio, count), real=len(found))
+    chosen = _pairs(found, error, p, phi, link_ratio, count)
+    counts["pairs"] = len(found) * (len(found) - 1) // 2
+    curves = _curves(p, phi, window) if len(p) == 4 else {}
+    result = Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), counts, curves=curves)
+    if not chosen:
+        raise refuse("motion.no_pairs")
+    if all(each.defects for each in chosen):
+        flaws = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in chosen[0].defects))
+        raise refuse("motion.no_movable", result, why=flaws)
+    if len(p) > 5:
+        result = replace(result, notes=(note("motion.fitted", poses=len(p)),))
+    return result
+
+
+def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
+    given = np.asarray(poses, float)
+    if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given).all():
+        raise refuse("motion.poses")
+    p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]
+    size = np.ptp(p.real) + np.ptp(p.imag)
+    same = [
+        (i + 1, j + 1)
+        for i in range(len(p))
+        for j in range(i)
+        if abs(p[i] - p[j]) <= 1e-12 * size and abs(cmath.exp(1j * (phi[i] - phi[j])) - 1) < 1e-12
+    ]
+    if same:
+        raise refuse("motion.same", first=same[0][1], second=same[0][0])
+    return p, phi
+
+
+def _all_dyads(
+    p: Complexes, phi: Floats, window: Window, fixed: Sequence[tuple[float, float]],
+    moving: Sequence[tuple[float, float]],
+) -> tuple[Dyads, Floats]:  # fmt: skip
+    """Dyads and the squared errors of their lengths."""
+    if fixed or moving:
+        if len(p) > 3:
+            raise refuse("motion.pivots", poses=len(p))
+        d, e = relative_poses(p, phi)
+        given = [_with_centre(p, phi, complex(*place)) for place in fixed]
+        given += [complex(*place) - p[0] for place in moving]
+        named = circles(np.array(given), p, d, e)
+        rest = dyads(p, phi, window) if len(given) == 1 else named[:0]
+        found = join(named, rest)
+        return found, np.zeros(len(found))
+    if len(p) > 5:
+        return fitted(p, phi, np.random.default_rng(0))
+    found = dyads(p, phi, window)
+    thin = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_DYADS)).astype(int))
+    found = found[thin] if len(found) else found
+    return found, np.zeros(len(found))
+
+
+def _with_centre(p: Complexes, phi: Floats, centre: complex) -> complex:
+    """The body point whose circle about the given centre passes its positions (three poses), by inversion."""
+    back = (centre - p) * np.exp(-1j * (phi - phi[0]))
+    if len(p) == 2:
+        return complex(back.mean() + 0.6j * (back[1] - back[0]))
+    (x1, y1), (x2, y2) = ((z.real, z.imag) for z in back[1:] - back[0])
+    cross = 2 * (x1 * y2 - x2 * y1)
+    s1, s2 = abs(back[1] - back[0]) ** 2, abs(back[2] - back[0]) ** 2
+    return complex(back[0] + complex((y2 * s1 - y1 * s2) / cross, (x1 * s2 - x2 * s1) / cross))
+
+
+def _pairs(
+    found: Dyads, error: Floats, p: Complexes, phi: Floats, link_ratio: float, count: int
+) -> tuple[Candidate, ...]:
+    """The best pairs: the first dyad a crank, the second a crank or a slider."""
+    pins = np.flatnonzero(~found.slides)
+    first, second = (each.ravel() for each in np.meshgrid(pins, np.arange(len(found)), indexing="ij"))
+    apart = np.abs(found.point[first] - found.point[second]) > 1e-6 * _scale(p)
+    first, second = first[apart], second[apart]
+    rows: list[tuple[Assessment, Whole, Whole]] = []
+    for slider in (False, True):
+        use = found.slides[second] == slider
+        if use.any():
+            rows.append((_assess(found, first[use], second[use], slider), first[use], second[use]))
+    keys = [
+        (facts, i, j, k, float(error[i] + error[j]))
+        for facts, a, b in rows
+        for k in _best(facts, error[a] + error[b], p, link_ratio, count)
+        for i, j in [(int(a[k]), int(b[k]))]
+    ]
+    made = [_candidate(found, facts, i, j, k, worst, p, phi) for facts, i, j, k, worst in keys]
+    sound = np.array([not each.defects and each.link_ratio <= link_ratio for each in made], dtype=bool)
+    angles = np.array([each.transmission_angle for each in made])
+    order = ranking(np.array([each.error for each in made]), angles, sound, _scale(p)) if made else []
+    return tuple(made[i] for i in order[:count])
+
+
+def _scale(p: Complexes) -> float:
+    return float(np.abs(p - p.mean()).max())
+
+
+def _best(facts: Assessment, error: Floats, p: Complexes, link_ratio: float, count: int) -> list[int]:
+    sound = facts.sound & (facts.ratio <= link_ratio)
+    order = ranking(np.sqrt(error), np.nan_to_num(facts.transmission), sound, _scale(p))
+    return [int(k) for k in order[: 3 * count]]
+
+
+def _assess(found: Dyads, first: Whole, second: Whole, slider: bool) -> Assessment:
+    o1, a, b = found.centre[first], found.positions[first], found.positions[second]
+    if not slider:
+        return assess_four_bars(o1, a, b, found.centre[second])
+    direction = found.direction[second]
+    return assess_slider_cranks(o1, a, b, direction, ((b[:, 0] - o1) * direction.conj()).imag)
+
+
+def _candidate(
+    found: Dyads, facts: Assessment, i: int, j: int, k: int, squares: float, p: Complexes, phi: Floats
+) -> Candidate:
+    o1, a, b = complex(found.centre[i]), found.positions[i], found.positions[j]
+    error = float(np.sqrt(squares / len(p)))
+    if not found.slides[j]:
+        o2 = complex(found.centre[j])
+        curve = path_of_four_bar(o1, a[0], b[0], o2, p[0])
+        return four_bar_candidate(o1, a, b, o2, facts, k, error, p=complex(p[0]), worst=error, curve=curve)
+    direction = complex(found.direction[j])
+    span = working_span(facts, k, cmath.phase(direction))
+    turns = bool(facts.turns[k])
+    linkage = slider_crank(o1, complex(a[0]), complex(b[0]), direction, complex(p[0]), span=span, turns=turns)
+    return candidate(linkage, facts, k, error, worst=error)
+
+
+def _nearest(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesis | None:
+    """The best linkages of least squares, where the exact ones are not real."""
+    found, squares = fitted(p, phi, np.random.default_rng(0))
+    chosen = _pairs(found, squares, p, phi, link_ratio, count) if len(found) > 1 else ()
+    notes = (note("motion.fitted", poses=len(p)),)
+    return Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes) if chosen else None
+
+
+def _curves(p: Complexes, phi: Floats, window: Window) -> dict[str, Complexes]:
+    """Sampled circle-point curve (at the first pose) and centre-point curve of four poses, for the picture."""
+    shifted = Window(window.low - complex(p[0]), window.high - complex(p[0]))
+    d, e = relative_poses(p, phi)
+    di, phi_i = inverse_poses(p, phi)
+    ei = np.exp(1j * phi_i)
+    return {
+        "circle_points": p[0] + circle_points(d, e, shifted),
+        "centre_points": p[0] + circle_points(di, ei, shifted),
+    }
+
+

@@ -1,0 +1,1 @@
+"""Path generation: four-bars whose coupler point passes given points."""

@@ -1,0 +1,124 @@
+"""Paths whose lengths and coordinates are bounded: the same least squares in all numbers, within the bounds.
+
+A solution is written by *measures*, in units of the bound: ratios and crank angles as in the projection, the crank's
+length, the coupler point's and the pivot's coordinates, and the angle of the frame. For the iteration of many starts a
+coordinate is sin q and the crank sin² q of the length at which the longest link reaches the bound, so that no step can
+leave the bounds; the best are then carried to the end along their active bounds by sequential quadratic programming
+(Kraft 1988).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.crank_family import couplers
+from linkwright.synthesis.least_squares import minimise, with_differences
+from linkwright.synthesis.path_generation.projection import ProjectedPaths
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+Linear = tuple[Complexes, Complexes, Complexes]
+
+#: Starts are moved this far inside the bounds, so that no sine begins at its turning point.
+INSIDE = 0.97
+#: Steps of the iteration and solutions carried to the end: timed, untimed.
+STEPS, FINISHED = (80, 160), (3, 6)
+
+
+class BoundedPaths:
+    """A demand's paths with lengths and coordinates of coupler point and crank pivot up to ``bound`` (m)."""
+
+    def __init__(self, paths: ProjectedPaths, bound: float) -> None:
+        self.paths, self.bound = paths, bound
+        demand = paths.demand
+        self.inner = 3 + (int(demand.phase) if demand.timed else int(demand.same.max()) + 1)
+        self.placed, self.turned = demand.pivot is None, demand.direction is None
+
+    def solve(self, free: Floats) -> tuple[Floats, Whole, Linear]:
+        """Iterated solutions from the starts of the projection: ratios and angles, start numbers, z α β."""
+        free_timing = int(not self.paths.demand.timed)
+        who = np.arange(len(free))
+        nearer, _, near = minimise(self.paths, free, keep=len(free) // 2, steps=12)
+        rows = np.concatenate([who, near])
+
+        def residual(q: Floats, chosen: Whole) -> Floats:
+            return self.residual(self.measures(q, rows[chosen]), rows[chosen])
+
+        start = self.start(np.concatenate([free, nearer]), rows)
+        q, _, chosen = minimise(with_differences(residual), start, keep=16, steps=STEPS[free_timing], halve=16)
+        found = self.measures(q, rows[chosen])
+        for i in range(min(FINISHED[free_timing], len(found))):
+            found[i] = self.finish(found[i], int(rows[chosen[i]]))
+        return found[:, : self.inner], rows[chosen], self.linear(found, rows[chosen])
+
+    def start(self, free: Floats, who: Whole) -> Floats:
+        """Parameters q (K, m) of starts of the projection, moved into the bounds."""
+        _, z, alpha, beta = self.paths.fit(free, who)
+        frame = alpha / np.maximum(np.abs(alpha), 1e-300)
+        local = beta / frame / self.bound
+        share = np.clip(np.abs(alpha) / self.bound / self._longest(free, who), 0.03, INSIDE)
+        columns = [np.arcsin(np.sqrt(share)), _inverse(local.real), _inverse(local.imag)]
+        if self.placed:
+            columns += [_inverse(z.real / self.bound), _inverse(z.imag / self.bound)]
+        return np.column_stack([free, *columns, *([np.angle(frame)] if self.turned else [])])
+
+    def measures(self, q: Floats, who: Whole) -> Floats:
+        """The measures of parameters q, (K, m)."""
+        found = q.copy()
+        last = q.shape[1] - int(self.turned)
+        found[:, self.inner : last] = np.sin(q[:, self.inner : last])
+        found[:, self.inner] = found[:, self.inner] ** 2 * self._longest(q, who)
+        return found
+
+    def linear(self, measures: Floats, who: Whole) -> Linear:
+        """z, α, β (K,), m."""
+        rest = measures[:, self.inner :]
+        sign = np.where(self.paths.mirrored[who], -1.0, 1.0)
+        angle = rest[:, -1] if self.turned else sign * (self.paths.demand.direction or 0.0)
+        frame = self.bound * np.exp(1j * angle)
+        z = self.bound * (rest[:, 3] + 1j * rest[:, 4]) if self.placed else np.zeros(len(rest), complex)
+        return z, rest[:, 0] * frame, (rest[:, 1] + 1j * rest[:, 2]) * frame
+
+    def residual(self, measures: Floats, who: Whole) -> Floats:
+        """Deviations (K, 2n), m."""
+        shape = self.paths.family.chosen(who).lengths(measures)
+        a, u = couplers(self.paths.theta(measures[:, : self.inner], who), shape)
+        z, alpha, beta = self.linear(measures, who)
+        off = self.paths.target(who) - (z[:, None] + alpha[:, None] * a + beta[:, None] * u)
+        return np.concatenate([off.real, off.imag], 1)
+
+    def finish(self, measures: Floats, who: int) -> Floats:
+        """One solution carried to the end along its active bounds."""
+        from scipy.optimize import minimize
+
+        number, scale, m = np.array([who]), self.paths.demand.size ** -2, len(measures)
+        h = 1e-7
+
+        def value(x: Floats) -> tuple[float, Floats]:
+            beside = np.concatenate([x[None], x + h * np.eye(m), x - h * np.eye(m)])
+            r = self.residual(beside, np.repeat(number, len(beside)))
+            f = scale * np.einsum("ki,ki->k", r, r)
+            return float(f[0]), (f[1 : m + 1] - f[m + 1 :]) / (2 * h)
+
+        def room(x: Floats) -> Floats:
+            return 1.0 - self.paths.family.chosen(number).lengths(x[None])[:, 0] * x[self.inner]
+
+        boxes: list[tuple[float | None, float | None]] = [(None, None)] * self.inner + [(1e-6, 1.0)]
+        boxes += [(-1.0, 1.0)] * (m - self.inner - 1 - int(self.turned)) + [(None, None)] * int(self.turned)
+        limits = {"type": "ineq", "fun": room}
+        options = {"maxiter": 400, "ftol": 1e-16}
+        done = minimize(
+            value, measures, jac=True, method="SLSQP", bounds=boxes, constraints=limits, options=options
+        )
+        inside = np.isfinite(done.x).all() and float(room(done.x).min()) > -1e-9
+        return np.asarray(done.x) if inside and done.fun < value(measures)[0] else measures
+
+    def _longest(self, free: Floats, who: Whole) -> Floats:
+        """The crank's length, in units of the bound, at which the longest link reaches the bound, (K,)."""
+        return 1.0 / np.maximum(1.0, self.paths.family.chosen(who).lengths(free).max(0))
+
+
+def _inverse(value: Floats) -> Floats:
+    return np.arcsin(np.clip(value, -INSIDE, INSIDE))

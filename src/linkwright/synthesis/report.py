@@ -1,0 +1,70 @@
+"""The text of a synthesis."""
+
+from __future__ import annotations
+
+from math import degrees
+
+from linkwright.synthesis.result import Candidate, Synthesis
+from linkwright.words import Say, say, speaker
+from linkwright.words.sentence import in_language
+from linkwright.words.width import aligned
+
+COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio")
+
+
+def report(found: Synthesis, language: str) -> list[str]:
+    """Title, table of candidates, dimensions of each, counts and notes."""
+    tell = speaker(language)
+    rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
+    rows += [_row(number, each, tell) for number, each in enumerate(found.candidates, 1)]
+    title = tell("synthesize.title", task=found.task, count=len(found))
+    lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>"), ""]
+    for number, each in enumerate(found.candidates, 1):
+        lengths = ", ".join(f"{name} {_length(value)}" for name, value in each.linkage.lengths().items())
+        lines.append(tell("synthesize.lengths", number=number, lengths=lengths))
+        if each.values:
+            values = ", ".join(f"{name} = {value:.7g}" for name, value in each.values.items())
+            lines.append(tell("synthesize.values", values=values))
+    if found.counts:
+        counts = ", ".join(f"{name} {value}" for name, value in found.counts.items())
+        lines += ["", tell("synthesize.counts", counts=counts)]
+    return lines + [in_language(sentence, language) for sentence in found.notes]
+
+
+def purpose(found: Synthesis, each: Candidate) -> str:
+    """What a candidate is, for its model file."""
+    defects = (
+        say("synthesize.purpose_defects", defects=", ".join(each.defects))
+        if each.defects
+        else say("synthesize.purpose_sound")
+    )
+    return say(
+        "synthesize.purpose",
+        task=found.task.replace("_", " "),
+        error=f"{each.error:.4g}",
+        transmission=f"{degrees(each.transmission_angle):.4g} deg",
+        defects=defects,
+    )
+
+
+def defects_text(each: Candidate, tell: Say) -> str:
+    """The defects of a candidate, or that there are none."""
+    words = [tell(f"synthesize.defect.{name}") for name in each.defects]
+    return ", ".join(words) or tell("synthesize.no_defect")
+
+
+def _row(number: int, each: Candidate, tell: Say) -> list[str]:
+    return [
+        str(number),
+        tell(f"synthesize.type.{each.grashof_type}"),
+        f"{each.error:.4g}",
+        f"{each.worst:.4g}",
+        defects_text(each, tell),
+        tell("synthesize.turns" if each.turns else "synthesize.swings"),
+        f"{degrees(each.transmission_angle):.2f}°",
+        f"{each.link_ratio:.3g}",
+    ]
+
+
+def _length(value: float) -> str:
+    return f"{value * 1e3:.7g} mm" if value < 1 else f"{value:.7g} m"

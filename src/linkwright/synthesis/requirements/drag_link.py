@@ -1,0 +1,85 @@
+"""Drag links (double cranks) from their quick-return ratio.
+
+The follower's half turn between the two ends of a slider's stroke takes the driver 2π/(1 + K) on one side. With the
+follower at ψ and ψ + π, C₁ = d + c e^{iψ}, C₂ = d - c e^{iψ}, and the driver at φ and φ + β, β = 2π K/(1 + K),
+
+    a = (|C₁|² - |C₂|²) / (2 Re(e^{-iφ} (C₁ - e^{-iβ} C₂))),  b = |a e^{iφ} - C₁|
+
+follow from c/d, ψ and φ; of the movable ones the one with the largest smallest transmission angle is taken, from a
+grid refined around its best.
+Source: the condition is the law of cosines at both ends; the aim is Tsai's (1983, J. Mechanisms, Transmissions 105).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
+from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
+from linkwright.synthesis.result import Synthesis, refuse
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+GRID, ROUNDS, BEST = 60_000, 40, 60
+DOUBLE = TYPES.index("double_crank")
+
+
+def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.0) -> Synthesis:
+    """The drag link of a quick-return ratio K and frame length (m) with the best transmission angle.
+
+    ``link_ratio``: the longest link is at most so many times the shortest.
+
+    Raises:
+        SynthesisError: K ≤ 1, or no drag link found with this K.
+    """
+    positive(frame=frame)
+    theta = angle_between_limits(quick_return_ratio)
+    if theta <= 0:
+        raise refuse("drag_link.one")
+    rng = np.random.default_rng(0)
+    low, high = np.array([math.log(1.05), 0.0, 0.0]), np.array([math.log(12.0), 2 * math.pi, 2 * math.pi])
+    x = rng.uniform(low, high, (GRID, 3))
+    width = (high - low) / 8
+    best, value = x[0], -1.0
+    for _ in range(ROUNDS):
+        facts, score = _score(x, math.pi + theta, link_ratio)
+        order = np.argsort(-score)[:BEST]
+        if score[order[0]] > value:
+            best, value = x[order[0]], float(score[order[0]])
+        x = np.concatenate([best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width])
+        width = width * 0.6
+    if value <= 0:
+        raise refuse("drag_link.none", k=f"{quick_return_ratio:g}")
+    facts, _ = _score(best[None], math.pi + theta, link_ratio)
+    o1, a, b, o2 = (each * frame for each in _places(best[None], math.pi + theta))
+    values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
+    each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
+    return Synthesis("drag_link", (each,))
+
+
+def _places(x: Floats, beta: float) -> tuple[Complexes, Complexes, Complexes, Complexes]:
+    """O1, A and B at both ends of the stroke (N, 2), O2; frame 1 along x."""
+    c, psi, phi = np.exp(x[:, 0]), x[:, 1], x[:, 2]
+    end = c * np.exp(1j * psi)
+    first, second = 1 + end, 1 - end
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crank = (np.abs(first) ** 2 - np.abs(second) ** 2) / (
+            2 * (np.exp(-1j * phi) * (first - np.exp(-1j * beta) * second)).real
+        )
+    crank = np.where(np.isfinite(crank) & (crank > 0) & (crank < 50), crank, 1e-3)
+    pins = crank[:, None] * np.exp(1j * (phi[:, None] + np.array([0.0, beta])))
+    zero = np.zeros(len(x), complex)
+    return zero, pins, np.stack([first, second], 1), zero + 1
+
+
+def _score(x: Floats, beta: float, link_ratio: float) -> tuple[Assessment, Floats]:
+    """Facts, and the smallest transmission angle where the linkage is a drag link of one circuit, else -1."""
+    o1, a, b, o2 = _places(x, beta)
+    facts = assess_four_bars(o1, a, b, o2)
+    good = (facts.kind == DOUBLE) & ~facts.circuit & (facts.ratio <= link_ratio)
+    return facts, np.where(good, facts.transmission, -1.0)

@@ -1,0 +1,173 @@
+"""Six-bars whose output rests: a dyad hung on the stretch of a coupler curve that is nearly a circular arc.
+
+While the coupler point P of a crank-rocker runs along an arc of radius ρ, a link P Q of that length leaves its other
+end Q where it is: the arc's centre. The output O3 Q then swings by the demanded angle while P passes the rest of its
+curve. From an atlas of crank-rockers the arcs over the demanded crank angle are found by the algebraic fit of a circle
+(|P|² = 2 Re(P c*) + k, linear in c and k); O3 is taken from a fan of directions and lengths.
+Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. Meas. 25 (circle fit).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.crank_family import CrankFamily, couplers
+from linkwright.synthesis.linkage import Linkage
+from linkwright.synthesis.requirements.slider_crank import positive
+from linkwright.synthesis.result import Candidate, Synthesis, refuse
+
+Complexes = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+Whole = NDArray[np.int64]
+
+ATLAS, SAMPLES, ARCS = 4000, 72, 40
+#: Fan of the output's pivot: directions, and arm lengths in units of the arc's radius.
+DIRECTIONS, ARMS = 36, np.geomspace(0.2, 3.0, 14)
+LEAST_TRANSMISSION = np.radians(30)
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """The best arcs of the atlas: pins A, B and P of one turn (N, SAMPLES), frame d (N,), first sample, centre, radius."""
+
+    a: Complexes
+    b: Complexes
+    p: Complexes
+    d: Floats
+    start: Whole
+    centre: Complexes
+    radius: Floats
+
+
+def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: int = 0) -> Synthesis:
+    """Six-bars whose output rests over a crank angle (rad) and swings by ``swing_angle`` (rad) else.
+
+    ``frame``: length of the four-bar's frame, m. ``error``: the output's greatest deviation during the rest, rad.
+
+    Raises:
+        SynthesisError: angles out of range, or no movable six-bar in the atlas (with the demand that fails).
+    """
+    positive(crank_angle=crank_angle, swing_angle=swing_angle, frame=frame)
+    if crank_angle > np.pi or swing_angle > 2.6:
+        raise refuse("dwell.range")
+    window = max(4, round(crank_angle / (2 * np.pi) * SAMPLES) + 1)
+    arcs = _arcs(window, np.random.default_rng(seed))
+    candidates = [found for i in range(ARCS) if (found := _output(arcs, i, window, swing_angle, frame)) is not None]
+    if not candidates:
+        raise refuse("dwell.none", swing=f"{np.degrees(swing_angle):.4g}", crank=f"{np.degrees(crank_angle):.4g}")
+    candidates.sort(key=lambda each: each.error)
+    return Synthesis("dwell", tuple(candidates[:4]), "rest", counts={"arcs": ARCS})
+
+
+def _arcs(window: int, rng: np.random.Generator) -> Arcs:
+    family, free = CrankFamily.random(rng, ATLAS, LEAST_TRANSMISSION)
+    shape = family.lengths(free)
+    keep = ~family.double & (shape.max(0) < 6)
+    shape = shape[:, keep]
+    theta = np.arange(SAMPLES) * 2 * np.pi / SAMPLES
+    a, u = couplers(theta, shape)
+    arm = shape[0] * rng.uniform(0.2, 2.0, len(shape[0])) * np.exp(1j * rng.uniform(-np.pi, np.pi, len(shape[0])))
+    p = a + arm[:, None] * u
+    index = (np.arange(SAMPLES)[:, None] + np.arange(window)) % SAMPLES
+    centre, radius, off = fit_circles(p[:, index])
+    extent = np.abs(p - p.mean(1, keepdims=True)).max(1, keepdims=True)
+    usable = (radius < 3 * extent) & (radius > 0.3 * extent)
+    score = np.where(usable, off / extent, np.inf)
+    start = score.argmin(1)
+    rows = np.argsort(score[np.arange(len(p)), start])[:ARCS]
+    first = start[rows]
+    b = a + shape[0][:, None] * u
+    return Arcs(a[rows], b[rows], p[rows], shape[2, rows], first, centre[rows, first], radius[rows, first])
+
+
+def fit_circles(p: Complexes) -> tuple[Complexes, Floats, Floats]:
+    """Centres, radii and greatest deviations of circles fitted to points (..., n)."""
+    middle = p.mean(-1, keepdims=True)
+    z = p - middle
+    columns = np.stack([2 * z.real, 2 * z.imag, np.ones_like(z.real)], -1)
+    normal = columns.swapaxes(-1, -2) @ columns
+    right = columns.swapaxes(-1, -2) @ (np.abs(z) ** 2)[..., None]
+    lift = 1e-12 * np.einsum("...ii->...", normal)[..., None, None] * np.eye(3)
+    x = np.linalg.solve(normal + lift, right)[..., 0]
+    c = x[..., 0] + 1j * x[..., 1]
+    radius = np.sqrt(np.maximum(x[..., 2] + np.abs(c) ** 2, 0))
+    off = np.abs(np.abs(z - c[..., None]) - radius[..., None]).max(-1)
+    return c + middle[..., 0], radius, off
+
+
+def _output(arcs: Arcs, i: int, window: int, swing: float, frame: float) -> Candidate | None:
+    """The output of one arc whose swing is the demanded one, with the best transmission angle."""
+    p, centre, rod = np.roll(arcs.p[i], -int(arcs.start[i])), arcs.centre[i], arcs.radius[i]
+    arms, directions = np.meshgrid(ARMS * rod, np.arange(DIRECTIONS) * 2 * np.pi / DIRECTIONS)
+    arm, pivot = arms.ravel(), (centre + arms * np.exp(1j * directions)).ravel()
+    angle, sine = _follow(p, pivot, arm, rod, centre)
+    travel = np.ptp(angle, axis=1)
+    good = np.isfinite(travel) & (np.abs(sine).min(1) > np.sin(LEAST_TRANSMISSION))
+    if not good.any() or np.abs(travel[good] - swing).min() > 0.25 * swing:
+        return None
+    best = int(np.where(good, np.abs(travel - swing), np.inf).argmin())
+    arm_length, direction = _refined(p, centre, rod, arm[best], float(np.angle(pivot[best] - centre)), swing)
+    place = centre + arm_length * np.exp(1j * direction)
+    angle, sine = _follow(p, np.array([place]), np.array([arm_length]), rod, centre)
+    if not np.isfinite(angle).all() or abs(np.ptp(angle) - swing) > 1e-6:
+        return None
+    rest = angle[0, :window]
+    return _candidate(arcs, i, complex(place), angle[0], float(np.abs(sine).min()), float(np.ptp(rest) / 2), frame)
+
+
+def _follow(
+    p: Complexes, pivot: Complexes, arm: Floats, rod: float, centre: complex
+) -> tuple[Floats, Floats]:
+    """Angle of the output over the turn (K, n), unwrapped, and the sine of its transmission angle; NaN: no assembly."""
+    away = p - pivot[:, None]
+    square = np.abs(away) ** 2
+    cosine = (square + arm[:, None] ** 2 - rod**2) / (2 * arm[:, None] * np.sqrt(square))
+    side = np.sign(((p[0] - pivot).conj() * (centre - pivot)).imag)[:, None]
+    with np.errstate(invalid="ignore"):
+        angle = np.angle(away) + side * np.arccos(cosine)
+        inner = np.arccos((rod**2 + arm[:, None] ** 2 - square) / (2 * rod * arm[:, None]))
+    return np.unwrap(angle, axis=1), np.sin(inner)
+
+
+def _refined(
+    p: Complexes, centre: complex, rod: float, arm: float, direction: float, swing: float
+) -> tuple[float, float]:
+    """The arm length at which the swing is the demanded one, by the secant rule."""
+    before = 1.02 * arm
+
+    def excess(length: float) -> float:
+        pivot = np.array([centre + length * np.exp(1j * direction)])
+        return float(np.ptp(_follow(p, pivot, np.array([length]), rod, centre)[0])) - swing
+
+    low, high = excess(before), excess(arm)
+    for _ in range(30):
+        if not np.isfinite(low + high) or high == low or abs(high) < 1e-12:
+            break
+        before, arm = arm, arm - high * (arm - before) / (high - low)
+        low, high = high, excess(arm)
+    return arm, direction
+
+
+def _candidate(
+    arcs: Arcs, i: int, pivot: complex, angle: Floats, sine: float, error: float, frame: float
+) -> Candidate:
+    start, scale = int(arcs.start[i]), frame / arcs.d[i]
+    a, b, p = (each[i, start] for each in (arcs.a, arcs.b, arcs.p))
+    points = {"O1": 0j, "O2": complex(arcs.d[i]), "O3": pivot, "A": a, "B": b, "P": p, "Q": arcs.centre[i]}
+    linkage = Linkage(
+        "stephenson",
+        {name: complex(place * scale) for name, place in points.items()},
+        ("O1", "O2", "O3"),
+        {"crank": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"), "link": ("P", "Q"), "output": ("O3", "Q")},
+        ("crank", "O1"),
+    )  # fmt: skip
+    lengths = np.array(list(linkage.lengths().values()))
+    turn = np.linspace(0, 2 * np.pi, len(angle), endpoint=False)
+    values = {"swing_angle [rad]": float(np.ptp(angle)), "radius [m]": float(arcs.radius[i] * scale)}
+    return Candidate(
+        linkage, error, "stephenson", (), True, float(np.arcsin(min(sine, 1))), float(lengths.max() / lengths.min()),
+        worst=error, curve=np.stack([turn, angle]), values=values,
+    )  # fmt: skip

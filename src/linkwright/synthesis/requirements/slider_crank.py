@@ -1,0 +1,136 @@
+"""Slider-cranks from their stroke and what else is demanded: closed forms.
+
+With crank r, rod l, offset e the slider's limit positions are B₁ = √((l + r)² - e²) and B₂ = √((l - r)² - e²) from the
+foot of the crank's pivot, the stroke H = B₁ - B₂; the crank's directions there enclose θ = π (K - 1)/(K + 1). The crank
+turns fully where r + e ≤ l. The smallest transmission angle is cos μ = (r + e)/l.
+Sources: Volmer, Getriebetechnik; Norton, Design of Machinery, ch. 3 and 4.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.synthesis.assessment import assess_slider_cranks
+from linkwright.synthesis.build import candidate, slider_crank
+from linkwright.synthesis.result import Synthesis, refuse
+
+ROUND = 1e-12
+
+
+def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: float = 0.0) -> Synthesis:
+    """The slider-crank of a stroke (m) with λ = l/r and ε = e/r.
+
+    H = r [√((λ + 1)² - ε²) - √((λ - 1)² - ε²)].
+
+    Raises:
+        SynthesisError: λ < 1 + ε, so that the crank cannot turn; the nearest has λ = 1 + ε.
+    """
+    positive(stroke=stroke, rod_ratio=rod_ratio)
+    not_negative(offset_ratio=offset_ratio)
+    if rod_ratio < 1 + offset_ratio - ROUND or rod_ratio <= 1:
+        least = max(1 + offset_ratio, 1.001)
+        nearest = slider_crank_from_ratios(stroke, least, offset_ratio)
+        raise refuse("slider_crank.ratio", nearest, given=f"{rod_ratio:g}", least=f"{1 + offset_ratio:g}")
+    inner = max((rod_ratio - 1) ** 2 - offset_ratio**2, 0.0)
+    crank = stroke / (math.sqrt((rod_ratio + 1) ** 2 - offset_ratio**2) - math.sqrt(inner))
+    return _result(crank, rod_ratio * crank, offset_ratio * crank)
+
+
+def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, offset: float) -> Synthesis:
+    """The slider-crank of a stroke and offset (m) with the quick-return ratio K.
+
+    In the triangle O B₁ B₂ with the sides l + r and l - r, the angle θ between them and the side H at distance e:
+    l² - r² = e H / sin θ, l² + r² = H²/2 + e H / tan θ. The offset is at most H / tan θ: there l - r = e.
+
+    Raises:
+        SynthesisError: K and offset contradict each other; the nearest has the largest K (or offset) that goes.
+    """
+    positive(stroke=stroke, offset=offset)
+    theta = angle_between_limits(quick_return_ratio)
+    if theta <= 0:
+        raise refuse("slider_crank.no_quick_return", given=f"{quick_return_ratio:g}")
+    if theta >= math.pi / 2 or offset > stroke / math.tan(theta) * (1 + ROUND):
+        angle = math.atan2(stroke, offset)
+        largest = (math.pi + angle) / (math.pi - angle)
+        nearest = slider_crank_from_quick_return(stroke, largest, offset)
+        raise refuse(
+            "slider_crank.quick_return", nearest, given=f"{quick_return_ratio:g}", most=f"{largest:.6g}"
+        )
+    difference = offset * stroke / math.sin(theta)
+    total = stroke**2 / 2 + offset * stroke / math.tan(theta)
+    return _result(math.sqrt((total - difference) / 2), math.sqrt((total + difference) / 2), offset)
+
+
+def slider_crank_from_transmission(stroke: float, transmission_angle: float, offset: float = 0.0) -> Synthesis:
+    """The slider-crank of a stroke and offset (m) whose transmission angle never falls below the given one (rad).
+
+    l = (r + e)/cos μ; r from the stroke, in closed form for e = 0 (r = H/2), else by bisection: the stroke grows
+    with r.
+
+    Raises:
+        SynthesisError: the angle is not between 0 and π/2.
+    """
+    positive(stroke=stroke)
+    not_negative(offset=offset)
+    if not 0 < transmission_angle < math.pi / 2:
+        raise refuse("transmission_range", given=f"{math.degrees(transmission_angle):.6g}")
+    slope = math.cos(transmission_angle)
+
+    def excess(crank: float) -> float:
+        rod = (crank + offset) / slope
+        inner = max((rod - crank) ** 2 - offset**2, 0.0)
+        return math.sqrt((rod + crank) ** 2 - offset**2) - math.sqrt(inner) - stroke
+
+    low, high = 0.0, stroke / 2
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) < 0 else (low, middle)
+    crank = high if offset else stroke / 2
+    return _result(crank, (crank + offset) / slope, offset)
+
+
+def angle_between_limits(quick_return_ratio: float) -> float:
+    """θ = π (K - 1)/(K + 1), rad; raises SynthesisError for K < 1."""
+    if not quick_return_ratio >= 1:
+        raise refuse("quick_return_below_one", given=f"{quick_return_ratio:g}")
+    return math.pi * (quick_return_ratio - 1) / (quick_return_ratio + 1)
+
+
+def positive(**values: float) -> None:
+    """Raises SynthesisError for a value that is not positive and finite."""
+    for name, value in values.items():
+        if not 0 < value < math.inf:
+            raise refuse("not_positive", name=name, given=f"{value:g}")
+
+
+def not_negative(**values: float) -> None:
+    """Raises SynthesisError for a value that is negative or not finite."""
+    for name, value in values.items():
+        if not 0 <= value < math.inf:
+            raise refuse("negative", name=name, given=f"{value:g}")
+
+
+def _result(crank: float, rod: float, offset: float) -> Synthesis:
+    reach, least = math.sqrt((rod + crank) ** 2 - offset**2), max((rod - crank) ** 2 - offset**2, 0.0)
+    tip = complex(reach, offset)
+    pin = crank * tip / abs(tip)
+    linkage = slider_crank(0, pin, tip, 1)
+    a, b, o1 = np.array([[pin]]), np.array([[tip]]), np.array([0j])
+    facts = assess_slider_cranks(o1, a, b, np.array([1 + 0j]), np.array([offset]))
+    theta = abs(math.atan2(offset, math.sqrt(least)) - math.atan2(offset, reach))
+    values = {
+        "crank [m]": crank,
+        "rod [m]": rod,
+        "offset [m]": offset,
+        "stroke [m]": reach - math.sqrt(least),
+        "quick_return_ratio": (math.pi + theta) / (math.pi - theta),
+    }
+    turn = np.linspace(0, 2 * np.pi, 181)
+    height = crank * np.sin(turn) - offset
+    slide = crank * np.cos(turn) + np.sqrt(np.maximum(rod**2 - height**2, 0))
+    curve = np.stack([turn, slide])
+    return Synthesis("slider_crank", (candidate(linkage, facts, 0, 0.0, curve=curve, values=values),))
+
+

@@ -1,0 +1,46 @@
+"""Toggle linkages from the ratio of output to input force.
+
+Two links of length l, the angle α of each to the slider's line; a force F on the knee across the line gives the slider
+P = F / (2 tan α) (principle of virtual work). With the ratio n = P/F wanted at the distance s before the dead point:
+tan α = 1/(2 n), s = 2 l (1 - cos α), and over a stroke H the angle begins at cos α₀ = cos α - (H - s)/(2 l).
+Source: Niemann, Maschinenelemente; any textbook's virtual work of the toggle.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+
+from linkwright.synthesis.build import slider_crank
+from linkwright.synthesis.requirements.slider_crank import positive
+from linkwright.synthesis.result import Candidate, Synthesis, refuse
+
+
+def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
+    """The toggle whose force ratio P/F is reached at a ``distance`` (m) before the dead point, over a ``stroke`` (m).
+
+    The knee is turned by its first link; the input's span goes from the beginning of the stroke to the dead point.
+
+    Raises:
+        SynthesisError: the stroke is not longer than the distance, or longer than the links allow.
+    """
+    positive(force_ratio=force_ratio, distance=distance, stroke=stroke)
+    if stroke < distance:
+        raise refuse("toggle.stroke", stroke=f"{stroke:g}", distance=f"{distance:g}")
+    alpha = math.atan(1 / (2 * force_ratio))
+    length = distance / (2 * (1 - math.cos(alpha)))
+    begin = 1 - stroke / (2 * length)
+    if begin <= 0:
+        longest = 2 * length
+        raise refuse("toggle.too_long", toggle(force_ratio, distance, 0.95 * longest), most=f"{longest:.6g}")
+    first = math.acos(begin)
+    knee = cmath.rect(length, first)
+    linkage = slider_crank(0, knee, complex(2 * length * begin), 1, span=(0.002 * first, first), turns=False)
+    angle = np.linspace(first, alpha / 4, 181)
+    curve = np.stack([2 * length * np.cos(angle), 1 / (2 * np.tan(angle))])
+    values = {"link [m]": length, "angle [rad]": alpha, "first_angle [rad]": first, "force_ratio": force_ratio}
+    transmission = math.pi / 2 - first
+    found = Candidate(linkage, 0.0, "toggle", (), False, transmission, 1.0, curve=curve, values=values)
+    return Synthesis("toggle", (found,))

@@ -1,0 +1,199 @@
+"""What a synthesis gives: candidates with what a designer must know about each, ranked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.model.mechanism import Mechanism
+from linkwright.synthesis.linkage import Linkage
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
+
+Complexes = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One linkage that answers a demand.
+
+    Args:
+        linkage: its points and links in one pose.
+        error: the error that the task measures (see ``Synthesis.error_name``), 0 where the demand is met exactly.
+        worst: the largest deviation at one position, in the unit of the target.
+        grashof_type: ``crank_rocker``, ``double_crank`` … ``slider_crank``, or the linkage's kind.
+        defects: ``circuit``, ``branch``, ``order`` where the demanded positions have them; empty: none over the
+            whole range.
+        turns: the input link turns fully.
+        transmission_angle: the smallest, over a turn of the input or between its first and last position, rad.
+        link_ratio: longest to shortest link.
+        curve: what it does, for the picture: complex (m,) for a path, or (2, m) input and output of a function.
+        values: further numbers by name, SI.
+    """
+
+    linkage: Linkage
+    error: float
+    grashof_type: str
+    defects: tuple[str, ...]
+    turns: bool
+    transmission_angle: float
+    link_ratio: float
+    worst: float = 0.0
+    curve: NDArray[Any] | None = field(default=None, repr=False)
+    values: Mapping[str, float] = field(default_factory=dict)
+
+    def mechanism(self, name: str = "", *, speed: str = "60 rpm") -> Mechanism:
+        """The candidate as a mechanism, its input link driven at constant speed."""
+        return self.linkage.mechanism(name, speed=speed)
+
+    def loads(self, mass_per_length: float, *, speed: str = "60 rpm", steps: int = 180) -> dict[str, float]:
+        """Peak input torque (N·m) and peak reaction (N) where every link has ``mass_per_length`` (kg/m).
+
+        Links are slender rods between their first two points, m l²/12 about their middle; gravity is left out.
+        """
+        from linkwright.synthesis.effort import peak_loads
+
+        return peak_loads(self.linkage, mass_per_length, speed, steps)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        linkage = self.linkage
+        return {
+            "kind": linkage.kind,
+            "type": self.grashof_type,
+            "error": self.error,
+            "worst": self.worst,
+            "defects": list(self.defects),
+            "input_turns": self.turns,
+            "transmission_angle_min [rad]": self.transmission_angle,
+            "link_ratio": self.link_ratio,
+            "lengths [m]": linkage.lengths(),
+            "points [m]": {name: [place.real, place.imag] for name, place in linkage.points.items()},
+            **self.values,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Synthesis:
+    """The candidates of a task, best first: without defects before others, then by error, then transmission angle.
+
+    Args:
+        task: ``path``, ``motion``, ``function``, ``slider_crank`` …
+        candidates: ranked.
+        error_name: what ``error`` of a candidate is: a key of the catalogue ``synthesize.error.…``.
+        target: what was demanded, for the picture: complex points, or (2, n) input and output.
+        counts: how many solutions of which sort were found.
+        notes: sentences that belong to the result.
+        curves: further curves for the picture by name (circle- and centre-point curves).
+    """
+
+    task: str
+    candidates: tuple[Candidate, ...]
+    error_name: str = "none"
+    target: NDArray[Any] | None = None
+    counts: Mapping[str, int] = field(default_factory=dict)
+    notes: tuple[Sentence, ...] = ()
+    curves: Mapping[str, Complexes] = field(default_factory=dict)
+
+    @property
+    def best(self) -> Candidate:
+        """The first candidate."""
+        return self.candidates[0]
+
+    def __iter__(self) -> Iterator[Candidate]:
+        return iter(self.candidates)
+
+    def __len__(self) -> int:
+        return len(self.candidates)
+
+    def __getitem__(self, index: int) -> Candidate:
+        return self.candidates[index]
+
+    def text(self, language: str = "en") -> str:
+        """The table of candidates, the lengths of the best one, and the notes."""
+        from linkwright.synthesis.report import report
+
+        return "\n".join(report(self, language))
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "task": self.task,
+            "error": self.error_name,
+            "counts": dict(self.counts),
+            "notes": [str(note) for note in self.notes],
+            "candidates": [each.data() for each in self.candidates],
+        }
+
+    def write(self, folder: str | Path, name: str = "") -> list[Path]:
+        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths."""
+        stem = name or self.task
+        found = []
+        for number, each in enumerate(self.candidates, 1):
+            path = Path(folder) / f"{stem}_{number}.yaml"
+            path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
+            found.append(path)
+        return found
+
+    def model_text(self, index: int = 0, name: str = "") -> str:
+        """The model file of one candidate."""
+        from linkwright.synthesis.report import purpose
+
+        each = self.candidates[index]
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each))
+
+    def plot(self, **options: Any) -> Diagram:
+        """Target, candidates and their curves in one picture; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, "synthesis", **options)
+
+
+class SynthesisError(LinkwrightError):
+    """A demand that cannot be met: the sentence says which and how closely it can be, ``nearest`` has the solution."""
+
+    def __init__(self, sentence: Sentence, nearest: Synthesis | None = None) -> None:
+        self.sentence, self.nearest = sentence, nearest
+        super().__init__(str(sentence))
+
+    def __reduce__(self) -> tuple[type[SynthesisError], tuple[Sentence, Synthesis | None]]:
+        return SynthesisError, (self.sentence, self.nearest)
+
+
+def refuse(key: str, nearest: Synthesis | None = None, **values: object) -> SynthesisError:
+    """The error with the sentence of a key of the catalogue ``synthesize``."""
+    return SynthesisError(Sentence(f"synthesize.{key}", **values), nearest)
+
+
+def note(key: str, **values: object) -> Sentence:
+    """A sentence of the catalogue ``synthesize``."""
+    return Sentence(f"synthesize.{key}", **values)
+
+
+def ranking(
+    error: NDArray[np.float64], transmission: NDArray[np.float64], sound: NDArray[np.bool_], size: float
+) -> NDArray[np.int64]:
+    """Order of candidates: sound ones first, then by error, then by transmission angle.
+
+    Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to a tenth of a decade.
+    """
+    step = np.where(error <= 1e-9 * size, -1e3, np.round(10 * np.log10(np.maximum(error, 1e-300))))
+    return np.asarray(np.lexsort((-transmission, step, ~sound)))
+
+
+def ranked(candidates: Sequence[Candidate], size: float) -> tuple[Candidate, ...]:
+    """The candidates in the order of :func:`ranking`."""
+    if not candidates:
+        return ()
+    error = np.array([each.error for each in candidates])
+    transmission = np.array([each.transmission_angle for each in candidates])
+    sound = np.array([not each.defects for each in candidates])
+    return tuple(candidates[i] for i in ranking(error, transmission, sound, size))

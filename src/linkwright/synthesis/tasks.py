@@ -1,0 +1,210 @@
+"""Tasks by name: which demands each takes, read from a file's section or from KEY=VALUE."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from linkwright import units
+from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.model.compose import compose
+from linkwright.model.file import read_source
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node, Scalar, Sequence
+from linkwright.registry import nearest
+from linkwright.synthesis.result import Synthesis, refuse
+from linkwright.words import say
+from linkwright.words.sentence import Sentence
+
+#: Forms of values: dimensions of the entries, and how deep the list is.
+SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
+    "length": (("length",), 0),
+    "angle": (("angle",), 0),
+    "number": (("dimensionless",), 0),
+    "count": (("dimensionless",), 0),
+    "point": (("length", "length"), 1),
+    "angles": (("angle",), 1),
+    "lengths": (("length",), 1),
+    "points": (("length", "length"), 2),
+    "window": (("length", "length"), 2),
+    "poses": (("length", "length", "angle"), 2),
+}
+
+
+@dataclass(frozen=True)
+class Task:
+    """``run`` takes the demands as keywords; ``demands``: forms by name; ``needed``: those that must be given."""
+
+    run: Callable[..., Synthesis]
+    demands: Mapping[str, str]
+    needed: tuple[str, ...]
+
+
+def tasks() -> dict[str, Task]:
+    """All tasks by name."""
+    from linkwright.synthesis.catalogue import TASKS
+
+    return dict(TASKS)
+
+
+def synthesize(task: str, **demands: Any) -> Synthesis:
+    """Runs a task by its name with demands in SI: ``synthesize("slider_crank", stroke=0.3, rod_ratio=3.5)``.
+
+    Or the section ``synthesis`` of a file: ``synthesize("press.yaml")``. Tasks and their demands: the command
+    ``linkwright synthesize --help`` and the documentation.
+
+    Raises:
+        SynthesisError: an unknown task or demand, a missing one, or demands that cannot be met (``nearest`` has the
+            nearest solution).
+        ModelError: a file that cannot be read, with all findings.
+    """
+    known = tasks()
+    if task not in known:
+        if task.lower().endswith((".yaml", ".yml", ".json")) or Path(task).exists():
+            return synthesize_file(task)
+        near = nearest(task, list(known))
+        raise refuse("task", task=task, known=near or ", ".join(known))
+    chosen = known[task]
+    for key in demands:
+        if key not in chosen.demands:
+            near = nearest(key, list(chosen.demands))
+            raise refuse("task.unknown", key=key, task=task, known=near or ", ".join(chosen.demands))
+    for key in chosen.needed:
+        if key not in demands:
+            raise refuse("task.missing", task=task, key=key, form=_form(chosen.demands[key]))
+    return chosen.run(**demands)
+
+
+def synthesize_file(source: str | Path) -> Synthesis:
+    """Runs the section ``synthesis`` of a file; raises ModelError, SynthesisError."""
+    text, name = read_source(source)
+    return synthesize_text(text, name)
+
+
+def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
+    """Runs the section ``synthesis`` of a text; ``name`` stands for the file in findings."""
+    root, remarks = compose(text.removeprefix("\ufeff"))
+    findings = [
+        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code) for r in remarks
+    ]
+    section = root.get("synthesis") if isinstance(root, MappingNode) else None
+    if findings or not isinstance(section, MappingNode):
+        place = f"{name}:1:1"
+        raise ModelError(findings or [Finding("error", place, "", str(Sentence("synthesize.task.section")), "", "missing")])
+    task, demands = read_section(section, name)
+    return synthesize(task, **demands)
+
+
+def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
+    """Task and demands (SI) of a section; raises ModelError with all findings."""
+    reader = _Reader(name)
+    given = section.get("task")
+    task = given.text if isinstance(given, Scalar) else ""
+    known = tasks()
+    if task not in known:
+        near = nearest(task, list(known))
+        sentence = say("synthesize.task", task=task, known=near or ", ".join(known))
+        reader.add(given or section, "synthesis.task", sentence)
+        raise ModelError(reader.findings)
+    for key, kind in (("unit", "length"), ("angle_unit", "angle")):
+        reader.default(section.get(key), key, kind)
+    demands = {}
+    for entry in section.entries:
+        key = entry.key.text
+        if key in ("task", "unit", "angle_unit"):
+            continue
+        if key not in known[task].demands:
+            near = nearest(key, list(known[task].demands))
+            sentence = say("synthesize.task.unknown", key=key, task=task, known=near or ", ".join(known[task].demands))
+            reader.add(entry.key, f"synthesis.{key}", sentence)
+            continue
+        demands[key] = reader.value(entry.value, key, known[task].demands[key])
+    if reader.findings:
+        raise ModelError(reader.findings)
+    return task, demands
+
+
+class _Reader:
+    """Values of a section; collects every finding."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.findings: list[Finding] = []
+        self.units: dict[str, str] = {}
+
+    def add(self, node: Node, key: str, sentence: str) -> None:
+        """A finding at a node."""
+        place = f"{self.name}:{node.line + 1}:{node.column + 1}"
+        self.findings.append(Finding("error", place, key, sentence, "", "synthesis"))
+
+    def default(self, node: Node | None, key: str, kind: str) -> None:
+        """The unit of bare numbers: ``unit: mm``, ``angle_unit: deg``."""
+        if node is None:
+            return
+        unit = node.text if isinstance(node, Scalar) else ""
+        try:
+            units.parse(f"1 {unit}", kind)
+        except QuantityError as error:
+            self.add(node, f"synthesis.{key}", str(error))
+        else:
+            self.units[kind] = unit
+
+    def value(self, node: Node, key: str, form: str) -> Any:
+        """The value of a demand in SI, or None with a finding."""
+        if form in ("word", "flag"):
+            return self._word(node, key, form)
+        dimensions, depth = SHAPES[form]
+        found = self._nested(node, key, form, dimensions, depth)
+        if form == "count" and isinstance(found, float):
+            if not found.is_integer():
+                self._wrong(node, key, form)
+            return int(found)
+        return found
+
+    def _nested(self, node: Node, key: str, form: str, dimensions: tuple[str, ...], depth: int) -> Any:
+        if depth == 0:
+            return self._quantity(node, key, form, dimensions[0])
+        if not isinstance(node, Sequence):
+            return self._wrong(node, key, form)
+        if depth == 2 or len(dimensions) == 1:
+            inner = dimensions
+            return [self._nested(each, key, form, inner, depth - 1) for each in node.items]
+        if len(node.items) != len(dimensions):
+            return self._wrong(node, key, form)
+        return [self._quantity(each, key, form, kind) for each, kind in zip(node.items, dimensions, strict=True)]
+
+    def _quantity(self, node: Node, key: str, form: str, dimension: str) -> float | None:
+        if not isinstance(node, Scalar):
+            self._wrong(node, key, form)
+            return None
+        text = node.text
+        if dimension in self.units and _bare(text):
+            text = f"{text} {self.units[dimension]}"
+        try:
+            return units.parse(text, dimension)
+        except QuantityError as error:
+            self.add(node, f"synthesis.{key}", str(error))
+            return None
+
+    def _word(self, node: Node, key: str, form: str) -> Any:
+        if not isinstance(node, Scalar) or (form == "flag" and node.text not in ("true", "false")):
+            return self._wrong(node, key, form)
+        return node.text == "true" if form == "flag" else node.text
+
+    def _wrong(self, node: Node, key: str, form: str) -> None:
+        given = node.text if isinstance(node, Scalar) else "a list" if isinstance(node, Sequence) else "a mapping"
+        self.add(node, f"synthesis.{key}", say("synthesize.task.value", key=key, form=_form(form), given=given))
+
+
+def _bare(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _form(form: str) -> Sentence:
+    return Sentence(f"synthesize.task.form.{form}")

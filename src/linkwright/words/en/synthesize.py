@@ -1,0 +1,160 @@
+"""The command ``synthesize`` and the sentences of synthesis."""
+
+WORDS = {
+    "summary": "find dimensions from what the machine must do",
+    "description": """\
+Finds linkages for a task: a path, poses, a function, or requirements such as
+stroke and quick-return ratio. Shows every candidate with its error, Grashof
+type, defects over the whole range, smallest transmission angle and ratio of
+longest to shortest link; writes each as a model file. The task stands in the
+section "synthesis" of a file, or on the command line as KEY=VALUE.""",
+    "examples": """\
+linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
+linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
+linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
+linkwright synthesize press.yaml --json""",
+    "task_help": "a file with a section synthesis, or the name of a task: {tasks}",
+    "demands_help": "demands of the task, such as stroke=\"40 mm\"; lists in brackets as in a file",
+    "output_help": "write every candidate as a model file into this folder",
+    "plot_help": "draw target, candidates and curves in a .svg, .pdf or .png file",
+    "mass_help": "also peak input torque and reaction, for links of this mass per length (kg/m)",
+    "speed_help": "speed of the input link in model files and for --mass (default 60 rpm)",
+    "bad_demand": '"{text}" is no demand; write KEY=VALUE, such as stroke="40 mm"',
+    "bad_mass": '--mass: "{text}" is no mass per length in kg/m; give a positive number',
+    "no_folder": '--output: there is no folder "{path}"; make it, or name another',
+    "title": "Synthesis: {task}, {count} candidates",
+    "column.number": "no.",
+    "column.type": "type",
+    "column.error": "error",
+    "column.worst": "worst",
+    "column.defects": "defects",
+    "column.input": "input",
+    "column.transmission": "μ min",
+    "column.ratio": "l max/min",
+    "column.torque": "peak torque",
+    "column.reaction": "peak reaction",
+    "turns": "turns",
+    "swings": "swings",
+    "no_defect": "none",
+    "defect.circuit": "circuit",
+    "defect.branch": "branch",
+    "defect.order": "order",
+    "lengths": "Candidate {number}: {lengths}",
+    "values": "  {values}",
+    "counts": "Found: {counts}",
+    "purpose": "synthesis of {task}; error {error}, smallest transmission angle {transmission}, {defects}",
+    "purpose_defects": "defects: {defects}",
+    "purpose_sound": "no defects",
+    "error.none": "exact",
+    "error.squares": "error: sum of squared distances, m²",
+    "error.deviation": "error: greatest deviation, m",
+    "error.angle": "error: greatest structural error, rad",
+    "error.length": "error: greatest structural error, m",
+    "error.rest": "error: greatest deviation during the rest, rad",
+    "type.crank_rocker": "crank-rocker",
+    "type.rocker_crank": "rocker-crank",
+    "type.double_crank": "double crank",
+    "type.double_rocker": "double rocker",
+    "type.triple_rocker": "triple rocker",
+    "type.change_point": "change point",
+    "type.slider_crank": "slider-crank",
+    "type.slider_rocker": "slider-rocker",
+    "type.crank_slotted_lever": "crank and slotted lever",
+    "type.toggle": "toggle",
+    "type.stephenson": "Stephenson six-bar",
+    "type.watt": "Watt six-bar",
+    "type.geared_five_bar": "geared five-bar",
+    "type.peaucellier": "Peaucellier",
+    "points": "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
+    "not_positive": "{name} is {given}; it must be positive and finite",
+    "negative": "{name} is {given}; it must not be negative",
+    "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 and less "
+    "than 90 deg",
+    "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 or more",
+    "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least is {least}",
+    "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = {least} "
+    "(the nearest solution has that)",
+    "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; give offset 0 "
+    "with a rod ratio or a transmission angle, or a larger K",
+    "slider_crank.quick_return": "stroke and offset allow no quick-return ratio {given}; at most K = {most} "
+    "(the nearest solution has that)",
+    "slider_crank.demands": "a slider-crank needs stroke and one of: rod_ratio (and offset_ratio); "
+    "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
+    "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be below "
+    "180 deg and K below 3",
+    "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; lower K or change "
+    "the swing",
+    "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio",
+    "quick_return.rod": "the rod cannot reach the guide; it must be longer than {least} m",
+    "drag_link.one": "a drag link for quick return has K > 1; ask for a larger quick-return ratio",
+    "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or allow a larger "
+    "link_ratio",
+    "toggle.stroke": "the stroke {stroke} m is shorter than the distance {distance} m at which the force ratio is wanted",
+    "toggle.too_long": "the force ratio at that distance gives links for a stroke of at most {most} m; the nearest "
+    "solution has a stroke just below it",
+    "straight_line.kind": 'there is no straight-line linkage "{kind}"; known: {known}',
+    "straight_line.none": "{kind} has no stretch that stays within {given} m; allow a larger deviation",
+    "dwell.range": "the rest can last up to 180 deg of the crank, and the swing be up to 149 deg",
+    "dwell.none": "no output was found that swings {swing} deg and rests for {crank} deg of the crank with a "
+    "transmission angle above 30 deg; ask for a shorter rest or another swing",
+    "path.few": "{count} points are too few for a path; give 3 or more",
+    "path.angles": "{angles} crank angles do not fit {points} points; give one for each point",
+    "path.one_place": "all points of the path lie in one place; give different points",
+    "path.none": "no four-bar was found for the path; check the points",
+    "path.ordered": "no candidate passes the points in the given order on one branch: the best one has the defects "
+    "shown; leave out points or allow larger lengths",
+    "path.nine": "{classes} of 1442 classes of four-bars were found for the points; {real} of them are real, "
+    "{sound} without defects",
+    "path.exact_few": "exact path generation takes 3 to 9 points, given: {count}; leave angles out and use least "
+    "squares for more",
+    "path.no_real": "no real four-bar passes exactly through the {count} points in every class that was found; the "
+    "nearest solution is that of least squares, with a sum of squared distances of {error} m²",
+    "path.no_movable": "{real} real four-bars pass exactly through the points, none in order on one branch; the best one "
+    "shows: {why}",
+    "path.trace": "the trace test of the start set gives {residual}: no class is missing",
+    "motion.poses": "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
+    "motion.same": "poses {first} and {second} are the same; leave one out",
+    "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
+    "motion.no_dyads": "{real} real Burmester dyads fit the five poses, two are needed; the nearest solution is that of "
+    "least squares, with the errors shown",
+    "motion.no_pairs": "no two dyads make a linkage within the given region; enlarge it",
+    "motion.no_movable": "no linkage moves through all poses in order without being dismantled; the best one has: {why}",
+    "motion.defects": "{defects}",
+    "motion.fitted": "{poses} poses cannot all be met exactly; the links' lengths differ between the poses by the error "
+    "shown",
+    "function.few": "{count} pairs of values are too few for a function; give 3 or more",
+    "function.values": "inputs and outputs must be lists of the same number of finite values; given: {inputs} and "
+    "{outputs}",
+    "function.linkage": 'there is no function generator "{linkage}"; known: {known}',
+    "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or change the "
+    "function",
+    "function.exact": "no real {linkage} has the given zero angles and meets all {count} positions exactly; the nearest "
+    "solution has a greatest error of {error}",
+    "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: {why}",
+    "function.free": "zero angles: input {input} deg, output {output}",
+    "task": 'there is no task "{task}"; known: {known}',
+    "task.missing": 'the task "{task}" needs "{key}": {form}',
+    "task.unknown": '"{key}" is no demand of the task "{task}"; known: {known}',
+    "task.value": "{key}: {form} is wanted; given: {given}",
+    "task.section": 'the file has no section "synthesis"; add one with task: and its demands',
+    "task.form.length": "a length with its unit, such as 40 mm",
+    "task.form.angle": "an angle with its unit, such as 30 deg",
+    "task.form.number": "a number",
+    "task.form.count": "a whole number",
+    "task.form.flag": "true or false",
+    "task.form.word": "a word",
+    "task.form.points": "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]",
+    "task.form.point": "a point with units, such as [0 mm, 10 mm]",
+    "task.form.poses": "a list of poses with units, such as [[0 mm, 10 mm, 30 deg], …]",
+    "task.form.angles": "a list of angles with units, such as [30 deg, 60 deg]",
+    "task.form.lengths": "a list of lengths with units, such as [30 mm, 60 mm]",
+    "task.form.window": "two corners with units, such as [[0 mm, 0 mm], [80 mm, 50 mm]]",
+    "axis.input": "input, rad",
+    "axis.output": "output",
+    "axis.x": "x, m",
+    "axis.y": "y, m",
+    "legend.target": "target",
+    "legend.candidate": "candidate {number}",
+    "legend.circle_points": "circle points",
+    "legend.centre_points": "centre points",
+}
