@@ -52,6 +52,7 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "study/designs.py": {PLOT},
     "study/sensitivity.py": {PLOT},
     "study/study.py": {PLOT},
+    "synthesis/result.py": {PLOT},
 }
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",

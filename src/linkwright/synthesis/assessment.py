@@ -7,15 +7,16 @@ Type: Grashof 1883, s + l < p + q. Input range: the diagonal A–O2 of a four-ba
 
     cos θ_min,max = (a² + d² - (b ± c)²) / (2 a d),    θ from the line O1→O2;
 
-of a slider-crank |a sin θ - e| ≤ b, θ from the guide. Positions on one *circuit* can be reached without dismantling; on
-one *branch* of it without passing a dead point of the input (sign of the sine of the transmission angle); they are in
-*order* where an input that turns one way meets them as they are numbered.
+of a slider-crank |a sin θ - e| ≤ b, θ from the guide. Positions on one *circuit* can be reached without
+dismantling; on one *branch* of it without passing a dead point of the input (sign of the sine of the transmission
+angle); they are in *order* where an input that turns one way meets them as they are numbered.
 Source: Chase and Mirth 1993, "Circuits and branches of single-degree-of-freedom planar linkages", J. Mech. Des. 115.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +70,7 @@ def assess_four_bars(o1: Complexes, a: Complexes, b: Complexes, o2: Complexes) -
     frame = o2 - o1
     lengths = np.stack([np.abs(a[:, 0] - o1), np.abs(b[:, 0] - a[:, 0]), np.abs(b[:, 0] - o2), np.abs(frame)])
     kind = grashof_types(lengths)
-    low, high, place = four_bar_range(lengths)
+    place = four_bar_range(lengths)[2]
     theta = np.angle((a - o1[:, None]) / frame[:, None])
     sine = _cross(o2[:, None] - a, b - a)
     size = np.abs(o2[:, None] - a) * np.abs(b - a)
@@ -153,12 +154,16 @@ def _working_range(theta: Floats, place: Whole) -> tuple[Floats, Floats, Flags]:
     backward = np.mod(tiny - np.diff(theta, axis=1), 2 * np.pi).sum(1)
     turning = np.minimum(forward, backward) < 2 * np.pi + theta.shape[1] * tiny
     full = place == FULL
-    first = np.where(full, 0.0, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.min(1), signed.min(1)))
-    last = np.where(full, 2 * np.pi, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.max(1), signed.max(1)))
+    first = np.where(
+        full, 0.0, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.min(1), signed.min(1))
+    )
+    last = np.where(
+        full, 2 * np.pi, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.max(1), signed.max(1))
+    )
     return np.minimum(first, last), np.maximum(first, last), ~np.where(full, turning, rocking)
 
 
-def _cosines(first: Floats, last: Floats, special: Floats) -> Floats:
+def _cosines(first: Floats, last: Floats, special: NDArray[np.floating[Any]]) -> Floats:
     """Cosines at the ends of the ranges and at the special angles inside, (k, N)."""
     inside = (special[:, None] >= first) & (special[:, None] <= last)
     middle = np.where(inside, np.cos(special)[:, None], np.nan)

@@ -13,7 +13,11 @@ from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.result import Candidate
 
 Complexes = NDArray[np.complex128]
-NAMES = {"crank_rocker": ("crank", "rocker"), "double_crank": ("crank", "follower"), "rocker_crank": ("rocker", "crank")}
+NAMES = {
+    "crank_rocker": ("crank", "rocker"),
+    "double_crank": ("crank", "follower"),
+    "rocker_crank": ("rocker", "crank"),
+}
 
 
 def four_bar(
@@ -88,7 +92,9 @@ def four_bar_candidate(
     return candidate(linkage, facts, index, error, worst=worst, curve=curve, values=values)
 
 
-def path_of_four_bar(o1: complex, a: complex, b: complex, o2: complex, p: complex, count: int = 361) -> Complexes:
+def path_of_four_bar(
+    o1: complex, a: complex, b: complex, o2: complex, p: complex, count: int = 361
+) -> Complexes:
     """Path of P over a turn of O1A on the circuit of the pose, closed; NaN where it cannot be assembled."""
     theta = np.linspace(0, 2 * np.pi, count)
     pin = o1 + (a - o1) * np.exp(1j * theta)

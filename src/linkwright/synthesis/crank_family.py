@@ -6,8 +6,8 @@ With the crank of length 1, coupler b, output c and frame d, the transmission an
     s² (1 + κ) + m² (1 - κ) ≥ 2 (d + 1)²  and  s² (1 - κ) + m² (1 + κ) ≤ 2 (d - 1)²
 
 (the law of cosines where the crank lies along the frame; κ = 1 is Grashof's b + c ≥ d + 1, |b - c| ≤ |d - 1|: the
-crank turns fully). So with d₀ = (1 + tan μ/2)/(1 - tan μ/2) three free numbers reach every such four-bar and no other,
-the border included:
+crank turns fully). So with d₀ = (1 + tan μ/2)/(1 - tan μ/2) three free numbers reach every such four-bar and no
+other, the border included:
 
     d = d₀ + eˣ (crank-rockers) or 1/(d₀ + eˣ) (double cranks),
     m = sin z √((d - 1)²(1 + κ) - (d + 1)²(1 - κ)) / √(2κ),   s² = lowest + (highest - lowest) sin² y;
@@ -40,7 +40,9 @@ class CrankFamily:
     transmission: float = 0.0
 
     @classmethod
-    def random(cls, rng: np.random.Generator, count: int, transmission: float = 0.0) -> tuple[CrankFamily, Floats]:
+    def random(
+        cls, rng: np.random.Generator, count: int, transmission: float = 0.0
+    ) -> tuple[CrankFamily, Floats]:
         """A family and free numbers spread over link ratios up to about eight."""
         x = rng.uniform(np.log(0.08), np.log(7.0), count)
         y = rng.uniform(0.05, 2.6 if transmission == 0.0 else np.pi / 2, count)

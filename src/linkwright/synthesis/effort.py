@@ -27,7 +27,8 @@ def peak_loads(linkage: Linkage, mass_per_length: float, speed: str, steps: int)
         links[name] = replace(link, mass=mass, inertia=mass * length**2 / 12, mass_centre=centre)
     forces = solve_forces(solve_motion(replace(mechanism, links=links), steps=steps))
     reactions = [
-        np.hypot(*forces.reaction(name, on=joint.joined[0]).T).max() for name, joint in mechanism.joints.items()
+        np.hypot(*forces.reaction(name, on=joint.joined[0]).T).max()
+        for name, joint in mechanism.joints.items()
     ]
     return {
         "peak_input_torque": float(np.abs(forces.input_torque).max()),

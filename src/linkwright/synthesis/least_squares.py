@@ -19,7 +19,13 @@ SHRINK, GROW, LARGEST = 0.2, 6.0, 1e12
 
 
 def minimise(
-    system: System, start: Floats, *, steps: int = 80, keep: int = 6, halve: int = 8, tolerance: float = 1e-13
+    system: System,
+    start: Floats,
+    *,
+    steps: int = 80,
+    keep: int = 6,
+    halve: int = 8,
+    tolerance: float = 1e-13,
 ) -> tuple[Floats, Floats, Whole]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 
@@ -44,7 +50,8 @@ def minimise(
             break
         if step % halve == 0 and len(x) > keep:
             chosen = np.argsort(f)[: max(keep, len(x) // 2)]
-            x, f, r, jacobian, damping, who = (v[chosen] for v in (x, f, r, jacobian, damping, who))
+            x, f, r, jacobian = x[chosen], f[chosen], r[chosen], jacobian[chosen]
+            damping, who = damping[chosen], who[chosen]
     order = np.argsort(f)
     return x[order], f[order], who[order]
 

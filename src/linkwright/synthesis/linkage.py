@@ -193,7 +193,12 @@ def _digits(value: float) -> str:
 def _quoted(text: str) -> str:
     """Plain where YAML reads it as text, else in double quotes."""
     calm = text.lower().translate(str.maketrans("", "", " -_,.()")) if text else ""
-    if calm and text[0].lower() in PLAIN[:26] and all(each.isalnum() for each in calm) and text == text.strip():
+    if (
+        calm
+        and text[0].lower() in PLAIN[:26]
+        and all(each.isalnum() for each in calm)
+        and text == text.strip()
+    ):
         return text
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'

@@ -137,7 +137,7 @@ class Synthesis:
         """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths."""
         stem = name or self.task
         found = []
-        for number, each in enumerate(self.candidates, 1):
+        for number in range(1, len(self) + 1):
             path = Path(folder) / f"{stem}_{number}.yaml"
             path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
             found.append(path)
@@ -158,19 +158,19 @@ class Synthesis:
 
 
 class SynthesisError(LinkwrightError):
-    """A demand that cannot be met: the sentence says which and how closely it can be, ``nearest`` has the solution."""
+    """A demand that cannot be met: which, how closely it can be, and the ``nearest`` solution."""
 
     def __init__(self, sentence: Sentence, nearest: Synthesis | None = None) -> None:
-        self.sentence, self.nearest = sentence, nearest
-        super().__init__(str(sentence))
+        self.nearest = nearest
+        super().__init__(sentence)
 
     def __reduce__(self) -> tuple[type[SynthesisError], tuple[Sentence, Synthesis | None]]:
-        return SynthesisError, (self.sentence, self.nearest)
+        return SynthesisError, (self.args[0], self.nearest)
 
 
-def refuse(key: str, nearest: Synthesis | None = None, **values: object) -> SynthesisError:
+def refuse(rule: str, nearest: Synthesis | None = None, **values: object) -> SynthesisError:
     """The error with the sentence of a key of the catalogue ``synthesize``."""
-    return SynthesisError(Sentence(f"synthesize.{key}", **values), nearest)
+    return SynthesisError(Sentence(f"synthesize.{rule}", **values), nearest)
 
 
 def note(key: str, **values: object) -> Sentence:

@@ -15,8 +15,7 @@ from linkwright.model.file import read_source
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
 from linkwright.registry import nearest
-from linkwright.synthesis.result import Synthesis, refuse
-from linkwright.words import say
+from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence
 
 #: Forms of values: dimensions of the entries, and how deep the list is.
@@ -71,10 +70,10 @@ def synthesize(task: str, **demands: Any) -> Synthesis:
     for key in demands:
         if key not in chosen.demands:
             near = nearest(key, list(chosen.demands))
-            raise refuse("task.unknown", key=key, task=task, known=near or ", ".join(chosen.demands))
+            raise refuse("task.unknown", demand=key, task=task, known=near or ", ".join(chosen.demands))
     for key in chosen.needed:
         if key not in demands:
-            raise refuse("task.missing", task=task, key=key, form=_form(chosen.demands[key]))
+            raise refuse("task.missing", task=task, demand=key, form=_form(chosen.demands[key]))
     return chosen.run(**demands)
 
 
@@ -88,12 +87,13 @@ def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
     """Runs the section ``synthesis`` of a text; ``name`` stands for the file in findings."""
     root, remarks = compose(text.removeprefix("\ufeff"))
     findings = [
-        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code) for r in remarks
+        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code)
+        for r in remarks
     ]
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
-        raise ModelError(findings or [Finding("error", place, "", str(Sentence("synthesize.task.section")), "", "missing")])
+        raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])
     task, demands = read_section(section, name)
     return synthesize(task, **demands)
 
@@ -106,7 +106,7 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
     known = tasks()
     if task not in known:
         near = nearest(task, list(known))
-        sentence = say("synthesize.task", task=task, known=near or ", ".join(known))
+        sentence = note("task", task=task, known=near or ", ".join(known))
         reader.add(given or section, "synthesis.task", sentence)
         raise ModelError(reader.findings)
     for key, kind in (("unit", "length"), ("angle_unit", "angle")):
@@ -118,7 +118,9 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
             continue
         if key not in known[task].demands:
             near = nearest(key, list(known[task].demands))
-            sentence = say("synthesize.task.unknown", key=key, task=task, known=near or ", ".join(known[task].demands))
+            sentence = note(
+                "task.unknown", demand=key, task=task, known=near or ", ".join(known[task].demands)
+            )
             reader.add(entry.key, f"synthesis.{key}", sentence)
             continue
         demands[key] = reader.value(entry.value, key, known[task].demands[key])
@@ -148,7 +150,7 @@ class _Reader:
         try:
             units.parse(f"1 {unit}", kind)
         except QuantityError as error:
-            self.add(node, f"synthesis.{key}", str(error))
+            self.add(node, f"synthesis.{key}", error.sentence)
         else:
             self.units[kind] = unit
 
@@ -174,7 +176,9 @@ class _Reader:
             return [self._nested(each, key, form, inner, depth - 1) for each in node.items]
         if len(node.items) != len(dimensions):
             return self._wrong(node, key, form)
-        return [self._quantity(each, key, form, kind) for each, kind in zip(node.items, dimensions, strict=True)]
+        return [
+            self._quantity(each, key, form, kind) for each, kind in zip(node.items, dimensions, strict=True)
+        ]
 
     def _quantity(self, node: Node, key: str, form: str, dimension: str) -> float | None:
         if not isinstance(node, Scalar):
@@ -186,7 +190,7 @@ class _Reader:
         try:
             return units.parse(text, dimension)
         except QuantityError as error:
-            self.add(node, f"synthesis.{key}", str(error))
+            self.add(node, f"synthesis.{key}", error.sentence)
             return None
 
     def _word(self, node: Node, key: str, form: str) -> Any:
@@ -195,8 +199,10 @@ class _Reader:
         return node.text == "true" if form == "flag" else node.text
 
     def _wrong(self, node: Node, key: str, form: str) -> None:
-        given = node.text if isinstance(node, Scalar) else "a list" if isinstance(node, Sequence) else "a mapping"
-        self.add(node, f"synthesis.{key}", say("synthesize.task.value", key=key, form=_form(form), given=given))
+        given = (
+            node.text if isinstance(node, Scalar) else "a list" if isinstance(node, Sequence) else "a mapping"
+        )
+        self.add(node, f"synthesis.{key}", note("task.value", demand=key, form=_form(form), given=given))
 
 
 def _bare(text: str) -> bool:

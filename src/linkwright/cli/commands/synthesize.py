@@ -69,9 +69,8 @@ def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
 def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | None, session: Session) -> int:
     """Says which demand fails, and shows the nearest solution."""
     from linkwright.cli.data import json_text
-    from linkwright.words.sentence import in_language
 
-    sentence = in_language(error.sentence, session.language)
+    sentence = error.say(session.language)
     session.tell(f"{session.alarm(session.say('cli.error'))}: {sentence}")
     if session.json:
         nearest = None if error.nearest is None else error.nearest.data()
@@ -90,12 +89,12 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
     if options.output is not None:
         for index in range(len(found)):
             path = Path(options.output) / f"{found.task}_{index + 1}.yaml"
-            write_whole(path, found.model_text(index), session.say, force=options.force)
+            write_whole(path, found.model_text(index), force=options.force)
             written.append(path)
     if options.plot is not None:
         path = Path(options.plot)
         content = found.plot(language=session.language).content(path.suffix.lower())
-        write_whole(path, content, session.say, force=options.force)
+        write_whole(path, content, force=options.force)
         written.append(path)
     if session.json:
         data = found.data()

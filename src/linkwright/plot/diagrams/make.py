@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from linkwright.study.designs import Sweep
     from linkwright.study.sensitivity import Sensitivity
     from linkwright.study.study import Study
+    from linkwright.synthesis.result import Synthesis
 
     Single: TypeAlias = (
         Comparison
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         | Balancing
         | CouplerCurve
         | PartResult
+        | Synthesis
     )
 
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]

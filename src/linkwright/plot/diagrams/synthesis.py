@@ -32,7 +32,9 @@ class SynthesisDiagram(ResultKind):
             from matplotlib.figure import Figure
 
             function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
-            figure = Figure(figsize=request.size or ((11, 5.2) if function else (7.5, 6)), layout="constrained")
+            figure = Figure(
+                figsize=request.size or ((11, 5.2) if function else (7.5, 6)), layout="constrained"
+            )
             axes = figure.subplots(1, 2 if function else 1, squeeze=False)[0]
             self._plane(axes[0], result, request.language)
             if function:
@@ -44,7 +46,14 @@ class SynthesisDiagram(ResultKind):
     def _plane(self, axes: Any, result: Synthesis, language: str) -> None:
         for name, curve in result.curves.items():
             label = say(f"synthesize.legend.{name}", language)
-            axes.plot(curve.real, curve.imag, ".", ms=2.5, color=FAINT if "centre" in name else "#d9a13b", label=label)
+            axes.plot(
+                curve.real,
+                curve.imag,
+                ".",
+                ms=2.5,
+                color=FAINT if "centre" in name else "#d9a13b",
+                label=label,
+            )
         for number, each in enumerate(result.candidates[:SHOWN]):
             colour = COLOURS[number % len(COLOURS)]
             if each.curve is not None and each.curve.ndim == 1:

@@ -5,9 +5,9 @@ point z lies on a circle about C at every pose where, for j = 1 … n - 1,
 
     (1 - e_j) z C* + (1 - e_j*) z* C + p_j* e_j z + p_j e_j* z* - p_j* C - p_j C* + p_j p_j* = 0.
 
-Five poses: the four equations are linear in (zC*, z*C, z, z*, C, C*, 1). Their null space has three dimensions, and the
-two products are two conics in it: four solutions, all found, real where z* is the conjugate of z. A solution whose
-centre is at infinity is a slider. Four poses: the circle-point curve, a cubic; three: every point.
+Five poses: the four equations are linear in (zC*, z*C, z, z*, C, C*, 1). Their null space has three dimensions, and
+the two products are two conics in it: four solutions, all found, real where z* is the conjugate of z. A solution
+whose centre is at infinity is a slider. Four poses: the circle-point curve, a cubic; three: every point.
 Source: Burmester 1888, Lehrbuch der Kinematik; Bottema and Roth 1979, Theoretical Kinematics, ch. 8.
 """
 
@@ -111,7 +111,10 @@ def five_poses(p: Complexes, phi: Floats) -> tuple[Complexes, Complexes, Flags, 
     far = np.abs(one) < 1e-9 * np.abs(np.stack([c, cc, z, zc])).max(0)
     with np.errstate(divide="ignore", invalid="ignore"):
         points = np.where(far, product / cc, z / one), np.where(far, product_c / c, zc / one)
-        middle = np.where(far, FAR * 10 * c / np.abs(c), c / one), np.where(far, FAR * 10 * cc / np.abs(cc), cc / one)
+        middle = (
+            np.where(far, FAR * 10 * c / np.abs(c), c / one),
+            np.where(far, FAR * 10 * cc / np.abs(cc), cc / one),
+        )
     x = _polished(np.stack([*points, *middle], -1), d, e, ~far)
     slides = np.abs(x[..., 2]) > FAR
     conjugate = np.abs(x[..., 1] - x[..., 0].conj()) <= REAL * (1 + np.abs(x[..., 0]))
@@ -178,7 +181,7 @@ def _quartic_roots(c: Complexes) -> Complexes:
     companion = np.zeros((len(c), 4, 4), complex)
     companion[:, [1, 2, 3], [0, 1, 2]] = 1
     companion[:, :, 3] = -c[:, :4] / lead[:, None]
-    return np.linalg.eigvals(companion)
+    return np.linalg.eigvals(companion).astype(complex)
 
 
 def _polished(x: Complexes, d: Complexes, e: Complexes, use: Flags) -> Complexes:

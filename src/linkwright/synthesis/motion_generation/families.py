@@ -4,9 +4,9 @@ Four poses: the circle-point curve is where the three bisectors of a point's pos
 
     det [Re q_j, Im q_j, Re(q_j* z) + |q_j|²/2] = 0,  q_j the displacement to pose j:
 
-a cubic in z, cut by horizontal and vertical lines. One of its points runs on a straight line: the second intersection of
-two circles through the pole P₀₁. Three poses: any point has its circle; those on a circle through the pole run on
-straight lines. Two poses: any point, and any centre on the bisector of its two positions.
+a cubic in z, cut by horizontal and vertical lines. One of its points runs on a straight line: the second
+intersection of two circles through the pole P₀₁. Three poses: any point has its circle; those on a circle through
+the pole run on straight lines. Two poses: any point, and any centre on the bisector of its two positions.
 Source: Bottema and Roth 1979, Theoretical Kinematics, ch. 8; McCarthy and Soh 2011, Geometric Design of Linkages.
 """
 
@@ -64,7 +64,10 @@ def dyads(p: Complexes, phi: Floats, window: Window) -> Dyads:
     if len(p) == 5:
         return _five(p, phi)
     if len(p) == 4:
-        found = join(circles(circle_points(d, e, _shifted(window, p)), p, d, e), sliders(_slider_of_four(d, e), p, d, e))
+        found = join(
+            circles(circle_points(d, e, _shifted(window, p)), p, d, e),
+            sliders(_slider_of_four(d, e), p, d, e),
+        )
     elif len(p) == 3:
         found = join(circles(_grid(window, p), p, d, e), sliders(_sliders_of_three(d, e), p, d, e))
     else:
@@ -177,7 +180,7 @@ def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, 
     d, e = relative_poses(p, phi)
     size = float(np.sqrt(np.mean(np.abs(d) ** 2))) or 1.0
     z, c = _fit_starts(p, phi, rng)
-    z, c = np.clip(z.real, -50 * size, 50 * size) + 1j * np.clip(z.imag, -50 * size, 50 * size), c
+    z = np.clip(z.real, -50 * size, 50 * size) + 1j * np.clip(z.imag, -50 * size, 50 * size)
 
     def system(x: Floats, who: Whole) -> tuple[Floats, Floats]:
         point, centre = x[:, 0] + 1j * x[:, 1], x[:, 2] + 1j * x[:, 3]
@@ -201,7 +204,11 @@ def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, 
 
 def _fit_starts(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Complexes, Complexes]:
     n = len(p)
-    every = list(combinations(range(n), 5)) if n < 12 else [sorted(rng.choice(n, 5, replace=False)) for _ in range(SUBSETS)]
+    every = (
+        list(combinations(range(n), 5))
+        if n < 12
+        else [sorted(rng.choice(n, 5, replace=False)) for _ in range(SUBSETS)]
+    )
     chosen = np.array([every[i] for i in rng.permutation(len(every))[:SUBSETS]])
     z, c, _, slides = five_poses(p[chosen], phi[chosen])
     first = chosen[:, :1]

@@ -159,7 +159,9 @@ def _pairs(
     made = [_candidate(found, facts, i, j, k, worst, p, phi) for facts, i, j, k, worst in keys]
     sound = np.array([not each.defects and each.link_ratio <= link_ratio for each in made], dtype=bool)
     angles = np.array([each.transmission_angle for each in made])
-    order = ranking(np.array([each.error for each in made]), angles, sound, _scale(p)) if made else []
+    if not made:
+        return ()
+    order = ranking(np.array([each.error for each in made]), angles, sound, _scale(p))
     return tuple(made[i] for i in order[:count])
 
 
@@ -202,7 +204,11 @@ def _nearest(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthe
     found, squares = fitted(p, phi, np.random.default_rng(0))
     chosen = _pairs(found, squares, p, phi, link_ratio, count) if len(found) > 1 else ()
     notes = (note("motion.fitted", poses=len(p)),)
-    return Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes) if chosen else None
+    return (
+        Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes)
+        if chosen
+        else None
+    )
 
 
 def _curves(p: Complexes, phi: Floats, window: Window) -> dict[str, Complexes]:
@@ -215,5 +221,3 @@ def _curves(p: Complexes, phi: Floats, window: Window) -> dict[str, Complexes]:
         "circle_points": p[0] + circle_points(d, e, shifted),
         "centre_points": p[0] + circle_points(di, ei, shifted),
     }
-
-

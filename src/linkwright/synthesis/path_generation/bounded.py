@@ -1,10 +1,10 @@
 """Paths whose lengths and coordinates are bounded: the same least squares in all numbers, within the bounds.
 
 A solution is written by *measures*, in units of the bound: ratios and crank angles as in the projection, the crank's
-length, the coupler point's and the pivot's coordinates, and the angle of the frame. For the iteration of many starts a
-coordinate is sin q and the crank sin² q of the length at which the longest link reaches the bound, so that no step can
-leave the bounds; the best are then carried to the end along their active bounds by sequential quadratic programming
-(Kraft 1988).
+length, the coupler point's and the pivot's coordinates, and the angle of the frame. For the iteration of many
+starts a coordinate is sin q and the crank sin² q of the length at which the longest link reaches the bound, so that
+no step can leave the bounds; the best are then carried to the end along their active bounds by sequential quadratic
+programming (Kraft 1988).
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ Linear = tuple[Complexes, Complexes, Complexes]
 
 #: Starts are moved this far inside the bounds, so that no sine begins at its turning point.
 INSIDE = 0.97
-#: Steps of the iteration and solutions carried to the end: timed, untimed.
-STEPS, FINISHED = (80, 160), (3, 6)
+#: Steps of the iteration and solutions carried to the end (timed, untimed); ratios that differ less are one solution.
+STEPS, FINISHED, ALIKE = (80, 160), (3, 6), 0.02
 
 
 class BoundedPaths:
@@ -47,9 +47,11 @@ class BoundedPaths:
             return self.residual(self.measures(q, rows[chosen]), rows[chosen])
 
         start = self.start(np.concatenate([free, nearer]), rows)
-        q, _, chosen = minimise(with_differences(residual), start, keep=16, steps=STEPS[free_timing], halve=16)
+        q, _, chosen = minimise(
+            with_differences(residual), start, keep=16, steps=STEPS[free_timing], halve=16
+        )
         found = self.measures(q, rows[chosen])
-        for i in range(min(FINISHED[free_timing], len(found))):
+        for i in _different(found[:, :3])[: FINISHED[free_timing]]:
             found[i] = self.finish(found[i], int(rows[chosen[i]]))
         return found[:, : self.inner], rows[chosen], self.linear(found, rows[chosen])
 
@@ -78,8 +80,8 @@ class BoundedPaths:
         sign = np.where(self.paths.mirrored[who], -1.0, 1.0)
         angle = rest[:, -1] if self.turned else sign * (self.paths.demand.direction or 0.0)
         frame = self.bound * np.exp(1j * angle)
-        z = self.bound * (rest[:, 3] + 1j * rest[:, 4]) if self.placed else np.zeros(len(rest), complex)
-        return z, rest[:, 0] * frame, (rest[:, 1] + 1j * rest[:, 2]) * frame
+        z = self.bound * (rest[:, 3] + 1j * rest[:, 4]) if self.placed else 0j * frame
+        return np.asarray(z), rest[:, 0] * frame, (rest[:, 1] + 1j * rest[:, 2]) * frame
 
     def residual(self, measures: Floats, who: Whole) -> Floats:
         """Deviations (K, 2n), m."""
@@ -93,22 +95,20 @@ class BoundedPaths:
         """One solution carried to the end along its active bounds."""
         from scipy.optimize import minimize
 
-        number, scale, m = np.array([who]), self.paths.demand.size ** -2, len(measures)
-        h = 1e-7
+        system, number, m = with_differences(self.residual), np.array([who]), len(measures)
+        scale = self.paths.demand.size**-2
 
         def value(x: Floats) -> tuple[float, Floats]:
-            beside = np.concatenate([x[None], x + h * np.eye(m), x - h * np.eye(m)])
-            r = self.residual(beside, np.repeat(number, len(beside)))
-            f = scale * np.einsum("ki,ki->k", r, r)
-            return float(f[0]), (f[1 : m + 1] - f[m + 1 :]) / (2 * h)
+            r, jacobian = system(x[None], number)
+            return float(scale * (r @ r.T)[0, 0]), 2 * scale * (r @ jacobian[0])[0]
 
         def room(x: Floats) -> Floats:
-            return 1.0 - self.paths.family.chosen(number).lengths(x[None])[:, 0] * x[self.inner]
+            return np.asarray(1.0 - self.paths.family.chosen(number).lengths(x[None])[:, 0] * x[self.inner])
 
         boxes: list[tuple[float | None, float | None]] = [(None, None)] * self.inner + [(1e-6, 1.0)]
         boxes += [(-1.0, 1.0)] * (m - self.inner - 1 - int(self.turned)) + [(None, None)] * int(self.turned)
         limits = {"type": "ineq", "fun": room}
-        options = {"maxiter": 400, "ftol": 1e-16}
+        options = {"maxiter": 300, "ftol": 1e-16}
         done = minimize(
             value, measures, jac=True, method="SLSQP", bounds=boxes, constraints=limits, options=options
         )
@@ -117,8 +117,17 @@ class BoundedPaths:
 
     def _longest(self, free: Floats, who: Whole) -> Floats:
         """The crank's length, in units of the bound, at which the longest link reaches the bound, (K,)."""
-        return 1.0 / np.maximum(1.0, self.paths.family.chosen(who).lengths(free).max(0))
+        return np.asarray(1.0 / np.maximum(1.0, self.paths.family.chosen(who).lengths(free).max(0)))
 
 
 def _inverse(value: Floats) -> Floats:
     return np.arcsin(np.clip(value, -INSIDE, INSIDE))
+
+
+def _different(shapes: Floats) -> list[int]:
+    """Rows whose ratios differ from those of all rows before."""
+    kept: list[int] = []
+    for i, shape in enumerate(shapes):
+        if all(np.abs(shape - shapes[j]).max() > ALIKE for j in kept):
+            kept.append(i)
+    return kept

@@ -116,8 +116,7 @@ def _starts(
     best = np.argsort(_squares(paths.fit(free, who)[0]))[:kept]
     if bound is not None:
         bounded = BoundedPaths(paths, bound)
-        measures = bounded.measures(bounded.start(free, who), who)
-        inside = np.argsort(_squares(bounded.residual(measures, who)))[:kept]
+        inside = np.argsort(_squares(bounded.residual(bounded.start(free, who), who)))[:kept]
         best = np.unique(np.concatenate([best[: kept // 2], inside]))
     return ProjectedPaths(demand, family.chosen(best), mirrored[best]), free[best]
 
@@ -148,7 +147,10 @@ def _candidates(
     b, _, d = shape
     flip = paths.mirrored[who][:, None]
     pivot = np.where(flip, z.conj(), z) + (paths.demand.pivot or 0.0)
-    back = lambda v: np.where(flip, v.conj(), v)  # noqa: E731
+
+    def back(v: Complexes) -> Complexes:
+        return np.where(flip, v.conj(), v)
+
     pin_a, pin_b = pivot + back(alpha * a), pivot + back(alpha * (a + b[:, None] * u))
     o2, p = pivot + back(alpha * d[:, None]), pivot + back(alpha * a + beta * u)
     facts = assess_four_bars(pivot[:, 0], pin_a, pin_b, o2[:, 0])

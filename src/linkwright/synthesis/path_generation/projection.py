@@ -2,9 +2,9 @@
 
 A path is linear in three complex numbers: P_j = z + α A_j + β U_j with A_j = e^{iθ_j}: z the crank's pivot, |α| its
 length, arg α the direction of the frame, β/α the coupler point in units of the crank. For given ratios (b, c, d) and
-crank angles the best z, α, β follow from linear least squares; only ratios, phase and free crank angles remain for the
-iteration (variable projection, Golub and Pereyra 1973; Jacobian after Kaufman 1975: the projection of ∂P/∂p at fixed
-z, α, β).
+crank angles the best z, α, β follow from linear least squares; only ratios, phase and free crank angles remain for
+the iteration (variable projection, Golub and Pereyra 1973; Jacobian after Kaufman 1975: the projection of ∂P/∂p at
+fixed z, α, β).
 """
 
 from __future__ import annotations
@@ -135,7 +135,12 @@ class ProjectedPaths:
         return residual, q @ (q.swapaxes(1, 2) @ slope) - slope
 
     def _change(
-        self, a: Complexes, u: Complexes, rates: tuple[Complexes, Complexes], alpha: Complexes, beta: Complexes
+        self,
+        a: Complexes,
+        u: Complexes,
+        rates: tuple[Complexes, Complexes],
+        alpha: Complexes,
+        beta: Complexes,
     ) -> Complexes:
         """∂P/∂p (K, n, m) at fixed z, α, β."""
         by_shape, by_angle = rates

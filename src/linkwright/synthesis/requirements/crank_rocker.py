@@ -38,7 +38,9 @@ def crank_rocker(
     positive(swing_angle=swing_angle, frame=frame)
     theta = angle_between_limits(quick_return_ratio)
     if not swing_angle < math.pi or not theta < math.pi / 2:
-        raise refuse("crank_rocker.range", swing=f"{math.degrees(swing_angle):g}", k=f"{quick_return_ratio:g}")
+        raise refuse(
+            "crank_rocker.range", swing=f"{math.degrees(swing_angle):g}", k=f"{quick_return_ratio:g}"
+        )
     pivots, limits = _family(swing_angle, theta)
     facts, pins = _assess(pivots, limits)
     lengths = np.abs(pivots)
@@ -98,10 +100,10 @@ def _limit_positions_right(
     """Whether the four-bar of one circuit has the swing and θ: its own limit positions, from its lengths."""
     a, d = np.abs(pins[0][:, 0] - pivots), np.abs(pivots)
     b, c = np.abs(pins[1][:, 0] - pins[0][:, 0]), 1.0
-    ends = [
-        np.arccos(np.clip((c * c + d * d - reach**2) / (2 * c * d), -1, 1)) for reach in (b + a, b - a)
+    ends = [np.arccos(np.clip((c * c + d * d - reach**2) / (2 * c * d), -1, 1)) for reach in (b + a, b - a)]
+    sides = [
+        np.arccos(np.clip((reach**2 + d * d - c * c) / (2 * reach * d), -1, 1)) for reach in (b + a, b - a)
     ]
-    sides = [np.arccos(np.clip((reach**2 + d * d - c * c) / (2 * reach * d), -1, 1)) for reach in (b + a, b - a)]
     right_swing = np.abs(np.abs(ends[0] - ends[1]) - swing) < 1e-9
     return np.asarray(right_swing & (np.abs(np.abs(sides[0] - sides[1]) - theta) < 1e-9) & (a > 1e-9))
 

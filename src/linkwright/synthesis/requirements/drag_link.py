@@ -51,7 +51,9 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
         order = np.argsort(-score)[:BEST]
         if score[order[0]] > value:
             best, value = x[order[0]], float(score[order[0]])
-        x = np.concatenate([best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width])
+        x = np.concatenate(
+            [best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width]
+        )
         width = width * 0.6
     if value <= 0:
         raise refuse("drag_link.none", k=f"{quick_return_ratio:g}")

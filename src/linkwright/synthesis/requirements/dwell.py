@@ -2,8 +2,8 @@
 
 While the coupler point P of a crank-rocker runs along an arc of radius ρ, a link P Q of that length leaves its other
 end Q where it is: the arc's centre. The output O3 Q then swings by the demanded angle while P passes the rest of its
-curve. From an atlas of crank-rockers the arcs over the demanded crank angle are found by the algebraic fit of a circle
-(|P|² = 2 Re(P c*) + k, linear in c and k); O3 is taken from a fan of directions and lengths.
+curve. From an atlas of crank-rockers the arcs over the demanded crank angle are found by the algebraic fit of a
+circle (|P|² = 2 Re(P c*) + k, linear in c and k); O3 is taken from a fan of directions and lengths.
 Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. Meas. 25 (circle fit).
 """
 
@@ -31,7 +31,7 @@ LEAST_TRANSMISSION = np.radians(30)
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """The best arcs of the atlas: pins A, B and P of one turn (N, SAMPLES), frame d (N,), first sample, centre, radius."""
+    """The best arcs: pins A, B and P over one turn (N, SAMPLES), frame d (N,), first sample, centre, radius."""
 
     a: Complexes
     b: Complexes
@@ -55,9 +55,13 @@ def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: i
         raise refuse("dwell.range")
     window = max(4, round(crank_angle / (2 * np.pi) * SAMPLES) + 1)
     arcs = _arcs(window, np.random.default_rng(seed))
-    candidates = [found for i in range(ARCS) if (found := _output(arcs, i, window, swing_angle, frame)) is not None]
+    candidates = [
+        found for i in range(ARCS) if (found := _output(arcs, i, window, swing_angle, frame)) is not None
+    ]
     if not candidates:
-        raise refuse("dwell.none", swing=f"{np.degrees(swing_angle):.4g}", crank=f"{np.degrees(crank_angle):.4g}")
+        raise refuse(
+            "dwell.none", swing=f"{np.degrees(swing_angle):.4g}", crank=f"{np.degrees(crank_angle):.4g}"
+        )
     candidates.sort(key=lambda each: each.error)
     return Synthesis("dwell", tuple(candidates[:4]), "rest", counts={"arcs": ARCS})
 
@@ -69,7 +73,11 @@ def _arcs(window: int, rng: np.random.Generator) -> Arcs:
     shape = shape[:, keep]
     theta = np.arange(SAMPLES) * 2 * np.pi / SAMPLES
     a, u = couplers(theta, shape)
-    arm = shape[0] * rng.uniform(0.2, 2.0, len(shape[0])) * np.exp(1j * rng.uniform(-np.pi, np.pi, len(shape[0])))
+    arm = (
+        shape[0]
+        * rng.uniform(0.2, 2.0, len(shape[0]))
+        * np.exp(1j * rng.uniform(-np.pi, np.pi, len(shape[0])))
+    )
     p = a + arm[:, None] * u
     index = (np.arange(SAMPLES)[:, None] + np.arange(window)) % SAMPLES
     centre, radius, off = fit_circles(p[:, index])
@@ -115,13 +123,15 @@ def _output(arcs: Arcs, i: int, window: int, swing: float, frame: float) -> Cand
     if not np.isfinite(angle).all() or abs(np.ptp(angle) - swing) > 1e-6:
         return None
     rest = angle[0, :window]
-    return _candidate(arcs, i, complex(place), angle[0], float(np.abs(sine).min()), float(np.ptp(rest) / 2), frame)
+    return _candidate(
+        arcs, i, complex(place), angle[0], float(np.abs(sine).min()), float(np.ptp(rest) / 2), frame
+    )
 
 
 def _follow(
     p: Complexes, pivot: Complexes, arm: Floats, rod: float, centre: complex
 ) -> tuple[Floats, Floats]:
-    """Angle of the output over the turn (K, n), unwrapped, and the sine of its transmission angle; NaN: no assembly."""
+    """Angle of the output over the turn (K, n), unwrapped, and the sine of its transmission angle; or NaN."""
     away = p - pivot[:, None]
     square = np.abs(away) ** 2
     cosine = (square + arm[:, None] ** 2 - rod**2) / (2 * arm[:, None] * np.sqrt(square))
@@ -161,7 +171,8 @@ def _candidate(
         "stephenson",
         {name: complex(place * scale) for name, place in points.items()},
         ("O1", "O2", "O3"),
-        {"crank": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"), "link": ("P", "Q"), "output": ("O3", "Q")},
+        {"crank": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"),
+         "link": ("P", "Q"), "output": ("O3", "Q")},
         ("crank", "O1"),
     )  # fmt: skip
     lengths = np.array(list(linkage.lengths().values()))

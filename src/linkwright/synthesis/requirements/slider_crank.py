@@ -1,8 +1,8 @@
 """Slider-cranks from their stroke and what else is demanded: closed forms.
 
-With crank r, rod l, offset e the slider's limit positions are B₁ = √((l + r)² - e²) and B₂ = √((l - r)² - e²) from the
-foot of the crank's pivot, the stroke H = B₁ - B₂; the crank's directions there enclose θ = π (K - 1)/(K + 1). The crank
-turns fully where r + e ≤ l. The smallest transmission angle is cos μ = (r + e)/l.
+With crank r, rod l, offset e the slider's limit positions are B₁ = √((l + r)² - e²) and B₂ = √((l - r)² - e²) from
+the foot of the crank's pivot, the stroke H = B₁ - B₂; the crank's directions there enclose θ = π (K - 1)/(K + 1).
+The crank turns fully where r + e ≤ l. The smallest transmission angle is cos μ = (r + e)/l.
 Sources: Volmer, Getriebetechnik; Norton, Design of Machinery, ch. 3 and 4.
 """
 
@@ -63,7 +63,9 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
     return _result(math.sqrt((total - difference) / 2), math.sqrt((total + difference) / 2), offset)
 
 
-def slider_crank_from_transmission(stroke: float, transmission_angle: float, offset: float = 0.0) -> Synthesis:
+def slider_crank_from_transmission(
+    stroke: float, transmission_angle: float, offset: float = 0.0
+) -> Synthesis:
     """The slider-crank of a stroke and offset (m) whose transmission angle never falls below the given one (rad).
 
     l = (r + e)/cos μ; r from the stroke, in closed form for e = 0 (r = H/2), else by bisection: the stroke grows
@@ -132,5 +134,3 @@ def _result(crank: float, rod: float, offset: float) -> Synthesis:
     slide = crank * np.cos(turn) + np.sqrt(np.maximum(rod**2 - height**2, 0))
     curve = np.stack([turn, slide])
     return Synthesis("slider_crank", (candidate(linkage, facts, 0, 0.0, curve=curve, values=values),))
-
-

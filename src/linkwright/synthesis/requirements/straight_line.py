@@ -68,7 +68,9 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     if not allowed > 0:
         raise refuse("not_positive", name="deviation", given=f"{allowed * length:g}")
     names = KINDS if kind is None else (kind,)
-    found = [_peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names]
+    found = [
+        _peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names
+    ]
     good = sorted((each for each in found if each is not None), key=lambda each: each.values["largest [m]"])
     if not good:
         raise refuse("straight_line.none", kind=str(kind), given=f"{allowed * length:.4g}")
@@ -94,13 +96,23 @@ def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:
     values = {"largest [m]": float(largest), "input_range [rad]": float(theta[last] - theta[first])}
     error = off * abs(scale)
     found = four_bar_candidate(
-        0, pins, joints, o2, facts, 0, error, p=complex(path[first] * scale), worst=error, curve=curve, values=values
+        0,
+        pins,
+        joints,
+        o2,
+        facts,
+        0,
+        error,
+        p=complex(path[first] * scale),
+        worst=error,
+        curve=curve,
+        values=values,
     )
     return replace(found, linkage=replace(found.linkage, kind=name))
 
 
 def longest_stretch(path: Complexes, allowed: float) -> tuple[int, int, float]:
-    """First and last sample of the longest stretch that deviates at most ``allowed`` times its chord; its deviation."""
+    """Ends of the longest stretch that deviates at most ``allowed`` times its chord, and its deviation."""
     best, found = 0.0, (0, 0, 0.0)
     for first in range(len(path) - 2):
         chord = path[first + 2 :] - path[first]
@@ -128,7 +140,13 @@ def _peaucellier(length: float) -> Candidate:
     across = 1j * pin / abs(pin)
     middle = pin / abs(pin) * (abs(pin) + power / abs(pin)) / 2
     height = math.sqrt(arm**2 - abs(middle) ** 2)
-    points = {"O1": crank + 0j, "O2": 0j, "A": pin, "B": middle + height * across, "C": middle - height * across}
+    points = {
+        "O1": crank + 0j,
+        "O2": 0j,
+        "A": pin,
+        "B": middle + height * across,
+        "C": middle - height * across,
+    }
     points["P"] = pin / abs(pin) ** 2 * power
     linkage = Linkage(
         "peaucellier",
@@ -144,4 +162,6 @@ def _peaucellier(length: float) -> Candidate:
     curve = scale * power * pins / np.abs(pins) ** 2
     sine = math.sin(math.acos((side**2 + arm**2 - abs(pin) ** 2) / (2 * side * arm)))
     values = {"largest [m]": arm * scale, "input_range [rad]": 2 * half}
-    return Candidate(linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values)
+    return Candidate(
+        linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values
+    )

@@ -1,9 +1,9 @@
 """Toggle linkages from the ratio of output to input force.
 
-Two links of length l, the angle α of each to the slider's line; a force F on the knee across the line gives the slider
-P = F / (2 tan α) (principle of virtual work). With the ratio n = P/F wanted at the distance s before the dead point:
-tan α = 1/(2 n), s = 2 l (1 - cos α), and over a stroke H the angle begins at cos α₀ = cos α - (H - s)/(2 l).
-Source: Niemann, Maschinenelemente; any textbook's virtual work of the toggle.
+Two links of length l, the angle α of each to the slider's line; a force F on the knee across the line gives the
+slider P = F / (2 tan α) (principle of virtual work). With the ratio n = P/F wanted at the distance s before the
+dead point: tan α = 1/(2 n), s = 2 l (1 - cos α), and over a stroke H the angle begins at cos α₀ = cos α - (H -
+s)/(2 l). Source: Niemann, Maschinenelemente; any textbook's virtual work of the toggle.
 """
 
 from __future__ import annotations
@@ -40,7 +40,12 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     linkage = slider_crank(0, knee, complex(2 * length * begin), 1, span=(0.002 * first, first), turns=False)
     angle = np.linspace(first, alpha / 4, 181)
     curve = np.stack([2 * length * np.cos(angle), 1 / (2 * np.tan(angle))])
-    values = {"link [m]": length, "angle [rad]": alpha, "first_angle [rad]": first, "force_ratio": force_ratio}
+    values = {
+        "link [m]": length,
+        "angle [rad]": alpha,
+        "first_angle [rad]": first,
+        "force_ratio": force_ratio,
+    }
     transmission = math.pi / 2 - first
     found = Candidate(linkage, 0.0, "toggle", (), False, transmission, 1.0, curve=curve, values=values)
     return Synthesis("toggle", (found,))

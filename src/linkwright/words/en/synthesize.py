@@ -14,7 +14,7 @@ linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 f
 linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
 linkwright synthesize press.yaml --json""",
     "task_help": "a file with a section synthesis, or the name of a task: {tasks}",
-    "demands_help": "demands of the task, such as stroke=\"40 mm\"; lists in brackets as in a file",
+    "demands_help": 'demands of the task, such as stroke="40 mm"; lists in brackets as in a file',
     "output_help": "write every candidate as a model file into this folder",
     "plot_help": "draw target, candidates and curves in a .svg, .pdf or .png file",
     "mass_help": "also peak input torque and reaction, for links of this mass per length (kg/m)",
@@ -71,10 +71,12 @@ linkwright synthesize press.yaml --json""",
     "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 and less "
     "than 90 deg",
     "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 or more",
-    "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least is {least}",
+    "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least "
+    "is {least}",
     "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = {least} "
     "(the nearest solution has that)",
-    "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; give offset 0 "
+    "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; "
+    "give offset 0 "
     "with a rod ratio or a transmission angle, or a larger K",
     "slider_crank.quick_return": "stroke and offset allow no quick-return ratio {given}; at most K = {most} "
     "(the nearest solution has that)",
@@ -82,14 +84,17 @@ linkwright synthesize press.yaml --json""",
     "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
     "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be below "
     "180 deg and K below 3",
-    "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; lower K or change "
+    "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; lower "
+    "K or change "
     "the swing",
     "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio",
     "quick_return.rod": "the rod cannot reach the guide; it must be longer than {least} m",
     "drag_link.one": "a drag link for quick return has K > 1; ask for a larger quick-return ratio",
-    "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or allow a larger "
+    "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or "
+    "allow a larger "
     "link_ratio",
-    "toggle.stroke": "the stroke {stroke} m is shorter than the distance {distance} m at which the force ratio is wanted",
+    "toggle.stroke": "the stroke {stroke} m is shorter than the distance {distance} m at which the force "
+    "ratio is wanted",
     "toggle.too_long": "the force ratio at that distance gives links for a stroke of at most {most} m; the nearest "
     "solution has a stroke just below it",
     "straight_line.kind": 'there is no straight-line linkage "{kind}"; known: {known}',
@@ -109,18 +114,22 @@ linkwright synthesize press.yaml --json""",
     "squares for more",
     "path.no_real": "no real four-bar passes exactly through the {count} points in every class that was found; the "
     "nearest solution is that of least squares, with a sum of squared distances of {error} m²",
-    "path.no_movable": "{real} real four-bars pass exactly through the points, none in order on one branch; the best one "
+    "path.no_movable": "{real} real four-bars pass exactly through the points, none in order on one branch; "
+    "the best one "
     "shows: {why}",
     "path.trace": "the trace test of the start set gives {residual}: no class is missing",
     "motion.poses": "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
     "motion.same": "poses {first} and {second} are the same; leave one out",
     "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
-    "motion.no_dyads": "{real} real Burmester dyads fit the five poses, two are needed; the nearest solution is that of "
+    "motion.no_dyads": "{real} real Burmester dyads fit the five poses, two are needed; the nearest "
+    "solution is that of "
     "least squares, with the errors shown",
     "motion.no_pairs": "no two dyads make a linkage within the given region; enlarge it",
-    "motion.no_movable": "no linkage moves through all poses in order without being dismantled; the best one has: {why}",
+    "motion.no_movable": "no linkage moves through all poses in order without being dismantled; the best "
+    "one has: {why}",
     "motion.defects": "{defects}",
-    "motion.fitted": "{poses} poses cannot all be met exactly; the links' lengths differ between the poses by the error "
+    "motion.fitted": "{poses} poses cannot all be met exactly; the links' lengths differ between the poses "
+    "by the error "
     "shown",
     "function.few": "{count} pairs of values are too few for a function; give 3 or more",
     "function.values": "inputs and outputs must be lists of the same number of finite values; given: {inputs} and "
@@ -128,14 +137,15 @@ linkwright synthesize press.yaml --json""",
     "function.linkage": 'there is no function generator "{linkage}"; known: {known}',
     "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or change the "
     "function",
-    "function.exact": "no real {linkage} has the given zero angles and meets all {count} positions exactly; the nearest "
+    "function.exact": "no real {linkage} has the given zero angles and meets all {count} positions exactly; "
+    "the nearest "
     "solution has a greatest error of {error}",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: {why}",
     "function.free": "zero angles: input {input} deg, output {output}",
     "task": 'there is no task "{task}"; known: {known}',
-    "task.missing": 'the task "{task}" needs "{key}": {form}',
-    "task.unknown": '"{key}" is no demand of the task "{task}"; known: {known}',
-    "task.value": "{key}: {form} is wanted; given: {given}",
+    "task.missing": 'the task "{task}" needs "{demand}": {form}',
+    "task.unknown": '"{demand}" is no demand of the task "{task}"; known: {known}',
+    "task.value": "{demand}: {form} is wanted; given: {given}",
     "task.section": 'the file has no section "synthesis"; add one with task: and its demands',
     "task.form.length": "a length with its unit, such as 40 mm",
     "task.form.angle": "an angle with its unit, such as 30 deg",

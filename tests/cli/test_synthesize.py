@@ -1,0 +1,68 @@
+"""The command synthesize."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+
+PRESS = ["synthesize", "slider_crank", "stroke=397.5 mm", "rod_ratio=3.55", "offset_ratio=0.305"]
+
+
+def test_candidates_are_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(PRESS) == 0
+    out = capsys.readouterr().out
+    assert "slider-crank" in out and "68.43°" in out and "197.9511 mm" in out
+
+
+def test_data_and_efforts(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*PRESS, "--json", "--mass", "2"]) == 0
+    (each,) = json.loads(capsys.readouterr().out)["candidates"]
+    assert each["crank [m]"] == pytest.approx(0.1979511, abs=1e-7)
+    assert each["peak_input_torque"] > 0 and each["peak_reaction"] > 0
+
+
+def test_files_are_written_and_can_be_solved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["synthesize", "crank_rocker", "swing_angle=40 deg", "quick_return_ratio=1.2", "frame=300 mm"]
+    assert main([*words, "--output", str(tmp_path)]) == 0
+    files = sorted(tmp_path.glob("*.yaml"))
+    assert len(files) == 3 and not [found for found in lw.check(files[0]) if found.severity == "error"]
+    assert lw.solve_motion(lw.load(files[0]), steps=12).point("B").position.shape[1] == 2
+    assert main([*words, "--output", str(tmp_path)]) == 2
+    assert "written" in capsys.readouterr().out
+
+
+def test_a_file_with_a_section(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "line.yaml"
+    file.write_text("format: 1\nsynthesis: {task: straight_line, length: 100 mm, kind: hoecken}\n")
+    assert main(["synthesize", str(file), "--lang", "zh"]) == 0
+    assert "曲柄摇杆" in capsys.readouterr().out
+
+
+def test_a_demand_that_fails_shows_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["synthesize", "slider_crank", "stroke=40 mm", "rod_ratio=1.1", "offset_ratio=0.3"]) == 1
+    told = capsys.readouterr()
+    assert "λ = 1.1 is too small" in told.err and "slider-crank" in told.out
+
+
+def test_picture(tmp_path: Path) -> None:
+    picture = tmp_path / "path.svg"
+    words = ["synthesize", "path", "unit=mm", "points=[[20, 20], [20, 30], [20, 40]]", "bound=90 mm"]
+    assert main([*words, "--plot", str(picture)]) == 0
+    assert picture.read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["synthesize", "nothing.yaml"], "no such file"),
+        (["synthesize", "slider_crank", "stroke"], "is no demand"),
+        ([*PRESS, "--mass", "x"], "mass per length"),
+        ([*PRESS, "--output", "/no/such/folder"], "there is no folder"),
+    ],
+)
+def test_misuse(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(words) == 2
+    assert told in capsys.readouterr().err

@@ -1,0 +1,89 @@
+"""Demands that cannot be met: which one, how closely it can be, and the nearest solution."""
+
+import math
+
+import pytest
+
+import linkwright as lw
+from linkwright.synthesis.requirements.slider_crank import (
+    slider_crank_from_quick_return,
+    slider_crank_from_ratios,
+)
+from linkwright.synthesis.requirements.toggle import toggle
+from linkwright.synthesis.tasks import synthesize_text
+
+
+def test_a_crank_that_cannot_turn() -> None:
+    with pytest.raises(lw.SynthesisError, match=r"λ = 1\.2 is too small .* 1\.305") as caught:
+        slider_crank_from_ratios(0.3975, 1.2, 0.305)
+    nearest = caught.value.nearest
+    assert nearest is not None
+    assert nearest.best.values["rod [m]"] / nearest.best.values["crank [m]"] == pytest.approx(1.305)
+    assert "λ ≥ 1 + ε" in caught.value.say("zh")
+
+
+def test_a_quick_return_that_the_offset_does_not_allow() -> None:
+    with pytest.raises(lw.SynthesisError, match="at most K = ") as caught:
+        slider_crank_from_quick_return(0.2, 2.9, 0.3)
+    nearest = caught.value.nearest
+    assert nearest is not None
+    largest = nearest.best.values["quick_return_ratio"]
+    theta = math.pi * (largest - 1) / (largest + 1)
+    assert math.tan(theta) == pytest.approx(0.2 / 0.3)
+
+
+def test_a_stroke_longer_than_the_toggle() -> None:
+    with pytest.raises(lw.SynthesisError, match="stroke of at most") as caught:
+        toggle(2.0, 0.01, 5.0)
+    assert caught.value.nearest is not None
+
+
+def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
+    poses = [(0, 0, 0), (1, 0.1, 2.2), (0.2, 1, -1.9), (-1, -0.3, 0.7), (0.4, -1.2, 3.0)]
+    with pytest.raises(lw.SynthesisError, match=r"real Burmester dyads|without being dismantled") as caught:
+        lw.motion_generation(poses)
+    assert caught.value.nearest is not None
+    assert caught.value.nearest.best.error > 0 or caught.value.nearest.best.defects
+
+
+@pytest.mark.parametrize(
+    ("section", "words"),
+    [
+        ("task: slider_crnk\n  stroke: 40 mm", "slider_crank"),
+        ("task: slider_crank\n  stroke: 40", "unit"),
+        ("task: slider_crank\n  strok: 40 mm", '"strok" is no demand'),
+        ("task: path\n  points: 3 mm", "a list of points"),
+        ("task: path\n  points: [[1 mm, 2 mm, 3 mm]]", "a list of points"),
+    ],
+)
+def test_findings_of_a_section(section: str, words: str) -> None:
+    with pytest.raises(lw.ModelError) as caught:
+        synthesize_text(f"synthesis:\n  {section}\n", "demand.yaml")
+    assert "demand.yaml:" in str(caught.value) and words in str(caught.value)
+
+
+def test_all_findings_at_once() -> None:
+    with pytest.raises(lw.ModelError) as caught:
+        synthesize_text("synthesis:\n  task: toggle\n  force_ratio: 3 mm\n  distance: 4\n  stroke: 5 rpm\n")
+    assert len(caught.value.findings) == 3
+
+
+@pytest.mark.parametrize(
+    ("task", "demands", "words"),
+    [
+        ("path", {"points": [(0, 0), (1, 1)]}, "2 points are too few"),
+        ("path", {"points": [(0, 0), (1, 1), (2, float("nan"))]}, "finite"),
+        ("path", {"points": [(0, 0), (1, 1), (2, 1)], "angles": [0, 1]}, "2 crank angles"),
+        ("path", {"points": [(1, 1), (1, 1), (1, 1)]}, "one place"),
+        ("motion", {"poses": [(0, 0, 0), (0, 0, 0)]}, "poses 1 and 2 are the same"),
+        ("crank_rocker", {"swing_angle": 4.0, "quick_return_ratio": 1.1, "frame": 1.0}, "180 deg"),
+        ("crank_rocker", {"swing_angle": 1.0, "quick_return_ratio": 0.5, "frame": 1.0}, "below 1"),
+        ("toggle", {"force_ratio": -1.0, "distance": 1.0, "stroke": 2.0}, "positive"),
+        ("toggle", {"force_ratio": 1.0}, 'needs "distance"'),
+        ("nothing", {}, "there is no task"),
+    ],
+)
+def test_sentences(task: str, demands: dict[str, object], words: str) -> None:
+    with pytest.raises(lw.SynthesisError, match=words) as caught:
+        lw.synthesize(task, **demands)
+    assert caught.value.say("zh") != str(caught.value)

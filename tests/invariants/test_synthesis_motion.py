@@ -1,0 +1,109 @@
+"""Motion generation: hidden linkages are found again, and rigid bodies on the found dyads keep their lengths."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.synthesis.motion_generation.burmester import five_poses
+from linkwright.synthesis.motion_generation.families import cubic
+
+
+def hidden_four_bars(
+    count: int, poses: int, seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Places and angles of couplers of random four-bars, and their pins A and B at the first pose, pivots 0 and 1."""
+    rng = np.random.default_rng(seed)
+    places, angles, pins, others = [], [], [], []
+    while len(places) < count:
+        a, b, c = rng.uniform(0.3, 2.0, 3)
+        theta = np.sort(rng.uniform(0, 2 * np.pi, poses))
+        pin = a * np.exp(1j * theta)
+        reach = np.abs(1 - pin)
+        cosine = (reach**2 + b**2 - c**2) / (2 * reach * b)
+        if np.abs(cosine).max() > 0.98:
+            continue
+        turn = (1 - pin) / reach * np.exp(1j * np.arccos(cosine))
+        body = complex(*rng.normal(0, 1, 2))
+        places.append(pin + body * turn)
+        angles.append(np.angle(turn))
+        pins.append(pin[0])
+        others.append(pin[0] + b * turn[0])
+    return np.array(places), np.array(angles), np.array(pins), np.array(others)
+
+
+def test_hidden_four_bars_are_among_the_solutions_of_five_poses() -> None:
+    p, phi, a, b = hidden_four_bars(1000, 5, 7)
+    z, c, real, _ = five_poses(p, phi)
+    for pin, pivot in ((a, 0.0), (b, 1.0)):
+        off = np.abs(z - (pin - p[:, 0])[:, None]) + np.abs(c - (pivot - p[:, 0])[:, None])
+        assert np.where(real, off, np.inf).min(1).max() < 1e-5
+
+
+@pytest.mark.parametrize("poses", [2, 3, 4, 5])
+def test_every_candidate_takes_every_pose(poses: int) -> None:
+    p, phi, _, _ = hidden_four_bars(1, poses, 3)
+    found = lw.motion_generation(np.column_stack([p[0].real, p[0].imag, phi[0]]))
+    assert len(found) > 0
+    for each in found:
+        points = each.linkage.points
+        for pin, pivot in (("A", "O1"), ("B", "O2")):
+            body = (points[pin] - p[0, 0]) * np.exp(-1j * phi[0, 0])
+            places = p[0] + body * np.exp(1j * phi[0])
+            if pivot in points:
+                radii = np.abs(places - points[pivot])
+                assert np.ptp(radii) < 1e-6 * radii.max()
+            else:
+                along = np.exp(-1j * each.linkage.guides["guide"].direction)  # type: ignore[operator]
+                assert np.ptp((places * along).imag) < 1e-6
+
+
+def test_hidden_slider_crank_is_found_from_five_poses() -> None:
+    theta = np.array([0.2, 0.9, 1.7, 2.6, 3.9])
+    a = 0.5 * np.exp(1j * theta)
+    b = a.real + np.sqrt(1.5**2 - (a.imag - 0.2) ** 2) + 0.2j
+    phi = np.angle(b - a)
+    p = a + (0.6 + 0.4j) * np.exp(1j * phi)
+    found = lw.motion_generation(np.column_stack([p.real, p.imag, phi]))
+    lengths = [each.linkage.lengths() for each in found if each.linkage.kind == "slider_crank"]
+    assert any(
+        each["crank"] == pytest.approx(0.5, rel=1e-4) and each["rod"] == pytest.approx(1.5, rel=1e-4)
+        for each in lengths
+    )
+
+
+def test_known_pins_lie_on_the_circle_point_curve() -> None:
+    p, phi, a, b = hidden_four_bars(20, 4, 11)
+    d, e = p - p[:, :1], np.exp(1j * (phi - phi[:, :1]))
+    for i in range(20):
+        values = cubic(np.array([a[i] - p[i, 0], b[i] - p[i, 0], 0.3 + 0.2j]), d[i], e[i])
+        assert np.abs(values[:2]).max() < 1e-9
+        assert abs(values[2]) > 1e-6
+
+
+def test_defects_are_those_that_the_motion_shows() -> None:
+    """A linkage without defects passes all poses when its input turns through its range; others do not say so."""
+    p, phi, _, _ = hidden_four_bars(12, 5, 5)
+    seen = 0
+    for i in range(12):
+        try:
+            found = lw.motion_generation(np.column_stack([p[i].real, p[i].imag, phi[i]]), count=4)
+        except lw.SynthesisError:
+            continue
+        for each in found:
+            if each.defects or not each.turns:
+                continue
+            path = lw.solve_motion(each.mechanism(), steps=3600).point("P").position
+            off = [np.hypot(path[:, 0] - q.real, path[:, 1] - q.imag).min() for q in p[i]]
+            assert max(off) < 0.02
+            seen += 1
+    assert seen > 3
+
+
+def test_three_poses_with_given_pivots() -> None:
+    poses = [(0, 0, 0), (1, 0.4, 0.3), (1.6, 1.2, 0.9)]
+    found = lw.motion_generation(poses, fixed_pivots=[(-1, -2), (1, -2)])
+    pivots = sorted((found.best.linkage.points[name] for name in ("O1", "O2")), key=lambda z: z.real)
+    assert pivots == pytest.approx([-1 - 2j, 1 - 2j], abs=1e-9)
+    assert math.isfinite(found.best.transmission_angle)

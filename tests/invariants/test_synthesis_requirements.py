@@ -1,0 +1,96 @@
+"""What requirements' linkages do when the solver of motions moves them: the demands themselves."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.synthesis.requirements.crank_rocker import crank_rocker, quick_return
+from linkwright.synthesis.requirements.drag_link import drag_link
+from linkwright.synthesis.requirements.dwell import dwell
+from linkwright.synthesis.requirements.slider_crank import (
+    slider_crank_from_quick_return,
+    slider_crank_from_transmission,
+)
+from linkwright.synthesis.requirements.straight_line import straight_line
+from linkwright.synthesis.requirements.toggle import toggle
+
+
+def measured(candidate: lw.Candidate, metric: str) -> float:
+    """The last value of a design number: the output's."""
+    table = lw.metrics(lw.solve_motion(candidate.mechanism(), steps=720))
+    return float(table[metric][-1].value)
+
+
+@pytest.mark.parametrize(("k", "offset"), [(1.1, 0.05), (1.25, 0.12), (1.5, 0.2)])
+def test_slider_crank_has_its_stroke_and_quick_return_ratio(k: float, offset: float) -> None:
+    best = slider_crank_from_quick_return(0.4, k, offset).best
+    assert measured(best, "stroke") == pytest.approx(0.4, rel=1e-9)
+    assert measured(best, "quick_return_ratio") == pytest.approx(k, rel=1e-9)
+    assert best.defects == () and best.turns
+
+
+def test_slider_crank_has_its_transmission_angle() -> None:
+    best = slider_crank_from_transmission(0.4, math.radians(50), 0.05).best
+    assert measured(best, "stroke") == pytest.approx(0.4, rel=1e-9)
+    assert measured(best, "transmission_angle") == pytest.approx(math.radians(50), rel=1e-9)
+
+
+@pytest.mark.parametrize(("swing", "k"), [(40, 1.2), (60, 1.0), (25, 1.4)])
+def test_crank_rockers_have_their_swing_and_quick_return_ratio(swing: float, k: float) -> None:
+    for each in crank_rocker(math.radians(swing), k, 0.3):
+        motion = lw.solve_motion(each.mechanism(), steps=1440)
+        assert np.ptp(motion.link("rocker").angle) == pytest.approx(math.radians(swing), abs=1e-4)
+        assert measured(each, "quick_return_ratio") == pytest.approx(k, rel=1e-7)
+        assert measured(each, "transmission_angle") == pytest.approx(each.transmission_angle, rel=1e-7)
+        assert each.linkage.lengths()["frame"] == pytest.approx(0.3)
+
+
+def test_shaper_has_its_stroke_and_quick_return_ratio() -> None:
+    best = quick_return(1.4599052, 0.38, stroke=0.31263158, rod=0.135).best
+    assert best.values["crank [m]"] == pytest.approx(0.110, rel=1e-6)
+    assert measured(best, "stroke") == pytest.approx(0.31263158, rel=1e-8)
+    assert measured(best, "quick_return_ratio") == pytest.approx(1.4599052, rel=1e-7)
+
+
+def test_drag_link_turns_half_round_in_its_share_of_the_time() -> None:
+    best = drag_link(2.0, 0.1).best
+    motion = lw.solve_motion(best.mechanism(), steps=7200)
+    angle = np.unwrap(motion.link("follower").angle)
+    half = np.interp(angle[0] + math.pi * np.sign(angle[-1] - angle[0]), *sorted_curve(angle))
+    assert best.turns and best.defects == ()
+    shares = sorted((half, 1 - half))
+    assert shares[1] / shares[0] == pytest.approx(2.0, abs=2e-3)
+
+
+def sorted_curve(angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    share = np.linspace(0, 1, len(angle))
+    return (angle, share) if angle[-1] > angle[0] else (angle[::-1], share[::-1])
+
+
+def test_toggle_has_its_stroke() -> None:
+    best = toggle(5.0, 0.002, 0.02).best
+    x = lw.solve_motion(best.mechanism(), steps=60).point("B").position[:, 0]
+    assert np.ptp(x) == pytest.approx(0.02, rel=1e-4)
+    tan = math.tan(best.values["angle [rad]"])
+    assert 1 / (2 * tan) == pytest.approx(5.0)
+
+
+def test_dwell_rests_and_swings() -> None:
+    for each in dwell(math.radians(80), math.radians(30), frame=0.2):
+        angle = np.unwrap(lw.solve_motion(each.mechanism(), steps=720).link("output").angle)
+        assert np.ptp(angle) == pytest.approx(math.radians(30), abs=2e-3)
+        assert np.ptp(angle[:160]) < 5 * each.error + 1e-4 < math.radians(1)
+
+
+def test_straight_lines_are_as_straight_as_they_say() -> None:
+    for each in straight_line(0.1, deviation=2e-4):
+        if each.linkage.span is None:
+            continue
+        path = lw.solve_motion(each.mechanism(), steps=200).point("P").position
+        chord = path[-1] - path[0]
+        assert np.hypot(*chord) == pytest.approx(0.1, rel=1e-6)
+        off = np.abs(chord[0] * (path - path[0])[:, 1] - chord[1] * (path - path[0])[:, 0]) / 0.1
+        assert off.max() == pytest.approx(each.error, rel=0.05, abs=1e-9)
+        assert each.error <= 2e-4

@@ -1,0 +1,92 @@
+"""Published cases of synthesis: five benchmark paths of the literature, and the printing press's slider-crank.
+
+Paths: Cabrera, Simon and Prado 2002 (Mech. Mach. Theory 37), Kunjur and Krishnamurty 1997, and the papers that reuse
+their points; the sums of squares are the best that independent optimisers agree on for the same demand.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
+
+FIVE = [(3, 3), (2.759, 3.363), (2.372, 3.663), (1.890, 3.862), (1.355, 3.943)]
+EIGHTEEN = [
+    (0.5, 1.1), (0.4, 1.1), (0.3, 1.1), (0.2, 1), (0.1, 0.9), (0.05, 0.75), (0.02, 0.6), (0, 0.5), (0, 0.4),
+    (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9), (0.6, 1),
+]  # fmt: skip
+ELLIPSE = [
+    (20, 10), (17.66, 15.142), (11.736, 17.878), (5, 16.928), (0.60307, 12.736), (0.60307, 7.2638),
+    (5, 3.0718), (11.736, 2.1215), (17.66, 4.8577), (20, 10),
+]  # fmt: skip
+HALF_CIRCLE = [(0, 0), (1.9098, 5.8779), (6.9098, 9.5106), (13.09, 9.5106), (18.09, 5.8779), (20, 0)]
+LINE = [(20, 20 + 5 * k) for k in range(6)]
+SEEDS = (0, 1, 2)
+
+
+def distances(candidate: lw.Candidate, points: list[tuple[float, float]]) -> np.ndarray:
+    """Distance of each point from the path that the solver of the package follows."""
+    motion = lw.solve_motion(candidate.mechanism(), steps=7200)
+    path = motion.point("P").position
+    return np.array([np.hypot(*(path - point).T).min() for point in points])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_five_timed_points(seed: int) -> None:
+    angles = np.radians([30, 45, 60, 75, 90])
+    fixed = lw.path_generation(FIVE, angles=angles, phase=False, pivot=(0, 0), direction=0.0, seed=seed)
+    assert fixed.best.error == pytest.approx(7.4157513e-7, rel=1e-7)
+    free = lw.path_generation(FIVE, angles=angles, phase=False, seed=seed)
+    assert free.best.error == pytest.approx(2.7108919e-7, rel=1e-7)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_eighteen_timed_points(seed: int) -> None:
+    found = lw.path_generation(EIGHTEEN, angles=np.arange(18) * math.pi / 9, seed=seed)
+    assert found.best.error == pytest.approx(0.0090288846, rel=1e-8)
+    assert found.best.defects == () and found.best.turns
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_half_circle_within_bounds(seed: int) -> None:
+    angles = np.radians(np.arange(1, 7) * 30)
+    found = lw.path_generation(HALF_CIRCLE, angles=angles, phase=False, bound=50.0, seed=seed)
+    assert found.best.error <= 1.3893
+    assert max(found.best.linkage.lengths().values()) <= 50 * (1 + 1e-9)
+
+
+def test_ellipse_within_bounds() -> None:
+    found = lw.path_generation(ELLIPSE, bound=80.0)
+    assert found.best.error <= 4.2e-4
+    assert max(found.best.linkage.lengths().values()) <= 80 * (1 + 1e-9)
+    assert distances(found.best, ELLIPSE).max() < 0.02
+    assert found.best.defects == ()
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_six_points_on_a_line(seed: int) -> None:
+    found = lw.path_generation(LINE, bound=60.0, seed=seed)
+    assert found.best.error <= 1e-20
+    assert found.best.defects == ()
+
+
+def test_a_timed_candidate_is_at_its_point_at_its_angle() -> None:
+    found = lw.path_generation(EIGHTEEN, angles=np.arange(18) * math.pi / 9).best
+    motion = lw.solve_motion(found.mechanism(), steps=18)
+    squares = sum(
+        min(np.sum((motion.point("P").position[j * turn % 18] - EIGHTEEN[j]) ** 2) for turn in [1])
+        for j in range(18)
+    )
+    backwards = sum(np.sum((motion.point("P").position[-j % 18] - EIGHTEEN[j]) ** 2) for j in range(18))
+    assert min(squares, backwards) == pytest.approx(found.error, rel=1e-6)
+
+
+def test_slider_crank_of_the_printing_press() -> None:
+    best = slider_crank_from_ratios(0.3975, 3.55, 0.305).best
+    assert best.values["crank [m]"] == pytest.approx(0.1979511, abs=5e-8)
+    assert best.values["rod [m]"] == pytest.approx(0.7027263, abs=5e-8)
+    assert best.values["offset [m]"] == pytest.approx(0.0603751, abs=5e-8)
+    assert best.values["quick_return_ratio"] == pytest.approx(1.0343, abs=2e-4)
+    assert math.degrees(best.transmission_angle) == pytest.approx(68.4094, abs=0.03)
