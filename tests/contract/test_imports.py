@@ -36,7 +36,7 @@ STAGES = (
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["report"]
-NOTEBOOK = "linkwright.plot.drawing.notebook"
+NOTEBOOK = "linkwright.plot.drawing.draw"
 PLOT = "linkwright.plot.plot"
 LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
     "model/mechanism.py": {"linkwright.structure", NOTEBOOK},

@@ -11,8 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import Drawing, draw
-from linkwright.plot.drawing.beside import at_input, at_time, with_limits
-from linkwright.plot.drawing.limits import limits_of
+from linkwright.plot.drawing.positions import at_input, at_time, limits_of, with_limits
 from linkwright.plot.drawing.vectors import round_length, with_unit
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -77,6 +76,7 @@ def test_symbols_of_the_crusher(crusher: lw.Motion) -> None:
     assert set(texts(drawing)) >= {"O1", "A", "B", "C", "D", "O3", "O5", "crank", "pitman", "jaw"}
     assert "crank" not in texts(draw(crusher, labels="points"))
     assert texts(draw(crusher, labels=False)) == []
+    assert "crushing" in texts(drawing)
 
 
 def test_symbols_do_not_depend_on_the_size_of_the_machine(crusher: lw.Motion) -> None:
@@ -123,7 +123,7 @@ def test_velocity_arrows_are_to_scale(crusher: lw.Motion) -> None:
     ]
     tips = [complex(*map(float, re.findall(r"-?[\d.]+", mark)[:2])) for mark in marks]
     feet = [complex(*map(float, re.findall(r"-?[\d.]+", line)[:2])) for line in lines]
-    (legend,) = texts(drawing)
+    (legend,) = [each for each in texts(drawing) if each.endswith("velocities")]
     unit = abs(tips[-1] - feet[-1]) / float(legend.split()[0])
     for name, tip, foot in zip(("A", "B", "C"), tips, feet, strict=False):
         vx, vy = crusher.point(name).velocity[20]

@@ -12,6 +12,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.metrics.table import MetricsTable
 from linkwright.model.mechanism import Mechanism
+from linkwright.plot.force_names import carries
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -67,8 +68,3 @@ class Results:
         if not self.motion.ok.any():
             raise LinkwrightError(Sentence("export.nothing_reached", name=self.mechanism.name))
         return int(self.motion.ok.argmax())
-
-
-def carries(mechanism: Mechanism) -> bool:
-    """Whether there is anything that joints would have to carry."""
-    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())

@@ -202,7 +202,7 @@ class Mechanism:
 
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""
-        from linkwright.plot.drawing.notebook import picture_of
+        from linkwright.plot.drawing.draw import picture_of
 
         return picture_of(self)
 

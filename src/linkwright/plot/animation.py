@@ -14,17 +14,17 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.drawing.draw import Names, solved, vector_groups
+from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, written
-from linkwright.plot.drawing.legend import legend
+from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
-from linkwright.plot.drawing.moving import moving_links, moving_vectors, shift_text, shifted
+from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
 from linkwright.plot.drawing.names import point_labels
 from linkwright.plot.drawing.panel import Panel, panel
 from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
-from linkwright.plot.drawing.vectors import Vectors, scale_of
+from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.plot.svg.element import Element, Floats, circle, group
 from linkwright.plot.svg.render import png
@@ -89,23 +89,28 @@ def animate(
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
     known = solved(motion, forces)
-    groups = vector_groups(motion, velocities, accelerations, known, reactions_of)
-    families = [
-        (family, scale_of(each, run)) for each in groups for family in each if family.largest(run) > 0
-    ]
+    arrows = all_arrows(motion, velocities, accelerations, known, reactions_of)
     return Animation(
         scene=scene,
         run=tuple(run),
         keys=tuple(key_indices(scene.machine, frames)),
         seconds=seconds or usual_seconds(motion),
         traces=tuple(traces),
-        families=tuple(families),
+        arrows=tuple((each, scale_of(each.vectors, run)) for each in arrows),
         curves=tuple(curves),
         forces=known,
         labelled=labels,
         size=size,
         language=language,
     )
+
+
+@dataclass(frozen=True)
+class Moving:
+    """A name that goes with the places ``track`` (n, 2) on the paper; ``elements`` stand at the first frame."""
+
+    track: Floats
+    elements: tuple[Element, ...]
 
 
 @dataclass(frozen=True)
@@ -120,7 +125,7 @@ class Animation:
     keys: tuple[int, ...]
     seconds: float
     traces: tuple[str, ...]
-    families: tuple[tuple[Vectors, float], ...]
+    arrows: tuple[tuple[Arrows, float], ...]
     curves: tuple[str, ...]
     forces: Forces | None
     labelled: bool
@@ -136,11 +141,14 @@ class Animation:
         content += moving_links(scene, run, seconds)
         for name in self.traces:
             content.append(shifted(self._track(name), seconds, [circle((0, 0), 3.2, "lw-dot")]))
-        for family, scale in self.families:
-            content += moving_vectors(scene, family, scale, run, seconds)
-        for label, elements in self._labels:
-            shifts = self._track(label.point) - self._track(label.point)[0]
-            content.append(shifted(shifts, seconds, elements))
+        for arrows, scale in self.arrows:
+            for vectors in arrows.vectors:
+                content += moving_vectors(scene, vectors, scale, run, seconds)
+            for torques in arrows.torques:
+                content += moving_torques(scene, torques, run, seconds)
+        for label in self._labels:
+            track = label.track[list(run)]
+            content.append(shifted(track - label.track[self.run[0]], seconds, label.elements))
         content += self._still
         if self._panel is not None:
             x = [(self._panel.cursor_x(self._share(index)), 0.0) for index in run]
@@ -156,11 +164,11 @@ class Animation:
         for name in self.traces:
             x, y = scene.trace(name)[index]
             content.append(circle((float(x), float(y)), 3.2, "lw-dot"))
-        for family, scale in self.families:
-            content += family.shape(index, scene.machine.view, scale).elements
-        for label, elements in self._labels:
-            shift = self._place(label.point, index) - self._place(label.point, self.run[0])
-            content.append(group(elements, transform=shift_text(shift)))
+        for arrows, scale in self.arrows:
+            content += arrows.shape(index, scene.machine.view, scale).elements
+        for label in self._labels:
+            shift = label.track[index] - label.track[self.run[0]]
+            content.append(group(label.elements, transform=shift_text(shift)))
         content += self._still
         if self._panel is not None:
             content.append(self._panel.cursor(self._panel.cursor_x(self._share(index))))
@@ -209,11 +217,6 @@ class Animation:
         count = max(2, round(self.seconds * FILM_RATE))
         return [int(k * (len(self.run) - 1) / count) for k in range(count)]
 
-    def _place(self, point: str, index: int) -> Floats:
-        motion = self.scene.machine.motion
-        at: Floats = self.scene.machine.view.paper(motion.point(point).position[index])
-        return at
-
     def _track(self, point: str) -> Floats:
         motion = self.scene.machine.motion
         return self.scene.machine.view.paper(motion.point(point).position[list(self.keys)])
@@ -232,26 +235,33 @@ class Animation:
         ink += [
             line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink
         ]
-        for family, scale in self.families:
-            ink += [
-                line for index in self.run for line in family.shape(index, self.scene.machine.view, scale).ink
-            ]
+        view = self.scene.machine.view
+        for arrows, scale in self.arrows:
+            ink += [line for index in self.run for line in arrows.shape(index, view, scale).ink]
         return ink
 
     @cached_property
-    def _labels(self) -> list[tuple[Label, list[Element]]]:
-        if not self.labelled:
-            return []
-        machine = self.scene.machine
-        labels = list(point_labels(machine, self.run[0]))
-        first = np.array([self._place(label.point, self.run[0]) for label in labels]).reshape(-1, 2)
+    def _labels(self) -> list[Moving]:
+        """Names of points and of arrows, placed where they keep clear over the motion."""
+        machine, first = self.scene.machine, self.run[0]
+        labels: list[Label] = []
+        tracks: list[Floats] = []
+        if self.labelled:
+            for label in point_labels(machine, first):
+                labels.append(label)
+                tracks.append(machine.view.paper(machine.motion.point(label.point).position))
+        for arrows, scale in self.arrows:
+            for label, track in arrows.tips(self.run, machine.view, scale):
+                labels.append(label)
+                tracks.append(track)
         frames = []
         for index in self.run[:: max(1, len(self.run) // LABEL_FRAMES)]:
             ink = [*self.scene.ink(index), *load_marks(machine, index, forces=False).ink]
-            places = np.array([self._place(label.point, index) for label in labels]).reshape(-1, 2)
-            frames.append((Obstacles.of(ink), places - first))
+            shifts = np.array([track[index] - track[first] for track in tracks]).reshape(-1, 2)
+            frames.append((Obstacles.of(ink), shifts))
         chosen = place_moving(labels, frames)
-        return [(label, written(label, each)) for label, each in zip(labels, chosen, strict=True)]
+        placed = zip(labels, tracks, chosen, strict=True)
+        return [Moving(track, tuple(written(label, each))) for label, track, each in placed]
 
     @cached_property
     def _drawn_box(self) -> Box:
@@ -267,20 +277,24 @@ class Animation:
         return panel(columns, self.curves, self._drawn_box) if self.curves else None
 
     @cached_property
-    def _legend(self) -> tuple[list[Element], list[Floats]]:
+    def _legend(self) -> Legend:
         box = self._drawn_box
         if self._panel is not None:
             box = bounds([np.reshape(box, (2, 2)), self._panel.extent])
-        return legend(self.families, box, self.language)
+        below = Legend(box)
+        below.scales([arrows for arrows, _ in self.arrows], self.run, self.language)
+        if any(arrows.kind == "force" and not arrows.empty(self.run) for arrows, _ in self.arrows):
+            below.numbers(self.scene.machine.motion.mechanism, self.language)
+        return below
 
     @cached_property
     def _still(self) -> list[Element]:
-        return [*(self._panel.elements if self._panel is not None else ()), *self._legend[0]]
+        return [*(self._panel.elements if self._panel is not None else ()), *self._legend.elements]
 
     @cached_property
     def _box(self) -> Box:
         extent = [] if self._panel is None else [self._panel.extent]
-        return bounds([np.reshape(self._drawn_box, (2, 2)), *extent, *self._legend[1]])
+        return bounds([np.reshape(self._drawn_box, (2, 2)), *extent, *self._legend.extent])
 
     def _repr_svg_(self) -> str:
         return self.svg

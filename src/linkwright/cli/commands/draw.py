@@ -60,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     mechanism, _ = read_model(options.file)
     motion = cycle(mechanism, options.steps, session)
-    dimensions = _dimensions(mechanism, options.dimensions)
+    dimensions = _dimensions(options.dimensions)
     _refuse_unknown_names(motion, options, dimensions)
     drawing = draw(
         motion,
@@ -79,6 +79,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
         size=options.width if Path(options.output).suffix.lower() != ".png" else None,
         language=session.language,
     )
+    for note in drawing.notes:
+        session.tell(note)
     told(drawing.save(options.output, fonts=options.fonts, width=options.width), options, session)
     return 0
 
@@ -122,26 +124,30 @@ def _forces(motion: Motion, options: argparse.Namespace) -> Forces | bool | None
     return solve_forces(motion, static=True)
 
 
-def _dimensions(mechanism: Mechanism, words: list[str] | None) -> list[Dimension]:
-    """Links, pairs of points as ``O1:O3``, or all links given by their length."""
+def _dimensions(words: list[str] | None) -> list[Dimension] | bool:
+    """Links, pairs of points as ``O1:O3``, or all links."""
     if words is None:
-        return []
-    given = names(words)
-    if not given:
-        return [name for name, link in mechanism.links.items() if link.geometry == "length"]
-    return [(first, last) if sign else name for name in given for first, sign, last in [name.partition(":")]]
+        return False
+    return [
+        (first, last) if sign else name
+        for name in names(words)
+        for first, sign, last in [name.partition(":")]
+    ] or True
 
 
-def _refuse_unknown_names(motion: Motion, options: argparse.Namespace, dimensions: list[Dimension]) -> None:
+def _refuse_unknown_names(
+    motion: Motion, options: argparse.Namespace, dimensions: list[Dimension] | bool
+) -> None:
     from linkwright.kinematics.limits import output_of
     from linkwright.kinematics.names import find_point
 
     mechanism = motion.mechanism
     refuse_unknown_vectors(motion, options)
     refuse_unknown(motion.point, "--paths", names(options.paths))
-    links = [each for each in dimensions if isinstance(each, str)]
+    named = [] if isinstance(dimensions, bool) else dimensions
+    links = [each for each in named if isinstance(each, str)]
     refuse_unknown(mechanism.link, "--dimensions", links)
-    ends = [point for each in dimensions if not isinstance(each, str) for point in each]
+    ends = [point for each in named if not isinstance(each, str) for point in each]
     refuse_unknown(lambda name: find_point(mechanism, name), "--dimensions", ends)
     word, _, output = options.overlay.partition(":")
     if word == "limits" and output:

@@ -14,8 +14,8 @@ from linkwright.export.results import Results
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.labels import Obstacles, place
+from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.names import link_labels, point_labels
-from linkwright.plot.drawing.parts import Part
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.characters import one_line

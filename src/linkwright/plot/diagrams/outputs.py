@@ -15,6 +15,7 @@ from linkwright.metrics.outputs import free_points, mechanism_outputs, output_li
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.units import size
+from linkwright.plot.force_names import reaction_pairs
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output | str:
@@ -83,15 +84,6 @@ def traced_points(mechanism: Mechanism) -> list[str]:
         pins
         or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
     )
-
-
-def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
-    """Joint and link of every joint force that is not merely the reverse of another one."""
-    found: list[tuple[str, str]] = []
-    for name, joint in mechanism.joints.items():
-        links = [link for link in joint.joined if link != "frame"]
-        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
-    return found
 
 
 def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[str, str]:

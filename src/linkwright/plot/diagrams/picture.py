@@ -85,7 +85,7 @@ class Diagram:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""
         wide, tall = self.figure.get_size_inches()
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
-            raise LinkwrightError(
+            raise RequestError(
                 f"a diagram of {wide:.3g} × {tall:.3g} inches cannot have {dpi:.12g} dots per inch; give 1 to "
                 f"{int((MOST_PIXELS / (wide * tall)) ** 0.5)}"
             )

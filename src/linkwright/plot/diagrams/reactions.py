@@ -10,11 +10,12 @@ from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
-from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output, reaction_pairs
+from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import size
+from linkwright.plot.force_names import reaction_pairs
 
 
 @DIAGRAMS.register("reactions")

@@ -55,7 +55,7 @@ class Source:
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
         if static and isinstance(result, Forces) and not result.static:
-            raise LinkwrightError("these forces hold inertia forces; give the motion instead")
+            raise RequestError("these forces hold inertia forces; give the motion instead")
         self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static

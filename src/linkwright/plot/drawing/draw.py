@@ -11,24 +11,23 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.drawing.beside import At, Shown, at_input, at_time, with_limits
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
-from linkwright.plot.drawing.legend import legend
-from linkwright.plot.drawing.limits import limits_of
-from linkwright.plot.drawing.loads import load_marks
+from linkwright.plot.drawing.legend import Legend
+from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
 from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.picture import Drawing, bounds, document
+from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, limits_of, with_limits
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import (
-    Vectors,
+    Arrows,
     all_points,
-    loads,
+    force_vectors,
     point_vectors,
-    reactions,
     same_motion,
     scale_of,
 )
+from linkwright.plot.force_names import carries
 from linkwright.plot.svg.element import Element, Floats, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import LANGUAGES, say
@@ -53,7 +52,7 @@ def draw(
     accelerations: Names = (),
     forces: Forces | bool | None = None,
     reactions_of: Sequence[str] | None = None,
-    dimensions: Sequence[Dimension] = (),
+    dimensions: Sequence[Dimension] | bool = (),
     centres: bool = False,
     inputs: bool = True,
     labels: bool | str = True,
@@ -75,10 +74,11 @@ def draw(
         forces: forces of this motion (True: solve them), drawn as vectors at the joints and loads.
         reactions_of: joints of which forces are drawn (``"B"``: on the joint's last link; ``"rocker.B"``: on that
             link); default all.
-        dimensions: links whose length, or pairs of points whose distance, gets a dimension line.
+        dimensions: links (``frame`` among them) with the lengths and angles that place their points, or pairs of
+            points with their distance; True for all links.
         centres: mark the mass centres.
         inputs: show by arrows what is driven and which way.
-        labels: names of points and links; ``"points"``: of points only.
+        labels: names of points, links and loads; ``"points"``: of points only. Vectors always have theirs.
         size: longer side in pixels; default natural size.
         language: ``en`` or ``zh``.
 
@@ -100,12 +100,12 @@ def draw(
     sheet.ghosts(others, style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
     known = _forces_shown(motion, shown, forces)
-    families = vector_groups(shown.motion, velocities, accelerations, known, reactions_of)
+    arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
     sheet.machine(pushes=known is None)
-    sheet.vectors(families)
+    sheet.vectors(arrows)
     sheet.dimensions(dimensions)
     sheet.labels(labels)
-    sheet.legend(language)
+    sheet.legend(arrows, language)
     return sheet.drawing(say("drawing.title", language, name=motion.mechanism.name), size)
 
 
@@ -120,8 +120,9 @@ class Sheet:
         self.elements: list[Element] = []
         self.ink: list[Floats] = []
         self.extent: list[Floats] = []
-        self.families: list[tuple[Vectors, float]] = []
+        self.notes: list[str] = []
         self.more_labels: list[Label] = []
+        self.load_labels: list[Label] = []
 
     def add(self, elements: Sequence[Element], ink: Sequence[Floats]) -> None:
         """Put elements on top of what is there."""
@@ -139,18 +140,18 @@ class Sheet:
         marks = load_marks(self.scene.machine, self.index, forces=pushes)
         self.add(self.scene.at(self.index), self.scene.ink(self.index))
         self.add(marks.elements, marks.ink)
+        self.load_labels = load_labels(self.scene.machine, self.index, forces=pushes)
 
-    def vectors(self, groups: Sequence[Sequence[Vectors]]) -> None:
-        """Vectors; those of one group share a scale."""
-        for families in groups:
-            scale = scale_of(families, [self.shown])
-            for family in families:
-                if family.largest([self.shown]) > 0:
-                    shape = family.shape(self.shown, self.scene.machine.view, scale)
-                    self.add(shape.elements, shape.ink)
-                    self.families.append((family, scale))
+    def vectors(self, arrows: Sequence[Arrows]) -> None:
+        """Vectors and arcs of torques with their names."""
+        view = self.scene.machine.view
+        for each in arrows:
+            scale = scale_of(each.vectors, [self.shown])
+            shape = each.shape(self.shown, view, scale)
+            self.add(shape.elements, shape.ink)
+            self.more_labels += each.labels(self.shown, view, scale)
 
-    def dimensions(self, wanted: Sequence[Dimension]) -> None:
+    def dimensions(self, wanted: Sequence[Dimension] | bool) -> None:
         """Dimension lines; their values become labels."""
         for each in dimension_lines(self.scene.machine, wanted, self.index, self.ink):
             self.add(each.shape.elements, each.shape.ink)
@@ -162,22 +163,36 @@ class Sheet:
         if wanted:
             chosen += point_labels(self.scene.machine, self.index)
         if wanted is True or wanted == "all":
-            chosen += link_labels(self.scene, self.index)
+            chosen += [*link_labels(self.scene, self.index), *self.load_labels]
         places = place(chosen, Obstacles.of(self.ink))
         for label, candidate in zip(chosen, places, strict=True):
             self.elements += written(label, candidate)
             left, top, right, bottom = candidate.box
             self.extent.append(points([(left, top), (right, bottom)]))
 
-    def legend(self, language: str) -> None:
-        """Scales of the vectors, below everything."""
-        elements, extent = legend(self.families, bounds([*self.ink, *self.extent]), language)
-        self.elements += elements
-        self.extent += extent
+    def legend(self, arrows: Sequence[Arrows], language: str) -> None:
+        """Scales, sizes and names of the vectors, below everything; what was asked for and is nothing, as a note."""
+        mechanism = self.scene.machine.motion.mechanism
+        below = Legend(bounds([*self.ink, *self.extent]))
+        below.scales(arrows, [self.shown], language)
+        below.values(arrows, self.shown)
+        if any(each.kind == "force" and not each.empty([self.shown]) for each in arrows):
+            below.numbers(mechanism, language)
+        if missing := unmarked(self.scene.machine, self.index):
+            self.notes.append(say("drawing.unmarked", language, loads=", ".join(missing)))
+            below.text(self.notes[-1])
+        for each in arrows:
+            if each.empty([self.shown]):
+                word = "nothing" if each.kind == "force" and not carries(mechanism) else "zero"
+                self.notes.append(say(f"drawing.{word}_{each.kind}", language))
+                below.text(self.notes[-1])
+        self.elements += below.elements
+        self.extent += below.extent
 
     def drawing(self, title: str, size: float | None) -> Drawing:
         """The finished drawing."""
-        return Drawing(document(self.elements, bounds([*self.ink, *self.extent]), title, size))
+        svg = document(self.elements, bounds([*self.ink, *self.extent]), title, size)
+        return Drawing(svg, tuple(self.notes))
 
 
 def laid_out_beside(
@@ -247,21 +262,21 @@ def _spread(motion: Motion, count: int) -> list[int]:
     return [int(each) for each in np.unique(reached[places.round().astype(int) % max(len(reached), 1)])]
 
 
-def vector_groups(
+def all_arrows(
     motion: Motion,
     velocities: Names,
     accelerations: Names,
     forces: Forces | None,
     of: Sequence[str] | None,
-) -> list[list[Vectors]]:
-    """All vectors that a drawing shows, in groups of one scale."""
-    found: list[list[Vectors]] = []
+) -> list[Arrows]:
+    """All vectors that a drawing shows; each entry has a scale of its own."""
+    found: list[Arrows] = []
     for kind, wanted in (("velocity", velocities), ("acceleration", accelerations)):
         names = all_points(motion.mechanism) if wanted is True else tuple(wanted or ())
         if names:
-            found.append([point_vectors(motion, names, kind)])
+            found.append(point_vectors(motion, names, kind))
     if forces is not None:
-        found.append([reactions(forces, of), loads(forces)])
+        found.append(force_vectors(forces, of))
     return found
 
 
@@ -285,3 +300,15 @@ def solved(motion: Motion, forces: Forces | bool | None) -> Forces | None:
         return solve_forces(motion)
     same_motion(motion, forces)
     return forces
+
+
+def picture_of(shown: Mechanism | Motion | Forces) -> str | None:
+    """The drawing at the first position that was reached, as SVG text; None where there is none."""
+    from linkwright.kinetostatics.forces import Forces
+
+    try:
+        if isinstance(shown, Forces):
+            return draw(shown.motion, forces=shown).svg
+        return draw(shown).svg
+    except LinkwrightError:
+        return None

@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.drawing import guide_angle
-from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.parts import Part
+from linkwright.plot.drawing.machine import Machine, Part
+from linkwright.plot.drawing.view import Placement
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
 from linkwright.plot.symbols.slider import HEIGHT, LENGTH
@@ -40,8 +40,15 @@ def block_direction(joint: PrismaticJoint) -> Vec:
 
 
 def travel(machine: Machine, name: str) -> tuple[float, float]:
-    """Smallest and largest displacement of a block over the motion, in units of the paper."""
-    s = machine.motion.joint(name).displacement * machine.view.scale
+    """Smallest and largest displacement of a block at all positions that are drawn, in units of the paper."""
+    joint, link = machine.guides[name], machine.motion.mechanism.link
+    guide, block = machine.placed[joint.guide], machine.placed[joint.block]
+    way = block.world(link(joint.block).points[joint.at]) - guide.world(
+        link(joint.guide).points[joint.through]
+    )
+    angle = guide_angle(machine.motion.mechanism, joint)
+    axis = Placement(np.zeros_like(guide.origin), guide.direction).world((math.cos(angle), math.sin(angle)))
+    s = (way * axis).sum(axis=1) * machine.view.scale
     return float(np.nanmin(s)), float(np.nanmax(s))
 
 

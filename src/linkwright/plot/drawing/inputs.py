@@ -10,8 +10,7 @@ import numpy as np
 from linkwright.drivers.base import Driver
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.plot.drawing.guides import block_direction, direction, ground_side, is_cylinder, travel
-from linkwright.plot.drawing.machine import Machine, support_direction
-from linkwright.plot.drawing.parts import Part
+from linkwright.plot.drawing.machine import Machine, Part, support_direction
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS, Vec
 from linkwright.plot.symbols.slider import HEIGHT

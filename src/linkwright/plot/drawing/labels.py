@@ -25,7 +25,7 @@ LEADER = 16.0
 class Label:
     """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there.
 
-    ``point``: the point that is named, as ``link.point``.
+    ``point``: the point that is named, as ``link.point``; ``index``: a small text behind and below.
     """
 
     text: str
@@ -35,16 +35,17 @@ class Label:
     clearance: float = 7.0
     leader: bool = True
     point: str = ""
+    index: str = ""
 
     @property
     def extent(self) -> Vec:
         """Width and height of the text."""
-        return name_width(self.text, self.size), (0.95 + self.drop) * self.size
+        return name_width(self.text, self.size, self.index), (0.95 + self.drop) * self.size
 
     @property
     def drop(self) -> float:
         """How far an index hangs below the line, in sizes."""
-        return 0.18 if split_index(self.text)[1] else 0.0
+        return 0.18 if self.index or split_index(self.text)[1] else 0.0
 
 
 @dataclass(frozen=True)
@@ -164,5 +165,8 @@ def written(label: Label, chosen: Candidate) -> list[Element]:
         end = (chosen.anchor[0] - share * dx, chosen.anchor[1] - share * dy)
         found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
     baseline = bottom - (0.14 + label.drop) * label.size
-    found.append(text_element((left + right) / 2, baseline, label.text, label.style, label.size, "middle"))
+    middle = (left + right) / 2
+    found.append(
+        text_element(middle, baseline, label.text, label.style, label.size, "middle", index=label.index)
+    )
     return found

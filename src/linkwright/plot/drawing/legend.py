@@ -1,34 +1,105 @@
-"""The legend: one arrow of a round value for every kind of vector."""
+"""The legend: a round value of every kind of vector as an arrow, the sizes of all vectors, and what names mean."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from linkwright.plot.drawing.picture import Box
-from linkwright.plot.drawing.vectors import Vectors, round_length, with_unit
+from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
+from linkwright.plot.force_names import Symbol, link_numbers
 from linkwright.plot.svg.element import Element, Floats
-from linkwright.plot.svg.text import text_element, width
+from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
 
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
+
 SIZE, ROW = 12.0, 19.0
+#: A line of text is at least as wide as this.
+LEAST = 300.0
+#: Where a line may break: after blanks and Chinese characters.
+_WORDS = re.compile(r"[\u2e80-\uffef]|[^\s\u2e80-\uffef]+\s*")
 
 
-def legend(
-    families: Sequence[tuple[Vectors, float]], box: Box, language: str
-) -> tuple[list[Element], list[Floats]]:
-    """Rows below the drawing, and their extent."""
-    elements: list[Element] = []
-    extent: list[Floats] = []
-    left, y = box[0], box[3] + 12.0
-    for family, scale in families:
-        if scale <= 0:
-            continue
-        y += ROW
+class Legend:
+    """Rows below a drawing, each at the left edge of a box, no wider than the box."""
+
+    def __init__(self, box: Box) -> None:
+        self.elements: list[Element] = []
+        self.extent: list[Floats] = []
+        self._left, self._y = box[0], box[3] + 12.0
+        self._wide = max(box[2] - box[0], LEAST)
+
+    def scales(self, arrows: Iterable[Arrows], indices: Sequence[int], language: str) -> None:
+        """One arrow of a round value for every kind of vectors that are drawn."""
+        for each in arrows:
+            scale = scale_of(each.vectors, indices)
+            for family in each.vectors:
+                if scale > 0 and family.largest(indices) > 0:
+                    self._scale(family, scale, language)
+
+    def _scale(self, family: Vectors, scale: float, language: str) -> None:
+        self._y += ROW
         value = round_length(scale)
-        end = left + value * scale
-        arrow = SYMBOLS["arrow"](start=(left, y), end=(end, y), style=family.style)
+        end = self._left + value * scale
+        arrow = SYMBOLS["arrow"](start=(self._left, self._y), end=(end, self._y), style=family.style)
+        self.elements += arrow.elements
         text = f"{with_unit(value, family.unit)}  {say(f'drawing.{family.kind}', language)}"
-        elements += [*arrow.elements, text_element(end + 8.0, y + 0.35 * SIZE, text, "lw-legend", SIZE)]
-        extent.append(points([(left, y - SIZE), (end + 8.0 + width(text, SIZE), y + 0.5 * SIZE)]))
-    return elements, extent
+        self._write(end + 8.0, text, "lw-legend")
+
+    def values(self, arrows: Iterable[Arrows], index: int) -> None:
+        """The size of every vector and torque at one position, in columns."""
+        entries: list[tuple[Symbol, str, str]] = []
+        for each in arrows:
+            if not each.empty([index]):
+                entries += [entry for family in each.families for entry in _sizes(family, index)]
+        if not entries:
+            return
+        column = max(name_width(s[0], SIZE, s[1]) + width(rest, SIZE) for s, rest, _ in entries) + 16.0
+        columns = max(1, int(self._wide // column))
+        for number, ((stem, low), rest, style) in enumerate(entries):
+            if number % columns == 0:
+                self._y += ROW
+            self._write(self._left + number % columns * column, stem, style, low, rest)
+
+    def numbers(self, mechanism: Mechanism, language: str) -> None:
+        """What the indices of joint forces mean."""
+        links = ", ".join(f"{number} {name}" for name, number in link_numbers(mechanism).items())
+        self.text(say("drawing.reaction", language, links=links))
+        if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
+            self.text(say("drawing.pin", language))
+
+    def text(self, text: str) -> None:
+        """A sentence in as many lines as it takes."""
+        line = ""
+        for word in _WORDS.findall(text):
+            if line and width(line + word.rstrip(), SIZE) > self._wide:
+                self._line(line)
+                line = ""
+            line += word
+        self._line(line)
+
+    def _line(self, text: str) -> None:
+        self._y += ROW
+        self._write(self._left, text, "lw-legend")
+
+    def _write(self, x: float, text: str, style: str, index: str = "", rest: str = "") -> None:
+        baseline = self._y + 0.35 * SIZE
+        self.elements.append(text_element(x, baseline, text, style, SIZE, index=index, rest=rest))
+        end = x + name_width(text, SIZE, index) + width(rest, SIZE)
+        self.extent.append(points([(x, self._y - SIZE), (end, self._y + 0.6 * SIZE)]))
+
+
+def _sizes(family: Vectors | Torques, index: int) -> list[tuple[Symbol, str, str]]:
+    """Symbol, value and style of all that is known; torques that are nothing but rounding are left out."""
+    found = []
+    for name, symbol in family.symbols.items():
+        size, seen = family.size(name, index), family.seen(name, [index])
+        if math.isfinite(size) and (seen or isinstance(family, Vectors)):
+            text = with_unit(size if seen else 0.0, family.unit, 4)
+            found.append((symbol, f" = {text}", f"{family.style}-name"))
+    return found

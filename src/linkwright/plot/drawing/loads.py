@@ -7,16 +7,15 @@ from collections.abc import Sequence
 
 from linkwright.kinematics.drawing import guide_angle
 from linkwright.loads.base import AT_REST, LinkPoint, Load
-from linkwright.loads.damper import Damper
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
-from linkwright.loads.spring import Spring
 from linkwright.loads.torque import Torque
-from linkwright.loads.torsion_damper import TorsionDamper
-from linkwright.loads.torsion_spring import TorsionSpring
+from linkwright.model.reference_fields import JointName, PointName
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
+from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
+from linkwright.plot.drawing.names import LINK_SIZE
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
@@ -32,36 +31,79 @@ def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
 
 
 def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
-    """The symbol of one load; nothing for a kind that has none."""
-    if isinstance(load, Spring | Damper | TorsionSpring | TorsionDamper):
-        return _stretched(machine, load, index) + anchors(machine, load, index)
-    if forces and isinstance(load, Torque):
-        turning = _sign(load) * (1 if load.opposes is None else _against_rotation(machine, load, index))
-        return SYMBOLS["moment"](at=_middle(machine, load.on, index), turning=turning, style="lw-load")
-    if forces and isinstance(load, Force):
-        return _push(machine, load, index)
-    if forces and isinstance(load, Pressure):
-        return _pressed(machine, load, index)
-    return EMPTY
+    """The symbol of one load: of forces and torques an arrow, else the one of its kind or the general one."""
+    if isinstance(load, Torque):
+        at = _middle(machine, load.on, index)
+        return SYMBOLS["moment"](at=at, turning=_sign(load), style="lw-load") if forces else EMPTY
+    if isinstance(load, Force):
+        return _push(machine, load, index) if forces else EMPTY
+    if isinstance(load, Pressure):
+        return _pressed(machine, load, index) if forces else EMPTY
+    return _held(machine, load, index) + anchors(machine, load, index)
 
 
-def _stretched(machine: Machine, load: Load, index: int) -> Shape:
-    """What of a load changes its shape: a spring or damper between two points or about a pin."""
-    if isinstance(load, Spring | Damper):
-        start, end = (machine.paper(each.link, each.point, index) for each in load.between)
-        return SYMBOLS[load.kind](start=start, end=end)
-    if isinstance(load, TorsionSpring | TorsionDamper):
-        at = _common_pin(machine, load.links, index)
-        return EMPTY if at is None else SYMBOLS[load.kind](at=at)
-    return EMPTY
+def _held(machine: Machine, load: Load, index: int) -> Shape:
+    """The symbol of a load that lies between points, about a pin or at a place, by what the load names."""
+    ends = [machine.paper(each.link, each.point, index) for each in named_points(machine, load)]
+    links = [name for name in (getattr(load, "links", None) or (getattr(load, "on", None),)) if name]
+    pin = None if ends or len(links) != 2 else _common_pin(machine, (links[0], links[1]), index)
+    if load.kind in SYMBOLS and len(ends) == 2:
+        return SYMBOLS[load.kind](start=ends[0], end=ends[1])
+    place = ends[0] if ends else pin or (_middle(machine, links[0], index) if links else None)
+    if place is None:
+        return EMPTY
+    if load.kind in SYMBOLS:
+        return SYMBOLS[load.kind](at=place)
+    return SYMBOLS["general_load"](at=place, ends=tuple(ends[:2]))
+
+
+def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
+    """The points that a load of any kind names in its fields."""
+    found: list[LinkPoint] = []
+    for name, declared in load.fields().items():
+        value = getattr(load, name)
+        if isinstance(value, LinkPoint):
+            found.append(value)
+        elif isinstance(value, tuple) and all(isinstance(each, LinkPoint) for each in value):
+            found += value
+        elif isinstance(declared, PointName) and value is not None:
+            found.append(LinkPoint(getattr(load, declared.of), value))
+        elif isinstance(declared, JointName) and value is not None:
+            found.append(_joint_point(machine, value))
+    return found
+
+
+def _joint_point(machine: Machine, name: str) -> LinkPoint:
+    joint = machine.motion.mechanism.joints[name]
+    return LinkPoint(joint.joined[-1], getattr(joint, "at", name))
+
+
+def load_labels(machine: Machine, index: int, *, forces: bool = True) -> list[Label]:
+    """Names of the loads that push, and of those that have the general symbol."""
+    found = []
+    for name, load in machine.motion.mechanism.loads.items():
+        pushes = isinstance(load, Torque | Force | Pressure)
+        shape = mark(machine, load, index, forces)
+        if shape.ink and (pushes or load.kind not in SYMBOLS):
+            line = shape.ink[0]
+            places = tuple((float(x), float(y)) for x, y in (line[0], line[len(line) // 2]))
+            found.append(Label(name, places, "lw-load-name", LINK_SIZE, 9.0))
+    return found
+
+
+def unmarked(machine: Machine, index: int) -> list[str]:
+    """Names of the loads of which there is nothing to draw, as they name neither a point nor a link."""
+    loads = machine.motion.mechanism.loads
+    return [name for name, load in loads.items() if mark(machine, load, index) == EMPTY]
 
 
 def anchors(machine: Machine, load: Load, index: int) -> Shape:
-    """The walls that hold a spring or damper at points of the frame where no pin is."""
-    if not isinstance(load, Spring | Damper):
+    """The walls that hold what lies between two points, at points of the frame where no pin is."""
+    between = named_points(machine, load)
+    if len(between) != 2:
         return EMPTY
-    start, end = (machine.paper(each.link, each.point, index) for each in load.between)
-    return joined(_anchor(machine, each, start, end, index) for each in load.between)
+    start, end = (machine.paper(each.link, each.point, index) for each in between)
+    return joined(_anchor(machine, each, start, end, index) for each in between)
 
 
 def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int) -> Shape:
@@ -105,7 +147,9 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Ele
     """Springs and dampers that follow their ends over the frames."""
     found: list[Element] = []
     for load in scene.machine.motion.mechanism.loads.values():
-        shapes = [_stretched(scene.machine, load, index).ink for index in run]
+        if isinstance(load, Torque | Force | Pressure):
+            continue
+        shapes = [_held(scene.machine, load, index).ink for index in run]
         found += anchors(scene.machine, load, run[0]).elements
         found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
     return found

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -14,10 +15,21 @@ from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Link
-from linkwright.plot.drawing.parts import Part
 from linkwright.plot.drawing.view import Placement, View
 from linkwright.plot.svg.element import Floats
-from linkwright.plot.symbols.base import PIN, SYMBOLS, Vec, points
+from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, points
+
+Layer = Literal["ground", "bodies", "blocks", "pins", "tops", "marks"]
+LAYERS: tuple[Layer, ...] = ("ground", "bodies", "blocks", "pins", "tops", "marks")
+
+
+@dataclass(frozen=True)
+class Part:
+    """A shape in the units of the paper in the axes of the link ``carrier``, on one of the layers."""
+
+    layer: Layer
+    carrier: str
+    shape: Shape
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.drawing.vectors import Vectors
+from linkwright.plot.drawing.vectors import Torques, Vectors
 from linkwright.plot.svg.element import Element, Floats, coordinates, element, group, number
 from linkwright.plot.symbols.arrow import arrow_points
+from linkwright.plot.symbols.base import SYMBOLS
 
 
 def animate_element(attribute: str, values: Sequence[str], seconds: float) -> Element:
@@ -76,6 +77,23 @@ def moving_vectors(
             texts = [coordinates(each) for each in points]
             shape = element("polyline", {"class": f"{family.style}-{kind}", "points": texts[0]})
             found.append(shape.holding(animate_element("points", texts, seconds)))
+    return found
+
+
+def moving_torques(scene: Scene, torques: Torques, frames: Sequence[int], seconds: float) -> list[Element]:
+    """Arcs that follow their places; of the two senses the one that holds is seen."""
+    found: list[Element] = []
+    rows = list(frames)
+    for name, values in torques.values.items():
+        places = scene.machine.view.paper(torques.places[name][rows])
+        for turning in (1, -1):
+            seen = ["visible" if np.sign(value) == turning else "hidden" for value in values[rows]]
+            if "visible" not in seen:
+                continue
+            arc = SYMBOLS["moment"](turning=turning, radius=torques.radius, style=torques.style)
+            switch = animate_element("visibility", seen, seconds)
+            content = group([switch, *arc.elements], visibility=seen[0])
+            found.append(shifted(places, seconds, [content]))
     return found
 
 

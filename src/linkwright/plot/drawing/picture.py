@@ -20,9 +20,13 @@ SIZES = (8, 32_000)
 
 @dataclass(frozen=True)
 class Drawing:
-    """A kinematic drawing; notebooks show it, ``svg`` is its text, ``save`` writes it."""
+    """A kinematic drawing; notebooks show it, ``svg`` is its text, ``save`` writes it.
+
+    ``notes``: sentences on what was asked for and cannot be seen, such as forces that are all zero.
+    """
 
     svg: str
+    notes: tuple[str, ...] = ()
 
     def save(self, path: str | Path, *, fonts: Sequence[str | Path] = (), width: int | None = None) -> Path:
         """Write it as .svg, .png (``width`` pixels across) or .pdf, whole or not at all.

@@ -11,8 +11,7 @@ import numpy as np
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
-from linkwright.plot.drawing.machine import Machine, bodies, pins
-from linkwright.plot.drawing.parts import LAYERS, Part
+from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
 from linkwright.plot.drawing.view import fitted, followed, moved, placements
 from linkwright.plot.svg.element import Element, Floats, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS

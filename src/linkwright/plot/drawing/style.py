@@ -5,16 +5,16 @@ from __future__ import annotations
 from linkwright.plot.svg.fonts import FAMILY_LIST
 from linkwright.plot.symbols.base import LINE
 
-INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE = (
-    "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2",
+INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (
+    "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2", "#00838f",
 )  # fmt: skip
-COLOURS = (INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE)
+COLOURS = (INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL)
 
 
 def _arrow(name: str, colour: str, width: float = 2.0) -> str:
     return (
         f".lw-{name}-line{{fill:none;stroke:{colour};stroke-width:{width}}}"
-        f".lw-{name}-head{{fill:{colour};stroke:none}}"
+        f".lw-{name}-head{{fill:{colour};stroke:none}}.lw-{name}-name{{fill:{colour};font-style:italic}}"
     )
 
 
@@ -39,7 +39,9 @@ CSS = "".join((
     _arrow("input", ORANGE),
     _arrow("force", RED),
     _arrow("load", PURPLE, 2.4),
+    f".lw-load-ring{{fill:#fff;stroke:{PURPLE};stroke-width:1.6}}",
     f".lw-load-thin{{fill:none;stroke:{PURPLE};stroke-width:1.6}}",
+    _arrow("driver", TEAL, 2.4),
     _arrow("velocity", BLUE),
     _arrow("acceleration", GREEN),
     f"text{{font-family:{FAMILY_LIST}}}",

@@ -1,4 +1,4 @@
-"""Velocities, accelerations and forces as arrows, each kind to one scale with a legend."""
+"""Velocities, accelerations and forces as arrows, each kind to one scale, and torques as arcs; all with names."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical, find_point
+from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
+from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.plot.svg.element import Floats
-from linkwright.plot.symbols.base import SYMBOLS, Shape, joined
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -23,28 +25,40 @@ if TYPE_CHECKING:
     from linkwright.model.mechanism import Mechanism
 
 LONGEST = 120.0
+NAME_SIZE = 12.0
+#: Radii of the arcs of torques: beyond the arrow that shows how a driver turns, and about a guide's block.
+DRIVER_RADIUS, COUPLE_RADIUS = 32.0, 17.0
+#: What is smaller than this share of the largest of its kind is a rounding error.
+NOTHING = 1e-9
 _PREFIXES = (("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6))
 
 
 @dataclass(frozen=True)
 class Vectors:
-    """Vectors of one kind at all positions: feet (n, 2) m and values (n, 2) by name.
+    """Vectors of one kind at all positions: feet (n, 2) m, values (n, 2) and symbols by name.
 
     ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link).
     """
 
     kind: str
     unit: str
-    style: str
     feet: Mapping[str, Floats]
     values: Mapping[str, Floats]
+    symbols: Mapping[str, Symbol]
     toward: bool = False
+
+    @property
+    def style(self) -> str:
+        """Class of its lines, heads and names."""
+        return f"lw-{self.kind}"
 
     def largest(self, indices: Sequence[int]) -> float:
         """Size of the largest vector at some positions."""
-        sizes = [np.hypot(v[indices, 0], v[indices, 1]) for v in self.values.values()]
-        good = [float(each[np.isfinite(each)].max(initial=0.0)) for each in sizes]
-        return max(good, default=0.0)
+        return _largest(self.values, indices)
+
+    def size(self, name: str, index: int) -> float:
+        """Size of a vector at one position, SI."""
+        return float(np.hypot(*self.values[name][index]))
 
     def ends(self, name: str, index: int, view: View, scale: float) -> tuple[Floats, Floats] | None:
         """Foot and point of an arrow on the paper; None where the vector is not known."""
@@ -53,13 +67,141 @@ class Vectors:
             return None
         return (foot - value, foot) if self.toward else (foot, foot + value)
 
+    @property
+    def clear(self) -> float:
+        """How far names keep from the arrow's point."""
+        return 5.0
+
+    def seen(self, name: str, run: Sequence[int]) -> bool:
+        """Whether a vector is more than zero at some positions."""
+        least = NOTHING * self.largest(run)
+        return any(self.size(name, index) > least for index in run)
+
+    def track(self, name: str, view: View, scale: float) -> Floats:
+        """Where the free end of an arrow is on the paper, (n, 2)."""
+        way = self.values[name] * (scale, -scale)
+        return np.asarray(view.paper(self.feet[name]) + (-way if self.toward else way))
+
     def shape(self, index: int, view: View, scale: float) -> Shape:
         """All arrows at one position; ``scale``: units of the paper per SI unit."""
         ends = [each for name in self.values if (each := self.ends(name, index, view, scale)) is not None]
-        return joined(
-            SYMBOLS["arrow"](start=tuple(map(float, a)), end=tuple(map(float, b)), style=self.style)
-            for a, b in ends
-        )
+        return joined(SYMBOLS["arrow"](start=_vec(a), end=_vec(b), style=self.style) for a, b in ends)
+
+    def labels(self, index: int, view: View, scale: float) -> list[Label]:
+        """Names of the arrows that are seen, at their points, else along their shafts."""
+        found = []
+        for name, (stem, low) in self.symbols.items():
+            ends = self.ends(name, index, view, scale)
+            if ends is None or np.hypot(*(ends[1] - ends[0])) < 2.0:
+                continue
+            away = ends[0] if self.toward else ends[1]
+            other = ends[1] if self.toward else ends[0]
+            places = tuple(_vec(away + share * (other - away)) for share in (0.0, 0.25, 0.5, 0.75))
+            found.append(Label(stem, places, f"{self.style}-name", NAME_SIZE, 5.0, index=low))
+        return found
+
+
+@dataclass(frozen=True)
+class Torques:
+    """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name."""
+
+    kind: str
+    places: Mapping[str, Floats]
+    values: Mapping[str, Floats]
+    symbols: Mapping[str, Symbol]
+    radius: float = COUPLE_RADIUS
+    unit: str = "N·m"
+
+    @property
+    def style(self) -> str:
+        """Class of its lines, heads and names."""
+        return f"lw-{self.kind}"
+
+    def largest(self, indices: Sequence[int]) -> float:
+        """The largest torque at some positions."""
+        return _largest(self.values, indices)
+
+    def size(self, name: str, index: int) -> float:
+        """A torque at one position without its sense, N·m."""
+        return abs(float(self.values[name][index]))
+
+    @property
+    def clear(self) -> float:
+        """How far names keep from the middle of the arc."""
+        return self.radius + 5.0
+
+    def seen(self, name: str, run: Sequence[int]) -> bool:
+        """Whether a torque is more than rounding at some positions."""
+        least = NOTHING * self.largest(run)
+        return any(self.size(name, index) > least for index in run)
+
+    def track(self, name: str, view: View, scale: float) -> Floats:
+        """Where the middle of an arc is on the paper, (n, 2)."""
+        return view.paper(self.places[name])
+
+    def shape(self, index: int, view: View) -> Shape:
+        """An arc in the sense of every torque at one position."""
+        return joined(self._arc(name, index, view) for name in self.values if self.seen(name, [index]))
+
+    def labels(self, index: int, view: View) -> list[Label]:
+        """Names of the arcs."""
+        found = []
+        for name, (stem, low) in self.symbols.items():
+            if self.seen(name, [index]):
+                place = (_vec(view.paper(self.places[name][index])),)
+                found.append(
+                    Label(stem, place, f"{self.style}-name", NAME_SIZE, self.clear, False, index=low)
+                )
+        return found
+
+    def _arc(self, name: str, index: int, view: View) -> Shape:
+        place, turning = self.places[name][index], int(np.sign(self.values[name][index]))
+        if not np.isfinite(place).all():
+            return EMPTY
+        at = _vec(view.paper(place))
+        return SYMBOLS["moment"](at=at, turning=turning, radius=self.radius, style=self.style)
+
+
+@dataclass(frozen=True)
+class Arrows:
+    """Vectors to one scale and the torques that go with them; ``kind`` velocity, acceleration or force."""
+
+    kind: str
+    vectors: tuple[Vectors, ...]
+    torques: tuple[Torques, ...] = ()
+
+    @property
+    def families(self) -> tuple[Vectors | Torques, ...]:
+        """All of them."""
+        return (*self.vectors, *self.torques)
+
+    def empty(self, indices: Sequence[int]) -> bool:
+        """Whether nothing of it is more than zero at some positions."""
+        return not any(each.largest(indices) > 0 for each in self.families)
+
+    def shape(self, index: int, view: View, scale: float) -> Shape:
+        """All arrows and arcs at one position."""
+        arrows = joined(each.shape(index, view, scale) for each in self.vectors)
+        return arrows + joined(each.shape(index, view) for each in self.torques)
+
+    def tips(self, run: Sequence[int], view: View, scale: float) -> list[tuple[Label, Floats]]:
+        """Names of what is seen at any of some positions, at the first of them, with their places at all (n, 2)."""
+        found = []
+        for family in self.families:
+            for name, (stem, low) in family.symbols.items():
+                track = family.track(name, view, scale)
+                if family.seen(name, run) and np.isfinite(track[list(run)]).all():
+                    place = (_vec(track[run[0]]),)
+                    label = Label(
+                        stem, place, f"{family.style}-name", NAME_SIZE, family.clear, False, index=low
+                    )
+                    found.append((label, track))
+        return found
+
+    def labels(self, index: int, view: View, scale: float) -> list[Label]:
+        """The names of all that is seen."""
+        names = [label for each in self.vectors for label in each.labels(index, view, scale)]
+        return names + [label for each in self.torques for label in each.labels(index, view)]
 
 
 def scale_of(families: Iterable[Vectors], indices: Sequence[int]) -> float:
@@ -75,25 +217,24 @@ def round_length(scale: float) -> float:
     return max(k * power for k in (1.0, 2.0, 5.0) if k * power <= raw * 1.0000001)
 
 
-def with_unit(value: float, unit: str) -> str:
-    """``20 kN``: a round value with a prefix before N, none before other units."""
-    if unit != "N":
+def with_unit(value: float, unit: str, digits: int = 12) -> str:
+    """``20 kN``: a value with a prefix before N and N·m, none before other units."""
+    value = float(f"{value:.{digits}g}")
+    if unit not in ("N", "N·m") or value == 0:
         return f"{value:.12g} {unit}"
     prefix, factor = next((each for each in _PREFIXES if abs(value) >= each[1] * 0.999999), _PREFIXES[-1])
-    return f"{value / factor:.12g} {prefix}{unit}"
+    return f"{value / factor:.{digits}g} {prefix}{unit}"
 
 
-def point_vectors(motion: Motion, names: Iterable[str], kind: str) -> Vectors:
-    """Velocities or accelerations of points."""
-    unit, style = {"velocity": ("m/s", "lw-velocity"), "acceleration": ("m/s²", "lw-acceleration")}[kind]
+def point_vectors(motion: Motion, names: Iterable[str], kind: str) -> Arrows:
+    """Velocities (v) or accelerations (a) of points."""
+    unit, letter = {"velocity": ("m/s", "v"), "acceleration": ("m/s²", "a")}[kind]
     found = {name: motion.point(name) for name in names}
-    return Vectors(
-        kind,
-        unit,
-        style,
-        {name: each.position for name, each in found.items()},
-        {name: each.velocity if kind == "velocity" else each.acceleration for name, each in found.items()},
-    )
+    feet = {name: each.position for name, each in found.items()}
+    values = {
+        name: each.velocity if kind == "velocity" else each.acceleration for name, each in found.items()
+    }
+    return Arrows(kind, (Vectors(kind, unit, feet, values, {name: (letter, name) for name in found}),))
 
 
 def all_points(mechanism: Mechanism) -> tuple[str, ...]:
@@ -102,20 +243,45 @@ def all_points(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(dict.fromkeys(key for key in keys if key not in mechanism.frame.points))
 
 
-def reactions(forces: Forces, names: Sequence[str] | None) -> Vectors:
-    """Forces that joints exert on links: ``B`` on the last link of the joint, ``rocker.B`` on that link."""
-    joints = forces.mechanism.joints
-    asked = tuple(joints) if names is None else tuple(names)
+def force_vectors(forces: Forces, names: Sequence[str] | None) -> Arrows:
+    """Joint forces with couples of guides and welds, loads, and what the drivers supply."""
+    reactions, couples = _reactions(forces, names)
+    loads, moments = _loads(forces)
+    pushes, torques = _drivers(forces)
+    return Arrows("force", (reactions, loads, pushes), (couples, moments, torques))
+
+
+def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, Torques]:
+    """Forces that joints exert on links: ``B`` on the last link of the joint, ``rocker.B`` on that link.
+
+    Without names: on the last link of every joint, on all moving links of a pin that has more than two.
+    """
+    mechanism = forces.mechanism
+    pairs = reaction_pairs(mechanism) if names is None else [_joint_on(forces, name) for name in names]
     feet: dict[str, Floats] = {}
     values: dict[str, Floats] = {}
-    for name in asked:
-        link, joint = name.split(".", 1) if "." in name else (None, name)
-        if joint not in joints:
-            forces.reaction(joint)
-        on = link or joints[joint].joined[-1]
+    couples: dict[str, Floats] = {}
+    low: dict[str, str] = {}
+    for joint, on in pairs:
+        name = f"{on}.{joint}"
         feet[name] = _joint_place(forces.motion, joint, on)
         values[name] = forces.reaction(joint, on=on)
-    return Vectors("force", "N", "lw-force", feet, values)
+        low[name] = reaction_index(mechanism, joint, on)
+        if isinstance(mechanism.joints[joint], PrismaticJoint | WeldJoint):
+            couples[name] = forces.couple(joint, on=on)
+    return (
+        Vectors("force", "N", feet, values, {name: ("F", index) for name, index in low.items()}),
+        Torques("force", feet, couples, {name: ("M", low[name]) for name in couples}),
+    )
+
+
+def _joint_on(forces: Forces, name: str) -> tuple[str, str]:
+    link, joint = name.split(".", 1) if "." in name else (None, name)
+    if joint not in forces.mechanism.joints:
+        forces.reaction(joint)
+    on = link or forces.mechanism.joints[joint].joined[-1]
+    forces.reaction(joint, on=on)
+    return joint, on
 
 
 def _joint_place(motion: Motion, joint: str, on: str) -> Floats:
@@ -132,16 +298,62 @@ def _position(motion: Motion, name: str) -> Floats:
     return motion.point(name).position
 
 
-def loads(forces: Forces) -> Vectors:
-    """Resultants of the file's loads, their points where they act."""
+def _loads(forces: Forces) -> tuple[Vectors, Torques]:
+    """Resultants of the file's loads, their points where they act, and the moments of those that are no forces."""
     found = {name: forces.load(name) for name in forces.mechanism.loads}
-    return Vectors(
-        "load",
-        "N",
-        "lw-load",
-        {name: each.place for name, each in found.items()},
-        {name: each.force for name, each in found.items()},
-        toward=True,
+    pure = [name for name, each in found.items() if each.moment.any() and not np.nan_to_num(each.force).any()]
+    pushes = [name for name in found if name not in pure]
+    return (
+        Vectors(
+            "load",
+            "N",
+            {name: found[name].place for name in pushes},
+            {name: found[name].force for name in pushes},
+            {name: (name, "") for name in pushes},
+            toward=True,
+        ),
+        Torques(
+            "load",
+            {name: _load_place(forces, name) for name in pure},
+            {name: found[name].moment for name in pure},
+            {name: (name, "") for name in pure},
+        ),
+    )
+
+
+def _load_place(forces: Forces, name: str) -> Floats:
+    """Where a torque is shown: at a pin of its link on the frame, or its mass centre."""
+    link = getattr(forces.mechanism.loads[name], "on", None)
+    return forces.load(name).place if link is None else link_middle(forces.motion, link)
+
+
+def link_middle(motion: Motion, link: str) -> Floats:
+    """A pin of a link on the frame, or its mass centre, (n, 2) m."""
+    for name, joint in motion.mechanism.joints.items():
+        if joint.kind == "revolute" and {"frame", link} <= set(joint.joined):
+            return _position(motion, f"frame.{name}")
+    return motion.link(link).centre.position
+
+
+def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
+    """What every driver exerts on the link that it drives."""
+    mechanism = forces.mechanism
+    several = len(mechanism.drivers) > 1
+    feet: dict[str, Floats] = {}
+    pushes: dict[str, Floats] = {}
+    turns: dict[str, Floats] = {}
+    for name, driver in mechanism.drivers.items():
+        feet[name] = _joint_place(forces.motion, driver.joint, driver.link)
+        effort = forces.driver_effort(name)
+        if isinstance(mechanism.joints[driver.joint], PrismaticJoint):
+            pushes[name] = effort[:, None] * forces.guide_direction(driver.joint)
+        else:
+            turns[name] = effort
+    return (
+        Vectors("driver", "N", feet, pushes, {name: ("F", name if several else "d") for name in pushes}),
+        Torques(
+            "driver", feet, turns, {name: ("T", name if several else "") for name in turns}, DRIVER_RADIUS
+        ),
     )
 
 
@@ -152,3 +364,13 @@ def same_motion(motion: Motion, forces: Forces) -> None:
             "the forces belong to another motion than the one that is drawn; draw forces.motion, or solve the forces "
             "of this motion"
         )
+
+
+def _largest(values: Mapping[str, Floats], indices: Sequence[int]) -> float:
+    at = list(indices)
+    rows = [np.abs(v[at]) if v.ndim == 1 else np.hypot(*v[at].T) for v in values.values()]
+    return max((float(row[np.isfinite(row)].max(initial=0.0)) for row in rows), default=0.0)
+
+
+def _vec(row: Floats) -> Vec:
+    return float(row[0]), float(row[1])

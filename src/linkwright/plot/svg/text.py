@@ -35,18 +35,33 @@ def split_index(name: str) -> tuple[str, str]:
     return (found["stem"], found["index"]) if found else (name, "")
 
 
-def name_width(name: str, size: float) -> float:
+def name_width(name: str, size: float, index: str = "") -> float:
     """Width of a name whose index is set small."""
-    stem, index = split_index(name)
-    return width(stem, size) + width(index, 0.7 * size)
+    stem, low = (name, index) if index else split_index(name)
+    return width(stem, size) + width(low, 0.7 * size)
 
 
-def text_element(x: float, y: float, name: str, style: str, size: float, anchor: str = "start") -> Element:
-    """A line of text with its baseline at (x, y); a trailing number of a short name is set as an index."""
-    stem, index = split_index(name)
+def text_element(
+    x: float,
+    y: float,
+    name: str,
+    style: str,
+    size: float,
+    anchor: str = "start",
+    *,
+    index: str = "",
+    rest: str = "",
+) -> Element:
+    """A line of text with its baseline at (x, y); a trailing number of a short name is set as an index.
+
+    ``index``: another index behind the name; ``rest``: text behind it on the line.
+    """
+    stem, low = (name, index) if index else split_index(name)
     content: list[Element | str] = [stem]
-    if index:
-        content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.7 * size}, index))
+    if low:
+        content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.7 * size}, low))
+    if rest:
+        content.append(element("tspan", {"dy": -0.25 * size}, rest) if low else rest)
     side = None if anchor == "start" else anchor
     place: dict[str, Attribute | None] = {
         "class": style,

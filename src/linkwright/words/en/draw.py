@@ -28,8 +28,7 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
     "without names",
     "static_help": "forces without inertia",
     "centres_help": "mark the mass centres",
-    "dimensions_help": "dimension lines of links (pitman) and between points (O1:O3); of all lengths without "
-    "names",
+    "dimensions_help": "lengths and angles of links (pitman, frame), between points (O1:O3); default: of all",
     "labels_help": "names of points and links (default: all)",
     "inputs_help": "arrows at what is driven",
     "output_help": "write FILE.svg, FILE.png or FILE.pdf",

@@ -27,7 +27,7 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
     "不写名称则为全部",
     "static_help": "不计惯性力",
     "centres_help": "标出质心",
-    "dimensions_help": "构件（pitman）或两点之间（O1:O3）的尺寸线；不写名称则为全部长度",
+    "dimensions_help": "构件（pitman、frame）的长度和角度，或两点间距离（O1:O3）；不写名称则标注全部构件",
     "labels_help": "点和构件的名称（默认 all）",
     "inputs_help": "驱动处的箭头",
     "output_help": "写入 FILE.svg、FILE.png 或 FILE.pdf",

@@ -1,4 +1,4 @@
-"""Positions between those of a motion: at an input, at a time, at the limits of an output."""
+"""Positions that a drawing shows: at an input, at a time, and the two limit positions of an output."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import at_inputs
-from linkwright.kinematics.limits import LimitPosition
+from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.plot.svg.element import Floats
@@ -81,3 +82,36 @@ def _inserted(motion: Motion, places: Sequence[int], times: Sequence[float]) -> 
     everything: Floats = np.insert(motion.time, places, times)
     denser = solve_motion(motion.mechanism, times=everything, failures="mark")
     return denser, [place + k for k, place in enumerate(places)]
+
+
+def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
+    """The reversals of an output with its largest and its smallest value, exact in the input.
+
+    ``output``: a link, a guide or a point's coordinate; by default the last link or block on the frame, in
+    solving order, that goes to and fro. Raises LinkwrightError where nothing turns back.
+    """
+    name = output or _last_to_and_fro(motion)
+    found = limit_positions(motion, name)
+    if not found:
+        raise RequestError(f'"{name}" does not turn back in this motion, so it has no limit positions')
+    high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
+    return (high,) if high is low else (high, low)
+
+
+def _last_to_and_fro(motion: Motion) -> str:
+    joints = motion.mechanism.joints
+    driven = {driver.joint for driver in motion.mechanism.drivers.values()}
+    for group in reversed(motion.structure.groups):
+        for link in reversed(group.links):
+            for name, joint in joints.items():
+                if name in driven or not {"frame", link} <= set(joint.joined):
+                    continue
+                if isinstance(joint, PrismaticJoint):
+                    return name
+                angle = motion.link(link).angle
+                if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
+                    return link
+    raise RequestError(
+        f"no link of {motion.mechanism.name!r} on the frame goes to and fro, so there are no limit positions; "
+        "name a link or a guide, such as limits:coupler"
+    )

@@ -1,0 +1,268 @@
+"""Vectors in drawings: length times scale is the reaction, names say which link acts on which, nothing is silent."""
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.loads import base
+from linkwright.loads.base import LOADS, LinkPoint, Load
+from linkwright.loads.site import Site, Wrench
+from linkwright.plot.animation import animate
+from linkwright.plot.drawing import Drawing, draw
+
+SVG = "{http://www.w3.org/2000/svg}"
+PREFIX = {"M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6}
+
+PUSHED = """
+format: 1
+name: pushed block
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  block: {points: [B], mass: 2 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 30 deg, block: block, at: B}
+driver: {slide: guide, speed: 0.1 m/s}
+cycle: {from: 0 m, to: 0.3 m}
+gravity: [0, -10 m/s²]
+"""
+
+TWISTED = """
+format: 1
+name: turned crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m}
+driver: {turn: crank, about: O, speed: 1 rad/s}
+loads:
+  brake: {kind: torque, on: crank, magnitude: -7 N·m}
+"""
+
+
+def lines(drawing: Drawing, style: str) -> list[np.ndarray]:
+    """Ends of straight arrows, foot and point: the shaft's first place and the head's first corner."""
+    root = ET.fromstring(drawing.svg)
+    parts = {
+        part: [e.get("d", "") for e in root.iter(f"{SVG}path") if e.get("class") == f"{style}-{part}"]
+        for part in ("line", "head")
+    }
+    rows = [
+        [[float(x) for x in re.findall(r"-?[\d.]+", d)[:2]] for d in pair]
+        for pair in zip(parts["line"], parts["head"], strict=True)
+        if pair[0].count("L") == 1
+    ]
+    return [np.array(row) for row in rows]
+
+
+def texts(drawing: Drawing, style: str | None = None) -> list[str]:
+    found = ET.fromstring(drawing.svg).iter(f"{SVG}text")
+    return ["".join(e.itertext()) for e in found if style in (None, e.get("class"))]
+
+
+def quantity(text: str) -> float:
+    """The number of ``F12 = 2.5 kN`` in SI."""
+    number, prefix = re.fullmatch(r".* = ([\d.e+-]+) ([MkKmµ]?)(?:N|N·m|m/s)", text).groups()  # type: ignore[union-attr]
+    return float(number) * PREFIX[prefix]
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "truss", "toggle_press"])
+def test_length_times_scale_is_the_reaction_and_every_vector_has_its_name(name: str) -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=24))
+    drawing = draw(forces.motion, position=5 % forces.motion.steps, forces=forces, inputs=False)
+    index = 5 % forces.motion.steps
+    numbers = ["frame", *forces.mechanism.links]
+    entries = {
+        t.split(" = ")[0]: quantity(t)
+        for t in texts(drawing, "lw-force-name")
+        if t.startswith("F") and "=" in t
+    }
+    arrows = lines(drawing, "lw-force")
+    scale_text = next(t for t in texts(drawing, "lw-legend") if t.endswith("joint forces"))
+    *vectors, legend = [end - foot for foot, end in arrows if abs(end - foot).max() > 0]
+    per_newton = abs(legend[0]) / quantity(f"x = {scale_text.split('  ')[0]}")
+    assert legend[1] == 0
+    drawn = sorted(float(np.hypot(*v)) for v in vectors)
+    expected = {}
+    for symbol in entries:
+        one, two = re.fullmatch(r"F(\w+?),?(\d+)", symbol).groups()  # type: ignore[union-attr]
+        on = numbers[int(two)]
+        joint = (
+            one
+            if one in forces.mechanism.joints
+            else next(
+                key for key, j in forces.mechanism.joints.items() if set(j.joined) == {numbers[int(one)], on}
+            )
+        )
+        expected[symbol] = float(np.hypot(*forces.reaction(joint, on=on)[index]))
+    assert entries == pytest.approx(expected, rel=6e-4, abs=1e-9)
+    longest = max(expected.values())
+    seen = sorted(v * per_newton for v in expected.values() if v * per_newton > 0.8)
+    assert drawn == pytest.approx(seen, abs=0.03 + 2e-4 * longest * per_newton)
+    named = [t for t in texts(drawing, "lw-force-name") if "=" not in t and t.startswith("F")]
+    assert len(named) >= sum(v > 2.0 for v in seen) and set(named) <= set(expected)
+
+
+def test_direction_is_that_of_the_force_on_the_second_link() -> None:
+    forces = lw.solve_forces(lw.loads(PUSHED), static=True)
+    drawing = draw(forces.motion, position=0, forces=forces, inputs=False)
+    (normal, _), (along, _) = ([b - a for a, b in lines(drawing, s)] for s in ("lw-force", "lw-driver"))
+    weight = 20.0
+    assert texts(drawing, "lw-force-name").count("F01") == 1
+    values = {t.split(" = ")[0]: quantity(t) for t in texts(drawing) if " = " in t}
+    assert values == pytest.approx({"F01": weight * math.cos(math.pi / 6), "Fd": weight / 2}, rel=6e-4)
+    left = np.array(
+        [-math.sin(math.pi / 6), -math.cos(math.pi / 6)]
+    )  # normal of the guide, y down on the paper
+    assert normal / np.hypot(*normal) == pytest.approx(left, abs=2e-4)
+    assert along / np.hypot(*along) == pytest.approx(
+        [math.cos(math.pi / 6), -math.sin(math.pi / 6)], abs=2e-4
+    )
+    assert np.hypot(*normal) / np.hypot(*along) == pytest.approx(math.sqrt(3.0), abs=1e-3)
+
+
+def test_torques_are_arcs_with_their_sense_and_value() -> None:
+    drawing = draw(lw.loads(TWISTED), forces=True, inputs=False)
+    assert {t for t in texts(drawing) if " = " in t} == {"F01 = 0 N", "T = 7 N·m", "brake = 7 N·m"}
+    senses = {}
+    for style in ("lw-driver", "lw-load"):
+        (arc,) = [
+            np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", e.get("d", "")), dtype=float)
+            for e in ET.fromstring(drawing.svg).iter(f"{SVG}path")
+            if e.get("class") == f"{style}-line"
+        ]
+        a, b = arc[0], arc[1]
+        senses[style] = -math.copysign(1.0, a[0] * b[1] - a[1] * b[0])  # about the pin at (0, 0), y down
+    assert senses == {"lw-driver": 1.0, "lw-load": -1.0}
+
+
+def test_nothing_to_draw_is_said_in_the_picture_and_by_the_result() -> None:
+    bare = draw(lw.load("gallery:crank_rocker"), forces=True)
+    assert "no mass" in bare.notes[0] and any("no mass" in t for t in texts(bare))
+    still = lw.solve_motion(lw.load("gallery:two_bars_equilibrium"), steps=1)
+    assert draw(still, velocities=True).notes == ("all velocities are zero at this position",)
+    assert draw(lw.load("gallery:jaw_crusher_sixbar"), forces=True).notes == ()
+
+
+def test_moving_arrows_keep_their_names() -> None:
+    crusher = lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=36)
+    animation = animate(crusher, forces=True, frames=12, labels=False)
+    for svg in (animation.svg, animation.frame(6)):
+        names = {t for t in texts(Drawing(svg)) if t.startswith(("F", "T")) and " " not in t}
+        assert {"F01", "F12", "F05", "T"} <= names
+    shifts = {}
+    for index in (0, 9, 18):
+        (group,) = [
+            e
+            for e in ET.fromstring(animation.frame(index)).iter(f"{SVG}g")
+            if e.find(f"{SVG}text") is not None and "".join(e.find(f"{SVG}text").itertext()) == "F12"  # type: ignore[union-attr]
+        ]
+        shifts[index] = np.array(re.findall(r"-?[\d.]+", group.get("transform", "")), dtype=float)
+    arrows, scale = animation.arrows[0]
+    track = arrows.vectors[0].track("pitman.A", animation.scene.machine.view, scale)
+    for index in (9, 18):
+        assert shifts[index] - shifts[0] == pytest.approx(track[index] - track[0], abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"]
+)
+def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
+    motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=5)
+    root = ET.fromstring(draw(motion, overlay="limits").svg)
+    left, top, wide, tall = map(float, root.get("viewBox", "").split())
+    scale = _paper_scale(motion)
+    limits = lw.limit_positions(motion, _output(name))
+    assert len(limits) >= 2
+    there = lw.solve_motion(motion.mechanism, times=[each.time for each in limits])
+    for key in there.point_names():
+        for x, y in there.point_of(key).position * (scale, -scale):
+            assert left < x < left + wide and top < y < top + tall
+
+
+def _output(name: str) -> str:
+    return {"crank_rocker": "rocker", "shaper_quick_return": "guide", "slider_crank_inline": "cylinder",
+            "toggle_press": "guide"}[name]  # fmt: skip
+
+
+def _paper_scale(motion: lw.Motion) -> float:
+    from linkwright.plot.drawing.view import fitted, placements
+
+    return fitted(motion, placements(motion)).scale
+
+
+@pytest.mark.parametrize("steps", [3, 7])
+def test_rails_reach_to_the_limit_positions_that_are_drawn(steps: int) -> None:
+    from linkwright.plot.drawing.draw import laid_out_beside
+    from linkwright.plot.drawing.guides import travel
+    from linkwright.plot.drawing.positions import Shown, limits_of, with_limits
+
+    motion = lw.solve_motion(lw.load("gallery:slider_crank_inline"), steps=steps)
+    denser, indices = with_limits(motion, limits_of(motion))
+    ghosts = [Shown(denser, index) for index in indices]
+    scene, _, _ = laid_out_beside(motion, Shown(motion, 0), ghosts, inputs=False, centres=False)
+    crank, rod = 0.05, 0.2
+    low, high = (each / scene.machine.view.scale for each in travel(scene.machine, "cylinder"))
+    assert (low, high) == pytest.approx((rod - crank, rod + crank), abs=1e-9)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Magnet(Load):
+    """A kind of load as another package brings it, without a symbol."""
+
+    kind: ClassVar[str] = "outside_magnet"
+    between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends")
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        return []
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wind(Load):
+    """A kind of load as another package brings it, that names a link only."""
+
+    kind: ClassVar[str] = "outside_wind"
+    on: str = base.link(moving=True, doc="the link")
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        return []
+
+
+@dataclass(frozen=True, kw_only=True)
+class Field(Load):
+    """A kind of load as another package brings it, that names no place."""
+
+    kind: ClassVar[str] = "outside_field"
+
+    def wrenches(self, site: Site) -> list[Wrench]:
+        return []
+
+
+@pytest.fixture
+def outside_kinds() -> Iterator[None]:
+    kinds = (Magnet, Wind, Field)
+    for each in kinds:
+        LOADS.register(each.kind)(each)
+    yield
+    for each in kinds:
+        del LOADS._elements[each.kind]
+
+
+@pytest.mark.usefixtures("outside_kinds")
+def test_a_load_of_another_package_has_the_general_symbol_or_a_sentence() -> None:
+    drawing = draw(
+        lw.loads(
+            TWISTED + "  pull: {kind: outside_magnet, between: [frame.O, crank.A]}\n"
+            "  gust: {kind: outside_wind, on: crank}\n  haze: {kind: outside_field}\n"
+        )
+    )
+    rings = [e for e in ET.fromstring(drawing.svg).iter(f"{SVG}circle") if e.get("class") == "lw-load-ring"]
+    assert len(rings) == 2
+    assert {"pull", "gust"} <= set(texts(drawing, "lw-load-name"))
+    assert drawing.notes == ("not drawn, as they name neither a point nor a link: haze",)
+    assert drawing.notes[0] in " ".join(each.strip() for each in texts(drawing))
