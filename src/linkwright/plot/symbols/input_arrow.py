@@ -31,13 +31,14 @@ def crank_arrow(
     ``turning`` +1: counter-clockwise as seen, -1: clockwise, 0: both ways.
     """
     forward = -1.0 if turning >= 0 else 1.0
-    angle = middle + forward * np.linspace(-sweep / 2, sweep / 2, 25)
+    angle = middle + forward * np.linspace(-sweep / 2, sweep / 2, 49)
     arc = np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
     size = 9.0
-    elements: list[Element] = [path(_shortened(arc, 3, both=turning == 0), f"{style}-line")]
-    elements.append(head(_place(arc[-1]), _chord(arc[-4], arc[-1]), size, f"{style}-head"))
+    back = max(1, round(size * (len(arc) - 1) / (abs(sweep) * radius)))
+    elements: list[Element] = [path(_shortened(arc, size, both=turning == 0), f"{style}-line")]
+    elements.append(head(_place(arc[-1]), _chord(arc[-1 - back], arc[-1]), size, f"{style}-head"))
     if turning == 0:
-        elements.append(head(_place(arc[0]), _chord(arc[3], arc[0]), size, f"{style}-head"))
+        elements.append(head(_place(arc[0]), _chord(arc[back], arc[0]), size, f"{style}-head"))
     return Shape(tuple(elements), (arc,))
 
 
@@ -60,7 +61,10 @@ def slide_arrow(
     return Shape(tuple(elements), (line,))
 
 
-def _shortened(arc: Floats, count: int, *, both: bool) -> Floats:
+def _shortened(arc: Floats, head: float, *, both: bool) -> Floats:
+    """An arc that ends within its heads."""
+    step = float(np.hypot(*(arc[1] - arc[0])))
+    count = max(1, round(0.7 * head / step))
     return points(arc[count if both else 0 : -count])
 
 
