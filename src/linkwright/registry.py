@@ -13,6 +13,8 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
+#: Names of which a sentence lists all, and among which the nearest is looked for, at most.
+MOST_SHOWN, MOST_COMPARED = 60, 300
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -90,7 +92,7 @@ def offered(
     offer = nearest(name[:100], names)
     if offer is not None:
         return Sentence("names.did_you_mean", offer=offer)
-    return Sentence(key, names=names[:most]) if names else Sentence("names.there_is_none")
+    return Sentence(key, names=_shown(names[:most])) if names else Sentence("names.there_is_none")
 
 
 def listed(name: str, known: Iterable[str], word: str = "there_is") -> Sentence:
@@ -98,8 +100,13 @@ def listed(name: str, known: Iterable[str], word: str = "there_is") -> Sentence:
     names = tuple(dict.fromkeys(known))
     offer = nearest(name[:100], names)
     if offer is not None:
-        return Sentence(f"names.near_{word}", offer=offer, names=names)
-    return Sentence(f"names.all_{word}", names=names) if names else Sentence("names.nothing_there")
+        return Sentence(f"names.near_{word}", offer=offer, names=_shown(names))
+    return Sentence(f"names.all_{word}", names=_shown(names)) if names else Sentence("names.nothing_there")
+
+
+def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
+    """The names as a sentence lists them, the first where they are many."""
+    return names if len(names) <= MOST_SHOWN else (*names[:MOST_SHOWN], "…")
 
 
 def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
@@ -114,6 +121,8 @@ class UnknownName(RequestError, KeyError):
 def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...]) -> str | None:
     """The candidate that looks most like ``name`` (capitals do not count), or None."""
     known = list(candidates)
+    if len(known) > MOST_COMPARED:
+        known = [text for text in known if text[:1].casefold() == name[:1].casefold()][:MOST_COMPARED]
     folded = {text.casefold(): text for text in reversed(known)}
     if name.casefold() in folded:
         return folded[name.casefold()]

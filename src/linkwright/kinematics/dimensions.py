@@ -27,6 +27,8 @@ class Dimensions:
         self.free = free
         self.nominal = mechanism.dimensions()
         self._points: dict[str, dict[str, Vec]] = {}
+        self._varying = _varying(mechanism, free)
+        self._parameters: dict[str, Scalar] = {}
 
     def __call__(self, address: str) -> Scalar:
         """The dimension at an address (``crank.length``)."""
@@ -39,15 +41,27 @@ class Dimensions:
 
     def _follows(self, address: str) -> bool:
         """Whether a dimension is an expression of something that varies."""
-        expression = self.mechanism.expressions.get(address)
-        if expression is None:
-            return address in self.free
-        return any(self._follows(name) for name in expression.names)
+        return address in self._varying
 
     def _from_expression(self, address: str) -> Scalar:
+        """The traced value of an expression; parameters that follow others are traced in their order, once."""
         from linkwright.kinematics.expressions import traced
 
-        return traced(self.mechanism.expressions[address], self)
+        expressions = self.mechanism.expressions
+        waiting, needed = [address], set[str]()
+        while waiting:
+            for name in expressions[waiting.pop()].names:
+                if self._follows(name) and not (
+                    name in self.free or name in needed or name in self._parameters
+                ):
+                    needed.add(name)
+                    waiting.append(name)
+        for name in filter(needed.__contains__, self.mechanism.parameters if needed else ()):
+            self._parameters[name] = traced(expressions[name], self._parameter)
+        return traced(expressions[address], self._parameter)
+
+    def _parameter(self, name: str) -> Scalar:
+        return self._parameters[name] if name in self._parameters else self(name)
 
     def link(self, name: str) -> Link:
         """A link by name, the frame included."""
@@ -97,6 +111,15 @@ class Dimensions:
         if isinstance(angle, float):
             return Vec(cosine(angle), sine(angle))
         return Vec(cos(angle), sin(angle))
+
+
+def _varying(mechanism: Mechanism, free: Set[str]) -> set[str]:
+    """Every dimension that is free or follows a free one; an expression uses only parameters that stand before it."""
+    found = set(free)
+    for address, expression in mechanism.expressions.items():
+        if address not in free and not found.isdisjoint(expression.names):
+            found.add(address)
+    return found
 
 
 _PI = 3.141592653589793

@@ -21,6 +21,7 @@ class MotionOutputs:
     def __init__(self, motion: MotionTrace) -> None:
         self.motion = motion
         self.mechanism = motion.mechanism
+        self._points: dict[str, tuple[Vec, Vec, Vec]] = {}
 
     def value(self, name: str) -> Scalar:
         """The traced value of an output."""
@@ -33,7 +34,9 @@ class MotionOutputs:
         kind, key = name.split(":", 1)
         if kind in ("p", "v", "a"):
             base, axis = key.rsplit(".", 1)
-            vector = self.point(base)["pva".index(kind)]
+            if base not in self._points:
+                self._points[base] = self.point(base)
+            vector = self._points[base]["pva".index(kind)]
             return vector.x if axis == "x" else vector.y
         if kind == "e":
             base, axis = key.rsplit(".", 1)

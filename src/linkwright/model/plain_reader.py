@@ -20,6 +20,13 @@ if TYPE_CHECKING:
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
+#: Findings about one file, at most.
+MOST_FINDINGS = 300
+
+
+class TooManyFindings(Exception):
+    """There is more to say about a file than anybody reads."""
+
 
 @dataclass(frozen=True)
 class Place:
@@ -66,6 +73,8 @@ class PlainReader:
         severity: Severity = "error",
     ) -> None:
         """Note a finding at a node; ``column`` is an offset within it."""
+        if len(self.findings) >= MOST_FINDINGS:
+            raise TooManyFindings
         key = place if isinstance(place, str) else place.key
         self.findings.append(Finding(severity, self.where(node, column), key, message, remedy, code))
 

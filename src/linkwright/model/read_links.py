@@ -54,7 +54,7 @@ class LinkPoints(Field):
         if not isinstance(node, Sequence):
             reader.items(node, place, None, "[A, B]")
             return None
-        names: list[str] = []
+        names: dict[str, None] = {}
         for index, item in enumerate(node.items):
             name = reader.name(item, place.child(str(index)), "point")
             if name in names:
@@ -66,8 +66,8 @@ class LinkPoints(Field):
                     "duplicate",
                 )
             elif name is not None:
-                names.append(name)
-        return names
+                names[name] = None
+        return list(names)
 
     def shape(self) -> Schema:
         names: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1}

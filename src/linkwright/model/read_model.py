@@ -16,7 +16,7 @@ from linkwright.model.fields import Count, Field, Free, Quantities, Text
 from linkwright.model.mechanism import Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
-from linkwright.model.plain_reader import Place
+from linkwright.model.plain_reader import Place, TooManyFindings
 from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
 from linkwright.model.read_joints import read_joints, scan_joints
 from linkwright.model.read_links import legible, read_drawing, read_frame, read_links, scan_points
@@ -60,10 +60,12 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
     mapping = reader.mapping(root, "")
     if mapping is None:
         return None, reader.findings
-    mechanism = _sections(reader, mapping, source)
-    if reader.error_count:
-        return None, reader.findings
-    return mechanism, reader.findings
+    try:
+        mechanism = _sections(reader, mapping, source)
+    except TooManyFindings:
+        more = Sentence("model.more_findings", count=len(reader.findings))
+        return None, [*reader.findings, Finding("error", source, "", more, code="many")]
+    return (None if reader.error_count else mechanism), reader.findings
 
 
 def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
@@ -122,6 +124,7 @@ def _scan(reader: Reader, root: MappingNode) -> None:
         reader.names.incomplete = not all(legible(value) for _, value in links)
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
     reader.names.incomplete |= not (isinstance(links, MappingNode) and legible(root.get("frame")))
+    reader.names.settle()
     scan_joints(reader, root.get("joints"))
     scan_input(reader, root)
 
@@ -173,7 +176,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
             return None
         kind, value = expression.dimension(reader.kinds), float(expression.evaluate(reader.values))
     except QuantityError as error:
-        later = sorted(each for each in waiting if re.search(rf"(?<!\w){re.escape(each)}(?!\w)", text))
+        later = sorted(waiting.intersection(re.findall(r"\w+", text)))
         if later and error.code == "unknown-name":
             reader.error(
                 node,

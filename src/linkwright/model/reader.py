@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections import ChainMap
+from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Literal
@@ -39,9 +40,18 @@ class Names:
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
     incomplete: bool = False
 
+    _owners: dict[str, list[str]] = field(default_factory=dict)
+
+    def settle(self) -> None:
+        """All links are known: note which have a point of which name."""
+        self._owners = {}
+        for link, points in self.links.items():
+            for point in dict.fromkeys(points):
+                self._owners.setdefault(point, []).append(link)
+
     def owners(self, point: str) -> list[str]:
         """The links that have a point of this name."""
-        return [link for link, points in self.links.items() if point in points]
+        return self._owners.get(point, [])
 
 
 class Reader(PlainReader):
@@ -57,6 +67,7 @@ class Reader(PlainReader):
         self.expressions: dict[str, Expression] = {}
         self.input_rotary = True
         self._plain: str = ""
+        self._variables: dict[str, units.Dimension] = {}
 
     @contextmanager
     def plain_numbers(self, what: str) -> Iterator[None]:
@@ -124,7 +135,7 @@ class Reader(PlainReader):
     def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None:
         """Note the finding for a QuantityError, unless it only follows from a parameter that is wrong
         itself."""
-        if any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text) for name in self.broken):
+        if not self.broken.isdisjoint(re.findall(r"\w+", text)):
             return
         offset = 0
         if isinstance(node, Scalar) and "\n" not in node.text:
@@ -132,13 +143,13 @@ class Reader(PlainReader):
         self.error(node, place, error.message, error.remedy, error.code, column=offset)
 
     def formula(
-        self, node: Node, place: Place, dimension: str, variables: Mapping[str, units.Dimension]
+        self, node: Node, place: Place, dimension: str, variables: MutableMapping[str, units.Dimension]
     ) -> Expression | None:
         """An expression of variables and parameters."""
         text = self.quantity_text(node, place, "30 deg*sin(2*pi*t/(2 s))")
         if text is None:
             return None
-        kinds = {**self.kinds, **variables}
+        kinds = ChainMap(variables, self.kinds)
         try:
             if expressions.is_literal(units.tidy(text), kinds):
                 units.parse(text, dimension)
@@ -164,18 +175,22 @@ class Reader(PlainReader):
             return self.quantity(node, place, dimension)
         return self.formula(node, place, dimension, variables)
 
-    def _follows(self, text: str, dimension: str, variables: Mapping[str, units.Dimension]) -> bool:
+    def _follows(self, text: str, dimension: str, variables: MutableMapping[str, units.Dimension]) -> bool:
         """Whether a text is an expression of variables; ``t`` behind a number is the unit of mass."""
         try:
             if expressions.is_literal(text, self.kinds) and units.unit_fits(text, dimension):
                 return False
-            return not variables.keys().isdisjoint(expressions.parse(text, {**self.kinds, **variables}).names)
+            return not variables.keys().isdisjoint(
+                expressions.parse(text, ChainMap(variables, self.kinds)).names
+            )
         except QuantityError:
             return False
 
     def output_variables(self) -> dict[str, units.Dimension]:
         """The names that an expression over the cycle may use, with their dimensions."""
         length, angle = units.DIMENSIONS["length"], units.DIMENSIONS["angle"]
+        if self._variables:
+            return self._variables
         taken = {*self.kinds, *units.UNITS, *expressions.CONSTANTS, *expressions.FUNCTIONS}
         found = {link: angle for link in self.names.links if link != "frame" and link not in taken}
         found |= {
@@ -187,7 +202,9 @@ class Reader(PlainReader):
             for point in points:
                 for axis in ("x", "y"):
                     found[f"{point}.{axis}"] = found[f"{link}.{point}.{axis}"] = length
-        return {**found, "t": units.DIMENSIONS["time"], "input": angle if self.input_rotary else length}
+        found |= {"t": units.DIMENSIONS["time"], "input": angle if self.input_rotary else length}
+        self._variables = found
+        return found
 
     def input_dimension(self) -> str:
         """Name of the dimension of the first driver's coordinate."""

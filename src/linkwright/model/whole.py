@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.model.mechanism import Link, Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
 from linkwright.model.reader import Reader
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
+
+#: Points of a link of which all pairs are measured.
+MOST_PAIRED = 32
 
 
 def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -141,6 +145,13 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
 
 
 def _size(link: Link) -> float:
-    """Largest distance between two points of a link, its mass centre among them, m."""
+    """Largest distance between two points of a link, its mass centre among them, m; of many points within 1 %."""
     places = [*link.points.values(), link.centre]
+    if len(places) > MOST_PAIRED:
+        turns = [math.tau * k / MOST_PAIRED for k in range(MOST_PAIRED)]
+        places = [max(places, key=partial(_ahead, math.cos(turn), math.sin(turn))) for turn in turns]
     return max(math.dist(a, b) for a in places for b in places)
+
+
+def _ahead(c: float, s: float, place: Vec) -> float:
+    return c * place[0] + s * place[1]

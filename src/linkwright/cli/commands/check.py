@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from linkwright.cli.session import Session
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.words import Say
 
 #: Positions of the cycle that are tried.
@@ -37,13 +37,15 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
     from linkwright.kinematics import solve_motion
     from linkwright.kinematics.rank import analysed
-    from linkwright.model.file import check, load
+    from linkwright.model.file import read_source, read_text
 
-    found = check(name)
-    if any(finding.severity == "error" for finding in found):
+    try:
+        mechanism, found = read_text(*read_source(name))
+    except ModelError as error:
+        return list(error.findings), {}
+    if mechanism is None:
         return found, {}
     try:
-        mechanism = load(name)
         built = analysed(mechanism)
         fact: dict[str, object] = {
             "links": len(mechanism.links),

@@ -243,4 +243,5 @@ WORDS = {
     "prismatic": "prismatic",
     "weld": "weld",
     "length_zero": "zero",
+    "more_findings": "there are more than {count} findings; mend these first",
 }

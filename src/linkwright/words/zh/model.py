@@ -242,4 +242,5 @@ WORDS = {
     "prismatic": "移动副",
     "weld": "刚性连接",
     "length_zero": "零",
+    "more_findings": "问题多于 {count} 个；请先改正以上各处",
 }
