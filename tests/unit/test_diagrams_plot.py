@@ -70,13 +70,13 @@ def test_hodograph_has_equal_scales_and_the_forces(forces: lw.Forces) -> None:
 
 def test_mean_torque_is_marked_as_the_power_over_the_speed(forces: lw.Forces) -> None:
     diagram = plot(forces, "torque")
-    mean = forces.power.mean() / (-170 * np.pi / 30)
+    mean = lw.solve_forces(forces.mechanism, steps=36_000).power.mean() / (-170 * np.pi / 30)
     levels = [
         line
         for line in diagram.figure.axes[0].lines
         if len(set(line.get_ydata())) == 1 and line.get_ydata()[0]
     ]
-    assert any(line.get_ydata()[0] == pytest.approx(mean, rel=1e-6) for line in levels)
+    assert any(line.get_ydata()[0] == pytest.approx(mean, rel=1e-4) for line in levels)
     assert any(text.startswith("mean −") and text.endswith("N·m") for text in words_of(diagram))
 
 

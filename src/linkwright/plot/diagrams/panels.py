@@ -17,7 +17,7 @@ from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, phase_marks
 from linkwright.plot.diagrams.peaks import mark_peaks
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
-from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.words import Say
 
@@ -32,7 +32,8 @@ DASHES = ("-", "--", ":", "-.")
 class Curve:
     """A curve: SI ``values`` (n,) over the input up to the cycle's end.
 
-    ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty.
+    ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty;
+    ``extremes``: what they are between the positions, where that is known.
     """
 
     label: str
@@ -42,6 +43,7 @@ class Curve:
     dash: str = "-"
     x: Floats | None = None
     width: float = 1.5
+    extremes: Extremes | None = None
 
 
 @dataclass(frozen=True)

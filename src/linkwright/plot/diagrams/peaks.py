@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.metrics.analysis import Kind
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.units import Unit, size
 
@@ -32,21 +32,29 @@ def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
         return
     places = (axis.values if curve.x is None else curve.x) * axis.unit.factor
     left, right = float(np.min(places)), float(np.max(places))
-    for index, above in _places(values, curve.peak):
-        x, y = float(places[index]), float(values[index]) * unit.factor
+    for place, value, above in _peaks(curve, axis):
+        x, y = place * axis.unit.factor, value * unit.factor
         share = (x - left) / (right - left) if right > left else 0.5
         if places[-1] < places[0]:
             share = 1.0 - share
         side = "left" if share < 0.12 else "right" if share > 0.88 else "center"
         axes.plot([x], [y], "o", color=curve.colour, markersize=3.6, zorder=4)
-        text = f"{unit.text(float(values[index]))}"
-        axes.annotate(text, (x, y), (0, 4 if above else -4), textcoords="offset points", ha=side,
+        axes.annotate(unit.text(value), (x, y), (0, 4 if above else -4), textcoords="offset points", ha=side,
                       va="bottom" if above else "top", fontsize=7.5, color=INK, bbox=_HALO, zorder=5)  # fmt: skip
 
 
-def _places(values: Floats, peak: str) -> list[tuple[int, bool]]:
-    """Indices of the extremes that are marked, and whether their texts stand above."""
-    high, low = int(np.nanargmax(values)), int(np.nanargmin(values))
-    if peak == "largest":
-        return [(high, True)] if values[high] >= -values[low] else [(low, False)]
-    return [(high, True)] if peak == "max" else [(high, True), (low, False)]
+def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
+    """Place and value of the extremes that are marked, and whether their texts stand above."""
+    high, low = _extreme(curve, axis, "max"), _extreme(curve, axis, "min")
+    if curve.peak == "largest":
+        return [(*high, True)] if high[1] >= -low[1] else [(*low, False)]
+    return [(*high, True)] if curve.peak == "max" else [(*high, True), (*low, False)]
+
+
+def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:
+    """Place on the axis and value: between the positions where the curve knows its extremes, else at one of them."""
+    found = curve.extremes(kind) if curve.extremes is not None else None
+    if found is not None:
+        return (found.time if axis.dimension == "time" else found.input), found.value
+    index = int(np.nanargmax(curve.values) if kind == "max" else np.nanargmin(curve.values))
+    return float((axis.values if curve.x is None else curve.x)[index]), float(curve.values[index])

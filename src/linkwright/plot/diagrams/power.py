@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.effort import power as total
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
@@ -23,7 +24,9 @@ class Power(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         power = source.forces.power
         title = f"{request.say('power')} P"
-        panel = Panel(title, "power", (Curve("", source.closed(power)),))
-        mean = Analysis(source.motion, source.forces).mean(power)
+        panel = Panel(
+            title, "power", (Curve("", source.closed(power), extremes=source.extremes(total, "forces")),)
+        )
+        mean = Analysis(source.motion, source.forces).mean_of(total)
         label = request.say("mean", value=panel.unit.text(mean))
         return [Panel(title, "power", panel.curves, (Level(label, mean),))]

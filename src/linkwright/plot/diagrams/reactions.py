@@ -8,12 +8,13 @@ import numpy as np
 
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.reactions import size as magnitude
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
-from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.source import Extremes, Source
 from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import reaction_pairs
 
@@ -51,16 +52,18 @@ def require_forces(forces: Forces) -> None:
 
 
 def _of_all(source: Source, request: Request) -> Panel:
-    mechanism, sizes = source.mechanism, {}
+    mechanism, sizes, signals = source.mechanism, {}, {}
     for joint, link in reaction_pairs(mechanism):
         force = source.closed(source.forces.reaction(joint, on=link))
         shared = len(mechanism.joints[joint].joined) > 2
-        sizes[f"{joint} ({link})" if shared else joint] = np.hypot(force[:, 0], force[:, 1])
+        label = f"{joint} ({link})" if shared else joint
+        sizes[label], signals[label] = np.hypot(force[:, 0], force[:, 1]), magnitude(joint, link)
     largest = max(sizes, key=lambda label: size(sizes[label]))
     curves = []
     for number, (label, values) in enumerate(sizes.items()):
         colour, dash = look(number)
-        curves.append(Curve(label, values, "max" if label == largest else "", colour, dash))
+        exact = source.extremes(signals[label], "forces")
+        curves.append(Curve(label, values, "max" if label == largest else "", colour, dash, extremes=exact))
     return Panel(f"{request.say('joint_force')} F", "force", tuple(curves))
 
 
@@ -69,10 +72,19 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
     joint, link = joint_and_link(source.forces, request.joint, request.on)
     axes = request.axes or "frame"
     force = source.closed(source.forces.reaction(joint, on=link, axes=axes))
+
+    def exact(component: int) -> Extremes:
+        return source.extremes(lambda f: f.reaction(joint, on=link, axes=axes)[:, component], "forces")
+
     named = "xy" if axes == "frame" else ("ξ", "η")
-    parts = [Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i]) for i, name in enumerate(named)]
+    parts = [
+        Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i], extremes=exact(i))
+        for i, name in enumerate(named)
+    ]
+    largest = source.extremes(magnitude(joint, link), "forces")
+    total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=largest)
     title = say("components") if axes == "frame" else say("components_in", link=axes)
     return [
-        Panel(f"{say('joint_force')} F", "force", (Curve("", np.hypot(force[:, 0], force[:, 1]), "max"),)),
+        Panel(f"{say('joint_force')} F", "force", (total,)),
         Panel(title, "force", tuple(parts)),
     ]

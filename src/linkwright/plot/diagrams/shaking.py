@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel
 from linkwright.plot.diagrams.picture import COLOURS
@@ -25,10 +27,15 @@ class Shaking(OverInput):
         curves = (
             Curve("Fx", force[:, 0], "", COLOURS[1]),
             Curve("Fy", force[:, 1], "", COLOURS[2]),
-            Curve("F", np.hypot(force[:, 0], force[:, 1]), "max", COLOURS[0]),
+            Curve("F", np.hypot(*force.T), "max", COLOURS[0], extremes=source.extremes(_size, "forces")),
         )
-        moment = Curve("", source.closed(forces.shaking_moment))
+        turning = source.extremes(lambda f: f.shaking_moment, "forces")
+        moment = Curve("", source.closed(forces.shaking_moment), extremes=turning)
         return [
             Panel(f"{say('shaking_force')} F", "force", curves),
             Panel(f"{say('shaking_moment')} M", "torque", (moment,)),
         ]
+
+
+def _size(forces: Forces) -> Floats:
+    return np.asarray(np.hypot(*forces.shaking_force.T))

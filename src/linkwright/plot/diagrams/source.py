@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias, TypeVar, cast
+from typing import Any, Literal, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
+from linkwright.metrics.analysis import Analysis, Extreme, Kind
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.plot.svg.characters import one_line
@@ -26,6 +27,7 @@ Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
 TURN = 2 * np.pi
 T = TypeVar("T")
+Extremes: TypeAlias = Callable[[Kind], Extreme | None]
 
 
 @dataclass(frozen=True)
@@ -129,6 +131,19 @@ class Source:
         value = float(motion.time[0] if dimension == "time" else motion.input[0])
         symbol = {"angle": "φ", "length": "s", "time": "t"}[dimension]
         return f"{symbol}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
+
+    def extremes(self, signal: Callable[[Any], Floats], of: str = "motion") -> Extremes:
+        """Extremes over the cycle of a signal of the motion, or of the forces, as the design numbers have them."""
+        loads = of == "forces"
+        analysis = self.once(
+            f"analysis of {of}", lambda: Analysis(self.motion, self.forces if loads else None)
+        )
+
+        def found(kind: Kind) -> Extreme | None:
+            extreme = analysis.extreme(signal, kind, of="forces") if loads else analysis.extreme(signal, kind)
+            return extreme if extreme is not None and extreme.exact else None
+
+        return found
 
     @property
     def has_motion(self) -> bool:

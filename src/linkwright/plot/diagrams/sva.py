@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -86,10 +86,18 @@ def course(motion: Motion, output: Output) -> tuple[Floats, Floats, Floats]:
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
-    for (word, symbol, dimension), values in zip(named, course(source.motion, output), strict=True):
+    for number, ((word, symbol, dimension), values) in enumerate(
+        zip(named, course(source.motion, output), strict=True)
+    ):
         shown = source.closed(values, turns=word == "angle")
-        found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown),)))
+        exact = None if word == "angle" else source.extremes(_part(output, number))
+        found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
+
+
+def _part(output: Output, number: int) -> Callable[[Motion], Floats]:
+    """Value, rate or second derivative of an output."""
+    return lambda motion: course(motion, output)[number]
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from linkwright.errors import RequestError
+from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
@@ -30,10 +33,11 @@ class Torque(OverInput):
         for name in motion.mechanism.drivers:
             turning = motion.positions.rotary[name]
             effort = forces.driver_effort(name)
+            exact = source.extremes(partial(Forces.driver_effort, name=name), "forces")
             dimension = "torque" if turning else "force"
             title = f"{say(f'input_{dimension}')} {'T' if turning else 'F'}{f' {name}' if several else ''}"
-            panel = Panel(title, dimension, (Curve("", source.closed(effort)),))
-            mean = Analysis(motion, forces).mean(effort)
+            panel = Panel(title, dimension, (Curve("", source.closed(effort), extremes=exact),))
+            mean = Analysis(motion, forces).mean_of(partial(Forces.driver_effort, name=name))
             label = f"{f'{name}: ' if several else ''}{say('mean', value=panel.unit.text(mean))}"
             found.append(Panel(title, dimension, panel.curves, (Level(label, mean),)))
         return found
