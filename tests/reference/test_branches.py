@@ -76,3 +76,25 @@ def test_a_guide_far_from_its_limit_is_not_in_the_way() -> None:
     assert 14 <= path.reached < 24
     assert int(motion.ok.sum()) == path.reached and motion.ok[: path.reached].all()
     assert worst(motion, path, 1) < 1e-9
+
+
+@pytest.mark.parametrize(("name", "mass"), [("jump_104589", "L17.mass"), ("order4_branch_jump", "L1.mass")])
+@pytest.mark.parametrize("steps", [FINE, 360])
+def test_sweeps_keep_the_assembly(name: str, mass: str, steps: int) -> None:
+    """A changed mass changes no motion: extremes are those of the positions that agree with the fine path."""
+    mechanism, path = fault(name), fine_path(name)
+    swept = lw.sweep(
+        mechanism,
+        {mass: [1.0, 2.0]},
+        outputs=[(f"{link}.angular_velocity", kind) for link in mechanism.links for kind in ("min", "max")],
+        steps=steps,
+    )
+    assert swept.ok.all()
+    assert swept.branch_margin is not None and (swept.branch_margin > 0.0).all()
+    motion = lw.solve_motion(mechanism, steps=steps)
+    assert worst(motion, path, steps // FINE) < 1e-9
+    for link in mechanism.links:
+        speed = motion.link(link).angular_velocity
+        scale = 1e-9 * (1.0 + np.abs(speed).max())
+        assert swept[f"{link}.angular_velocity", "max"] == pytest.approx(np.full(2, speed.max()), abs=scale)
+        assert swept[f"{link}.angular_velocity", "min"] == pytest.approx(np.full(2, speed.min()), abs=scale)

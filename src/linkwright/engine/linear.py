@@ -41,18 +41,40 @@ def _gauss_jordan(matrix: Sequence[Sequence[Scalar]]) -> Matrix:
     return [row[size:] for row in rows]
 
 
-def _bring_largest_up(rows: Matrix, column: int) -> None:
-    """Exchanges rows, by selection, so that the pivot is the largest of its column."""
+def determinant(matrix: Sequence[Sequence[Scalar]]) -> Scalar:
+    """Determinant of a k×k matrix, by the same elimination as its inverse."""
+    rows: Matrix = [list(row) for row in matrix]
+    if len(rows) == 2:
+        (a, b), (c, d) = rows
+        return a * d - b * c
+    found: Scalar = 1.0
+    for column in range(len(rows)):
+        found = found * _bring_largest_up(rows, column) * rows[column][column]
+        factor = reciprocal(rows[column][column])
+        rows[column] = [entry * factor for entry in rows[column]]
+        for i in range(column + 1, len(rows)):
+            if not _is_zero(rows[i][column]):
+                lead = rows[i][column]
+                rows[i] = [x - lead * y for x, y in zip(rows[i], rows[column], strict=True)]
+    return found
+
+
+def _bring_largest_up(rows: Matrix, column: int) -> Scalar:
+    """Exchanges rows, by selection, so that the pivot is the largest of its column; the sign of the exchanges."""
+    sign: Scalar = 1.0
     for i in range(column + 1, len(rows)):
         if _is_zero(rows[i][column]):
             continue
         if _is_zero(rows[column][column]):
             rows[column], rows[i] = rows[i], rows[column]
+            sign = -sign
             continue
         larger = absolute(rows[column][column]) < absolute(rows[i][column])
         upper = [select(larger, y, x) for x, y in zip(rows[column], rows[i], strict=True)]
         lower = [select(larger, x, y) for x, y in zip(rows[column], rows[i], strict=True)]
         rows[column], rows[i] = upper, lower
+        sign = select(larger, -sign, sign)
+    return sign
 
 
 def _is_zero(value: Scalar) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from linkwright.engine.linear import Matrix, inverse, product
+from linkwright.engine.linear import Matrix, determinant, inverse, product
 from linkwright.engine.trace import Mask, Scalar, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Rotor
@@ -35,6 +35,10 @@ class Placed:
     facts: Mapping[str, Scalar] = field(default_factory=dict)
     next_states: dict[str, Scalar] = field(default_factory=dict)
     residual: Scalar = 0.0
+    determinant: Scalar = 1.0
+    coordinates: Mapping[TreeJoint, Coordinate] = field(default_factory=dict)
+    rates: Mapping[TreeJoint, Scalar] = field(default_factory=dict)
+    seconds: Mapping[TreeJoint, Scalar] = field(default_factory=dict)
 
 
 class GroupTracer:
@@ -146,12 +150,14 @@ class GroupTracer:
             gap = [entry for cut in placed.cuts for entry in cut.residual(self.poses)]
             correction = product(matrix, gap)
             coordinates = {
-                step: _corrected(value, -change)
+                step: moved(value, -change)
                 for (step, value), change in zip(coordinates.items(), correction, strict=True)
             }
         self._hang(group, coordinates)
-        placed.inverse = inverse(jacobian(group, placed.cuts, self.poses, self.dimensions))
-        placed.next_states = self._carried(group, coordinates)
+        matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
+        placed.inverse, placed.determinant = inverse(matrix), determinant(matrix)
+        placed.coordinates = coordinates
+        placed.next_states = carried(group, coordinates)
         placed.residual = _relative_square(group, correction, self.dimensions)
         placed.valid = placed.reached = placed.residual < CONVERGED
         placed.facts = {"correction²": placed.residual}
@@ -162,20 +168,22 @@ class GroupTracer:
             return trace.state(f"{name}.s")
         return Rotor(Vec(trace.state(f"{name}.x"), trace.state(f"{name}.y")), UNTURNED.local)
 
-    def _carried(self, group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> dict[str, Scalar]:
-        states: dict[str, Scalar] = {}
-        for step, value in coordinates.items():
-            name = state_name(group, step)
-            if isinstance(value, Rotor):
-                states |= {f"{name}.x": value.now.x, f"{name}.y": value.now.y}
-            else:
-                assert value is not None
-                states[f"{name}.s"] = value
-        return states
-
 
 #: Square of the last Newton correction (relative) below which a position counts as found.
 CONVERGED = 1e-16
+
+
+def carried(group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> dict[str, Scalar]:
+    """Chain coordinates by the names of the states that carry them to the next position."""
+    states: dict[str, Scalar] = {}
+    for step, value in coordinates.items():
+        name = state_name(group, step)
+        if isinstance(value, Rotor):
+            states |= {f"{name}.x": value.now.x, f"{name}.y": value.now.y}
+        else:
+            assert value is not None
+            states[f"{name}.s"] = value
+    return states
 
 
 def state_name(group: Group, step: TreeJoint) -> str:
@@ -215,8 +223,8 @@ def _stopped(value: Coordinate) -> Coordinate:
     return stop(value)
 
 
-def _corrected(value: Coordinate, change: Scalar) -> Coordinate:
-    """A coordinate after a correction; a rotation by the Cayley map, exact to third order."""
+def moved(value: Coordinate, change: Scalar) -> Coordinate:
+    """A coordinate after a small change; a rotation by the Cayley map, exact to third order."""
     if not isinstance(value, Rotor):
         assert value is not None
         return value + change

@@ -45,7 +45,9 @@ class RateTracer:
         self._velocities(placed, rates)
         self._accelerations(placed, dict.fromkeys(unknowns, 0.0))
         bend = [entry for cut in placed.cuts for entry in cut.bend(self.states)]
-        self._accelerations(placed, self._solved(placed, bend))
+        seconds = self._solved(placed, bend)
+        self._accelerations(placed, seconds)
+        placed.rates, placed.seconds = rates, seconds
 
     def _solved(self, placed: Placed, gap: Sequence[Scalar]) -> Rates:
         solution = product(placed.inverse, [-entry for entry in gap])

@@ -35,7 +35,10 @@ class Sweep:
 
     ``varied``: values of the varied dimensions; ``assembled``: number of positions that each design reaches, of
     ``positions``; ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
-    that do not pass the whole cycle (unless ``partial`` was asked for).
+    that do not pass the whole cycle (unless ``partial`` was asked for). ``branch_margin`` (designs,): how far the
+    step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
+    are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
+    curve; a proof as in ``solve_motion`` is too dear here); None where all groups have a closed form.
     """
 
     mechanism: Mechanism
@@ -46,6 +49,7 @@ class Sweep:
     quantities: Mapping[str, Quantity] = field(repr=False)
     unloaded: Mapping[int, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    branch_margin: Floats | None = None
 
     @property
     def designs(self) -> int:
@@ -157,4 +161,5 @@ def sweep(
         run.quantities,
         run.unloaded,
         run.traced.nominal.notes,
+        run.margins,
     )

@@ -11,19 +11,22 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.sweep import Backend, Results
 from linkwright.engine.sweep import sweep as engine_sweep
-from linkwright.engine.trace import Mask, Scalar, absolute, select
+from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.size import mechanism_size
+from linkwright.kinematics.step_rule import StepRule
 from linkwright.study.starts import start_states
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
 
 Floats = NDArray[np.float64]
 
-#: Newton steps per position; the largest change of a coordinate between two positions (rad, or share of the
-#: mechanism's size) that keeps the assembly mode certain, and the one that the known design is refined to.
-ITERATIONS = 5
-LARGEST, WANTED = 0.3, 0.1
+#: Newton steps per position; the change of a coordinate (rad, or share of the mechanism's size) in one step to which
+#: the known design is refined.
+ITERATIONS = 4
+WANTED = 0.1
+#: The output that tells how far a step is from being refused.
+MARGIN = "branch margin"
 #: What fails is tried once more with this many times as many positions.
 FINER = 8
 
@@ -83,28 +86,24 @@ class _Way:
         self.positions: Positions = over_cycle(mechanism, positions_steps(asked) * finer)
         self.traced = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
         self.asked = traced
-        self.arrays = {**self.positions.arrays, "counted": _counted(self.positions.count, finer)}
+        count = self.positions.count
+        step = self.positions.time[1] - self.positions.time[0] if count > 1 else 0.0
+        self.arrays = {
+            **self.positions.arrays,
+            "counted": _counted(count, finer),
+            "step": np.full(count, step),
+        }
         quantities = self.traced.quantities(names)
         motion = self.traced.solver.motion
         trace = motion.trace
-        passed = self._passed()
+        self.rule = StepRule(motion, trace.position("step"))
+        passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
+        passed = trace.logic("and", passed, self.rule.kept)
         counts = trace.logic("and", passed, trace.compare("less", 0.5, trace.position("counted")))
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
-        following = {**motion.next_states, "alive": select(passed, 1.0, 0.0)}
-        outputs |= {NEAREST: self.traced.nearest, VALID: counts}
+        following = {**self.rule.following, "alive": select(passed, 1.0, 0.0)}
+        outputs |= {NEAREST: self.traced.nearest, VALID: counts, MARGIN: self.rule.margin}
         self.program = Program.of(trace, outputs, following)
-
-    def _passed(self) -> Mask:
-        """Whether this position is found and the way to it was passed."""
-        motion = self.traced.solver.motion
-        trace = motion.trace
-        size = mechanism_size(motion.mechanism)
-        passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
-        for name, new in motion.next_states.items():
-            change = absolute(new - trace.state(name))
-            limit = LARGEST * size if name.endswith(".s") else LARGEST
-            passed = trace.logic("and", passed, trace.compare("less", change, limit))
-        return passed
 
     def reduced(
         self,
@@ -113,7 +112,13 @@ class _Way:
         threads: int | None,
         backend: Backend,
     ) -> Results:
-        start = {**start_states(self.asked, columns), "alive": np.ones(len(next(iter(columns.values()))))}
+        start = start_states(self.asked, columns)
+        designs = len(next(iter(columns.values())))
+        begin = {**self.rule.begin, "alive": 1.0}
+        start |= {
+            name: start[value] if isinstance(value, str) else np.full(designs, value)
+            for name, value in begin.items()
+        }
         found = engine_sweep(
             self.program,
             self.traced.table(self.program, columns),

@@ -18,7 +18,7 @@ from linkwright.engine.threads import chunks
 from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.following import Following
+from linkwright.study.following import MARGIN, Following
 from linkwright.study.loads import OneByOne
 from linkwright.study.summary import Summary, finished, reductions
 from linkwright.study.swing_loads import SwingLoads, swings
@@ -43,7 +43,8 @@ class Manner:
 
 
 class SweepRun:
-    """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found."""
+    """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found; ``margins``:
+    see :attr:`linkwright.study.designs.Sweep.branch_margin`."""
 
     def __init__(
         self,
@@ -65,6 +66,10 @@ class SweepRun:
         alone = self.program.fields or self.traced.nominal.modes
         self.follow = Following(self.traced, names) if self.program.states and not alone else None
         self.alone = bool(alone)
+        self.margins: Floats | None = None
+        if self.follow is not None:
+            self.reductions.append(Reduction(MARGIN, "min"))
+            self.margins = np.full(self.designs, np.nan)
 
     def swept(self) -> tuple[Counts, dict[Summary, Floats]]:
         """Assembled positions (designs,), and every summary (designs,)."""
@@ -75,6 +80,8 @@ class SweepRun:
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
             assembled[first:end] = results["valid.count"]
+            if self.margins is not None:
+                self.margins[first:end] = results[f"{MARGIN}.min"]
             for summary, into in values.items():
                 found = finished(summary, self.quantities[summary.output], results, self._input())
                 if not self.manner.partial:

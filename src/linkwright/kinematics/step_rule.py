@@ -1,0 +1,105 @@
+"""What a step from position to position must fulfil so that a traced group keeps its assembly.
+
+For sweeps, where a proof for every step is too dear: the start is predicted with the exact rates of two orders; the
+determinant keeps its sign, the correction is small against the step, and both ends' exact rates fit one quintic.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
+from linkwright.engine.vector import Vec
+from linkwright.groups.base import Rotor
+from linkwright.kinematics.branch import CORRECTION, MISFIT
+from linkwright.kinematics.groups import Placed, carried, moved, state_name
+from linkwright.kinematics.pairs import Coordinate
+from linkwright.kinematics.size import mechanism_size
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.structure.group import TreeJoint
+
+#: Largest change of a coordinate in one step, rad or share of the size.
+LARGEST = 0.3
+
+
+@dataclass
+class StepRule:
+    """Whether a traced position is on the assembly of the one before, and what is carried to the next.
+
+    ``kept``: the truth value; ``margin``: 1 far from being refused, 0 at the edge; ``following``: values of the
+    states at the next position; ``begin``: the states at the first position, beside the chain coordinates, as values
+    or as the names of the coordinates that they repeat.
+    """
+
+    motion: MotionTrace
+    step: Scalar
+    kept: Mask = True
+    margin: Scalar = 1.0
+    following: dict[str, Scalar] = field(default_factory=dict)
+    begin: dict[str, float | str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        trace = self.motion.trace
+        begun = self._state("begun", 0.0, 1.0)
+        for placed in self.motion.placed.values():
+            if placed.coordinates:
+                self._judge(placed, trace.compare("less", begun, 0.5))
+
+    def _state(self, name: str, begin: float | str, following: Scalar) -> Scalar:
+        """A state of the rule: its value from the position before."""
+        self.begin[name], self.following[name] = begin, following
+        return self.motion.trace.state(name)
+
+    def _judge(self, placed: Placed, first: Mask) -> None:
+        trace = self.motion.trace
+        change: Scalar = 0.0
+        correction: Scalar = 0.0
+        misfit: Scalar = 0.0
+        predicted: dict[TreeJoint, Coordinate] = {}
+        for joint, value in placed.coordinates.items():
+            way, off, gap, predicted[joint] = self._coordinate(placed, joint, value)
+            change, correction, misfit = (
+                maximum(old, absolute(new)) for old, new in ((change, way), (correction, off), (misfit, gap))
+            )
+        self.following |= carried(placed.group, predicted)
+        sign = select(trace.compare("less", placed.determinant, 0.0), -1.0, 1.0)
+        before = self._state(f"sign:{placed.group.name}", 0.0, sign)
+        off = maximum(
+            correction * reciprocal(CORRECTION * change + 1e-10), misfit * reciprocal(MISFIT * change + 1e-10)
+        )
+        kept = trace.logic("and", trace.compare("less", 0.0, before * sign), trace.compare("less", off, 1.0))
+        kept = trace.logic("and", kept, trace.compare("less", change, LARGEST))
+        self.kept = trace.logic("and", self.kept, trace.logic("or", first, kept))
+        self.margin = minimum(self.margin, select(first, 1.0, 1.0 - off))
+
+    def _coordinate(
+        self, placed: Placed, joint: TreeJoint, value: Coordinate
+    ) -> tuple[Scalar, Scalar, Scalar, Coordinate]:
+        """Change since the position before, correction, misfit of both ends' rates (rad, shares); the next start."""
+        name, h = state_name(placed.group, joint), self.step
+        rate, second = placed.rates[joint], placed.seconds[joint]
+        rate_before = self._state(f"rate:{name}", 0.0, rate)
+        second_before = self._state(f"second:{name}", 0.0, second)
+        predicted = moved(value, h * rate + 0.5 * (h * h) * second)
+        if isinstance(value, Rotor):
+            scale = 1.0
+            start = Vec(self.motion.trace.state(f"{name}.x"), self.motion.trace.state(f"{name}.y"))
+            before = Vec(
+                self._state(f"before:{name}.x", f"{name}.x", value.now.x),
+                self._state(f"before:{name}.y", f"{name}.y", value.now.y),
+            )
+            way, off = _angle(before, value.now), _angle(start, value.now)
+        else:
+            assert value is not None
+            scale = 1.0 / mechanism_size(self.motion.mechanism)
+            way = value - self._state(f"before:{name}.s", f"{name}.s", value)
+            off = value - self.motion.trace.state(f"{name}.s")
+        quintic = 0.5 * h * (rate + rate_before) + (h * h * (1.0 / 12.0)) * (second_before - second)
+        return way * scale, off * scale, (way - quintic) * scale, predicted
+
+
+def _angle(a: Vec, b: Vec) -> Scalar:
+    """The angle from one unit vector to another, rad; to 1e-6 of itself below 0.3 rad."""
+    half = a.cross(b) * reciprocal(1.0 + a.dot(b))
+    square = half * half
+    return 2.0 * half * (1.0 - square * (1.0 / 3.0 - square * 0.2))
