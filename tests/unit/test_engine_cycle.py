@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import cycle_gradient
+from linkwright.engine.linear import inverse, product
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -53,7 +55,7 @@ def refined(name: str) -> Stage:
     following = select((near - width < newton) & (newton < near + width), newton, q)
     program = Program.of(t, {"q": q, "x": x, "rate": rate}, {"q": following})
     found = {f"{name}.{output}": Reduction(output, "last") for output in ("q", "x", "rate")}
-    return Stage(program, found, steps=7, starts={"q": f"{name}.near"})
+    return Stage(program, found, steps=7, starts={"q": f"{name}.near"}, roots={"q": "rate"})
 
 
 def numbers() -> Stage:
@@ -164,6 +166,114 @@ def test_a_program_over_positions_is_written_again_at_a_number_found_before(back
         stroke_of(q + 0.25, r, rod, 0.0)[0] for q, (r, rod, _) in zip(got["out.near"], table, strict=True)
     ]
     np.testing.assert_allclose(got["there"], want, rtol=1e-14)
+
+
+def objective() -> CycleProgram:
+    """Numbers of every kind: over positions, there, between them, behind them, and a formula of all."""
+    t = Trace()
+    q = t.position("q")
+    x, square = stroke_of(q, *dimensions(t))
+    share = select(x < t.parameter("in.x") + 0.25 * t.parameter("stroke"), x * x, sin(x))
+    program = Program.of(t, {"x": x, "y": share, "q": q, "valid": square >= 0.0})
+    found = {
+        "mean": Reduction("y", "mean"),
+        "rms": Reduction("x", "rms"),
+        "largest": Reduction("y", "max"),
+        "there": Reduction("x", "at_min", "y"),
+        "begin": Reduction("y", "first"),
+    }
+    t = Trace()
+    spread = t.parameter("x.rms") * t.parameter("y.sum") / t.parameter("valid.count") + t.parameter("x.last")
+    after = Program.of(t, {"spread": spread * t.parameter("r")})
+    last = Stage(program, found, after)
+    t = Trace()
+    p = t.parameter
+    total = p("mean") * p("rms") + p("largest") * p("e") - p("there") * p("begin") + p("spread") * p("out.q")
+    total = total + p("stroke") * p("in.q") + p("x.mean")
+    formula = Stage(Program.of(t, {"total": total}), {"total": Reduction("total", "first")}, steps=1)
+    return CycleProgram((coarse(), refined("out"), refined("in"), numbers(), last, formula), ("r", "l", "e"))
+
+
+def total_by_hand(r: float, rod: float, e: float) -> float:
+    """The same by closed forms and plain sums."""
+    x = r * np.cos(INPUT["q"]) + np.sqrt(rod * rod - (r * np.sin(INPUT["q"]) - e) ** 2)
+    out, back = math.sqrt((rod + r) ** 2 - e * e), math.sqrt((rod - r) ** 2 - e * e)
+    y = np.where(x < back + 0.25 * (out - back), x * x, np.sin(x))
+    rms = math.sqrt((x * x).mean())
+    spread = r * (rms * y.mean() + x[-1])
+    out_at = math.asin(e / (rod + r)) + (math.tau if e < 0.0 and np.argmax(x) > COUNT / 2 else 0.0)
+    total = y.mean() * rms + y.max() * e - x[y.argmin()] * y[0] + spread * out_at
+    return float(total + (out - back) * (math.pi + math.asin(e / (rod - r))) + x.mean())
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("count", [1, 8, 23])
+def test_gradients_pass_through_events_extremes_and_formulas(backend: Backend, count: int) -> None:
+    """Against differences of closed forms."""
+    table = designs(count)
+    gradient = cycle_gradient(objective(), "total", ["e", "r"])
+    values, slopes = gradient.evaluate(table, INPUT, backend=backend)
+    assert slopes.shape == (count, 2)
+    for d, row in enumerate(table):
+        assert values[d] == pytest.approx(total_by_hand(*row), rel=1e-12)
+        for column, place in enumerate((2, 0)):
+            step = np.zeros(3)
+            step[place] = 1e-6
+            want = (total_by_hand(*(row + step)) - total_by_hand(*(row - step))) / 2e-6
+            assert slopes[d, column] == pytest.approx(want, rel=1e-7, abs=1e-7)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_limit_angles_change_as_their_closed_form_does(backend: Backend) -> None:
+    """d asin(e / (l + r)): by e 1/sqrt((l + r)² - e²), by l and r -e/(l + r) times that."""
+    table = designs(9)
+    table[3, 1] = 0.9 * table[3, 0]
+    values, slopes = cycle_gradient(whole(), "out.q").evaluate(table, INPUT, backend=backend)
+    r, rod, e = np.delete(table, 3, axis=0).T
+    factor = 1.0 / np.sqrt((rod + r) ** 2 - e**2)
+    want = np.stack([-e / (rod + r) * factor, -e / (rod + r) * factor, factor], axis=1)
+    np.testing.assert_allclose(np.delete(slopes, 3, axis=0), want, rtol=1e-12)
+    assert math.isnan(values[3])
+    assert np.isnan(slopes[3]).all()
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_several_unknowns_change_together(backend: Backend) -> None:
+    """x + y = a, x y = b by Newton's steps: the roots of z² - a z + b."""
+    t = Trace()
+    x, y, a, b = t.state("x"), t.state("y"), t.parameter("a"), t.parameter("b")
+    one, two = x + y - a, x * y - b
+    inverted = inverse([[1.0, 1.0], [y, x]])
+    steps = product(inverted, [one, two])
+    following = {"x": x - steps[0], "y": y - steps[1]}
+    program = Program.of(t, {"one": one, "two": two, "x": following["x"], "ratio": x / y}, following)
+    found = {"x": Reduction("x", "last"), "ratio": Reduction("ratio", "last")}
+    roots = {"x": "one", "y": "two"}
+    stage = Stage(program, found, steps=12, starts={"x": "a", "y": 0.1}, roots=roots)
+    cycle = CycleProgram((stage,), ("a", "b"))
+    table = np.array([[5.0, 6.0], [4.0, 1.0], [3.0, 2.0]])
+    values, slopes = cycle_gradient(cycle, "x").evaluate(table, backend=backend)
+    a_, b_ = table.T
+    root = np.sqrt(a_ * a_ / 4.0 - b_)
+    np.testing.assert_allclose(values, a_ / 2.0 + root, rtol=1e-13)
+    np.testing.assert_allclose(slopes, np.stack([0.5 + a_ / (4.0 * root), -0.5 / root], axis=1), rtol=1e-12)
+    _, ratios = cycle_gradient(cycle, "ratio", ["b"]).evaluate(table, backend=backend)
+    big, small = a_ / 2.0 + root, a_ / 2.0 - root
+    np.testing.assert_allclose(ratios[:, 0], -0.5 / root / small - big / small**2 * 0.5 / root, rtol=1e-12)
+
+
+def test_a_gradient_that_does_not_exist_is_refused() -> None:
+    with pytest.raises(ValueError, match="no result 'speed'"):
+        cycle_gradient(whole(), "speed")
+    with pytest.raises(ValueError, match="no dimension speed"):
+        cycle_gradient(whole(), "stroke", ["speed"])
+    t = Trace()
+    s = t.state("s") + t.parameter("a")
+    carried = Stage(
+        Program.of(t, {"s": s}, {"s": s}), {"end": Reduction("s", "last")}, starts={"s": 0.0}, steps=3
+    )
+    with pytest.raises(ValueError, match="states s have no gradient"):
+        cycle_gradient(CycleProgram((carried,)), "end")
 
 
 def test_names_that_do_not_fit_together_are_refused() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -76,6 +76,28 @@ class CycleProgram:
         llvmlite is there. Memory does not grow with the designs, but for fields and results. Raises
         ValueError for unknown back ends, missing inputs and wrong shapes.
         """
+        parts: list[Results] = []
+        for end, known, _ in self.blocks(
+            table, positions, fields, tables=tables, threads=threads, backend=backend
+        ):
+            parts.append(known.values)
+            if progress is not None:
+                progress(end, len(np.asarray(table)))
+        if len(parts) == 1:
+            return parts[0]
+        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+    def blocks(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+    ) -> Iterator[tuple[int, Known, Run]]:
+        """What is found of some designs after another: (number after the last design, numbers, manner)."""
         if backend not in BACKENDS:
             raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
         numbers = np.ascontiguousarray(table, dtype=np.float64)
@@ -86,24 +108,16 @@ class CycleProgram:
         n = self._length(positions or {}, given)
         run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
         report = _REPORT_WITH_FIELDS if any(stage.keep for stage in self.stages) else _REPORT
-        parts: list[Results] = []
-        for first, end in chunks(len(numbers), max(1, report // max(n, 1))):
+        for first, end in chunks(len(numbers), max(1, report // max(n, 1))) if len(numbers) else [(0, 0)]:
             rows = {name: array[first:end] for name, array in given.items()}
-            parts.append(self._block(numbers[first:end], rows, run))
-            if progress is not None:
-                progress(end, len(numbers))
-        if not parts:
-            return self._block(numbers, given, run)
-        if len(parts) == 1:
-            return parts[0]
-        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+            yield end, self._block(numbers[first:end], rows, run), run
 
-    def _block(self, numbers: Floats, fields: dict[str, Floats], run: Run) -> Results:
+    def _block(self, numbers: Floats, fields: dict[str, Floats], run: Run) -> Known:
         """All stages of some designs."""
-        known = _Known(self.dimensions, numbers, dict(fields))
+        known = Known(self.dimensions, numbers, fields)
         failed = np.zeros(len(numbers), dtype=np.bool_)
         for stage in self.stages:
-            own = run if stage.steps is None else Run({}, stage.steps, run.tables, run.threads, run.backend)
+            own = stage.manner(run)
             needed, kept = stage.accumulation.needed, stage.kept
             table, start = known.table(stage.accumulation.parameters), known.starts(stage, needed.states)
             results, missed = stage.evaluate(table, known.fields, start, own)
@@ -113,7 +127,7 @@ class CycleProgram:
                 table, start = known.table(kept.parameters), known.starts(stage, kept.states)
                 known.fields |= stage.fields(table, known.fields, start, own)
             known.values |= results
-        return known.values
+        return known
 
     def _length(self, positions: Arrays, fields: Mapping[str, Floats]) -> int:
         lengths = {int(np.shape(array)[-1]) for array in (*positions.values(), *fields.values())}
@@ -125,7 +139,7 @@ class CycleProgram:
 
 
 @dataclass
-class _Known:
+class Known:
     """What is known of some designs so far."""
 
     dimensions: tuple[str, ...]

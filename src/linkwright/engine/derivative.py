@@ -10,6 +10,7 @@ from linkwright.engine.objective import EXTREMES, Group, Term, TermKind, groups_
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT
 from linkwright.engine.replay import Replay, depending
+from linkwright.engine.reverse_programs import boundary
 from linkwright.engine.tangent import numeric_outputs, tangents
 from linkwright.engine.trace import Scalar
 
@@ -92,9 +93,9 @@ def _wanted(program: Program, outputs: Sequence[str], wrt: Sequence[str] | None)
 
 def _summed(program: Program, groups: list[Group], wrt: tuple[str, ...], valid: str | None) -> SummedPart:
     active = depending(program, wrt)
-    boundary = _boundary(program, active)
+    crossing = boundary(program, active)
     judged = valid if valid in program.output_names else None
-    along = _along_positions(program, groups, active, boundary, judged)
+    along = _along_positions(program, groups, active, crossing, judged)
     return SummedPart(along, _after_positions(program, groups, wrt, active, along), wrt, judged)
 
 
@@ -118,15 +119,8 @@ def _spread(part: SummedPart, wrt: tuple[str, ...]) -> SummedPart:
     return SummedPart(part.along, Program.of(replay.trace, {**outputs, **missing}), wrt, part.valid)
 
 
-def _boundary(program: Program, active: set[int]) -> list[int]:
-    """Lines per design, changing with the parameters, that lines per position or outputs use."""
-    used = {a for node in program.nodes if node.varies for a in node.args}
-    used.update(i for _, i in program.outputs)
-    return sorted(i for i in used if i in active and not program.nodes[i].varies)
-
-
 def _along_positions(
-    program: Program, groups: list[Group], active: set[int], boundary: list[int], valid: str | None
+    program: Program, groups: list[Group], active: set[int], crossing: list[int], valid: str | None
 ) -> Program:
     """Each group's part of the objective and its adjoints of the boundary, at one position."""
     replay = Replay(program)
@@ -142,7 +136,7 @@ def _along_positions(
         for term, value in zip(group.terms, values, strict=True):
             adjoints.add(places[term.output], group.seed(replay.trace, term, value))
         adjoints.sweep_back(varying)
-        for index in boundary:
+        for index in crossing:
             if index in adjoints.found:
                 outputs[group.adjoint(index)] = adjoints.found[index].value
     return Program.of(replay.trace, outputs)

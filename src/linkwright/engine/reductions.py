@@ -45,7 +45,8 @@ class Reduction:
     and ``argmax`` (number of the first position with the extreme), ``count`` (number of valid
     positions where a truth output holds, or a number is not zero), ``first`` and ``last`` (value at
     the first and last position), ``at_min`` and ``at_max`` (value at the first position where the
-    output ``of`` has its extreme). Extremes skip NaN; the other kinds pass it on.
+    output ``of`` has its extreme). The output :data:`PLACE` is the number of the position. Extremes
+    skip NaN; the other kinds pass it on.
     """
 
     output: str
@@ -114,7 +115,7 @@ class Accumulation:
         names = set(self.program.output_names)
         if self.after is not None and _has_positions(self.after):
             raise ValueError("only a program per design, without states, can follow the positions")
-        for reduction in (*self.reductions, *self._read.values()):
+        for reduction in (*self.reductions, *self.read.values()):
             if reduction.kind not in KINDS:
                 raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
             elsewhere = reduction.kind in _ELSEWHERE
@@ -123,13 +124,13 @@ class Accumulation:
                     f"the reduction '{reduction.name}' must{'' if elsewhere else ' not'} say of what"
                 )
             for output in (reduction.output, *([reduction.of] if elsewhere else [])):
-                if output not in names:
+                if output not in names and output != PLACE:
                     raise ValueError(f"the program has no output '{output}' to reduce")
         if self.valid is not None and self.valid not in names:
             raise ValueError(f"the program has no output '{self.valid}' that says which positions are valid")
 
     @cached_property
-    def _read(self) -> dict[str, Reduction]:
+    def read(self) -> dict[str, Reduction]:
         """The reductions that ``after`` takes, by name."""
         own = {*self.program.parameters, VALID_COUNT}
         following = self.after.parameters if self.after is not None else ()
@@ -137,7 +138,7 @@ class Accumulation:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        wanted = [step for r in (*self.reductions, *self._read.values()) for step in r.steps]
+        wanted = [step for r in (*self.reductions, *self.read.values()) for step in r.steps]
         if self.valid is not None:
             wanted.append(Step("count", self.valid))
         return tuple(dict.fromkeys(wanted))
@@ -151,7 +152,7 @@ class Accumulation:
         count = t.parameter(VALID_COUNT)
         found = {
             name: reduction.value(t, t.parameter(f"{PLACE}{self.steps.index(reduction.steps[-1])}"), count)
-            for name, reduction in self._read.items()
+            for name, reduction in self.read.items()
         }
         return Program.of(t, inlined(self.after, t, found))
 

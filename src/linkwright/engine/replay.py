@@ -105,3 +105,9 @@ def inlined(program: Program, trace: Trace, inputs: Mapping[str, Scalar]) -> dic
     So a motion traced over positions becomes one at a state, a cycle value, or another function of them.
     """
     return Replay(program, trace=trace, inputs=inputs).outputs
+
+
+def across_designs(program: Program) -> Program:
+    """A program without positions and states with its parameters as positions: the lanes are designs."""
+    t = Trace()
+    return Program.of(t, inlined(program, t, {name: t.position(name) for name in program.parameters}))

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT, Accumulation, Reduction, Results, accumulate
+from linkwright.engine.replay import across_designs
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import spread_over
 
@@ -52,7 +53,9 @@ class Stage:
 
     ``steps``: the stage has no positions but is an iteration of so many steps; a program with states takes
     their first values from ``starts``: a dimension, a cycle value, or a number, by the name of the state.
-    ``keep``: outputs that later stages take as fields of the same name.
+    ``keep``: outputs that later stages take as fields of the same name. ``roots``: what an iteration
+    solves, by the name of the state: the output that it brings to zero. Derivatives need it: they are
+    those of the solution (implicit function theorem), not of the steps.
     """
 
     program: Program
@@ -64,6 +67,7 @@ class Stage:
     steps: int | None = None
     starts: Mapping[str, str | float] = field(default_factory=dict)
     keep: tuple[str, ...] = ()
+    roots: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def accumulation(self) -> Accumulation:
@@ -75,6 +79,12 @@ class Stage:
     def kept(self) -> Program:
         """The program of the outputs that later stages take as fields."""
         return self.program.only(list(self.keep))
+
+    def manner(self, run: Run) -> Run:
+        """The same manner over this stage's own positions."""
+        if self.steps is None:
+            return run
+        return Run({}, self.steps, run.tables, run.threads, run.backend)
 
     @property
     def results(self) -> tuple[str, ...]:
@@ -97,6 +107,8 @@ class Stage:
 
         ``table``: in the order of ``accumulation.parameters``; ``start``: of ``accumulation.needed.states``.
         """
+        if self.formulas is not None:
+            return self._by_formulas(self.formulas, table, run), np.zeros(len(table), dtype=np.bool_)
         own = {name: fields[name] for name in self.accumulation.needed.fields if name in fields}
         found = reduced(self.accumulation, table, own, start, run)
         results = {name: found[r.name] for name, r in self.reductions.items()}
@@ -105,6 +117,22 @@ class Stage:
             results[self.count] = found[VALID_COUNT]
         valid = np.asarray(found[VALID_COUNT])
         return results, (valid != run.length) if self.complete else np.zeros(len(valid), dtype=np.bool_)
+
+    @cached_property
+    def formulas(self) -> Program | None:
+        """The program over the designs, where it is nothing but formulas of each design's numbers."""
+        accumulation = self.accumulation
+        needed = accumulation.needed
+        plain = not (needed.positions or needed.fields or needed.states or self.after or accumulation.valid)
+        taken = all(reduction.kind in _OF_ONE and not reduction.of for reduction in accumulation.reductions)
+        return across_designs(needed) if self.steps == 1 and plain and taken and not self.count else None
+
+    def _by_formulas(self, formulas: Program, table: Floats, run: Run) -> Results:
+        columns = dict(zip(self.accumulation.parameters, table.T, strict=True))
+        found = dict(
+            zip(formulas.output_names, over_designs(formulas, columns, len(table), run), strict=True)
+        )
+        return {name: np.array(found[reduction.output]) for name, reduction in self.reductions.items()}
 
     def fields(
         self, table: Floats, fields: Mapping[str, Floats], start: Floats | None, run: Run
@@ -126,6 +154,20 @@ class Stage:
                 table, run.positions, fields, start=start, length=run.length, tables=run.tables
             )
         return {name: found[:, place] for place, name in enumerate(self.keep)}
+
+
+#: Reductions that are the value itself where there is one position.
+_OF_ONE = ("first", "last", "sum", "mean", "min", "max")
+
+
+def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run) -> Floats:
+    """Outputs (outputs, designs) of a program whose positions are designs; ``columns``: (designs,) each."""
+    one = Run(columns, count, run.tables, 1, run.backend)
+    compiled = _compiled(program, None, one, 1)
+    if compiled is None:
+        return numpy_program(program).run((), columns, length=count, tables=run.tables)
+    stored: Floats = compiled.store(np.empty((1, 0)), columns, length=count, tables=run.tables)[0]
+    return stored
 
 
 def blank(results: Results, failed: NDArray[np.bool_]) -> None:

@@ -1,0 +1,280 @@
+"""Values and gradients of cycle programs: the stages backwards, through events and extremes.
+
+A result of the last stages is followed back to the dimensions (reverse derivatives). An extreme over
+the positions changes as the output does at its position (envelope theorem); the solution x of g(x, p) = 0
+found by an iteration changes by dx/dp = -g_p / g_x (implicit function theorem).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.cycle import CycleProgram, Known, Progress
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import PLACE, VALID_COUNT, Accumulation, Reduction
+from linkwright.engine.reverse_programs import along_positions, back_from_formulas, back_from_solution, bar
+from linkwright.engine.stage import Arrays, Backend, Run, Stage, over_designs, reduced
+from linkwright.engine.table import Tables
+
+Floats = NDArray[np.float64]
+Bars = dict[str, Floats]
+
+Key = TypeVar("Key")
+
+#: Reductions whose adjoint is spread over all valid positions.
+_SPREAD = ("sum", "mean", "rms")
+#: Reductions without a slope.
+_STEPWISE = ("count", "argmin", "argmax")
+_COUNT = Reduction("valid", "count")
+
+
+def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = None) -> CycleGradient:
+    """Value and gradient of a result of a cycle program with respect to dimensions.
+
+    ``value``: the name of a result that is a number; ``wrt``: names of dimensions, None for all of them.
+    Kept fields, position numbers and counts are taken as constants. Raises ValueError for unknown names,
+    and for stages on the way that carry states but do not say what they solve (``Stage.roots``).
+    """
+    names = cycle.dimensions if wrt is None else tuple(wrt)
+    unknown = [name for name in names if name not in cycle.dimensions]
+    if unknown:
+        raise ValueError(f"the cycle program has no dimension {', '.join(unknown)}")
+    if value not in cycle.results:
+        raise ValueError(f"the cycle program has no result '{value}'")
+    active, wanted = set(names), {value}
+    for stage in cycle.stages:
+        if any(name in active for name in stage.parameters):
+            active |= set(stage.results)
+    backwards: list[Backwards] = []
+    for number in reversed(range(len(cycle.stages))):
+        stage = cycle.stages[number]
+        asked = tuple(name for name in stage.results if name in wanted and name in active)
+        if asked:
+            own = tuple(name for name in stage.parameters if name in active)
+            backwards.append(Backwards(number, stage, asked, own))
+            wanted |= set(own)
+    stages = list(cycle.stages)
+    for step in backwards:
+        stages[step.number] = step.recorded
+    return CycleGradient(CycleProgram(tuple(stages), cycle.dimensions), value, names, tuple(backwards))
+
+
+@dataclass(frozen=True, eq=False)
+class CycleGradient:
+    """Value and gradient of a result: the cycle program forwards, then some of its stages backwards."""
+
+    cycle: CycleProgram
+    value: str
+    wrt: tuple[str, ...]
+    backwards: tuple[Backwards, ...]
+
+    def evaluate(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+        progress: Progress | None = None,
+    ) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, wrt); inputs as for :meth:`CycleProgram.evaluate`.
+
+        NaN for designs without the result.
+        """
+        count = len(np.asarray(table))
+        values, gradient = np.empty(count), np.zeros((count, len(self.wrt)))
+        first = 0
+        for end, known, run in self.cycle.blocks(
+            table, positions, fields, tables=tables, threads=threads, backend=backend
+        ):
+            values[first:end] = known.values[self.value]
+            bars: Bars = {self.value: np.ones(end - first)}
+            with np.errstate(all="ignore"):
+                for step in self.backwards:
+                    step.pass_on(known, bars, run)
+            for column, name in enumerate(self.wrt):
+                gradient[first:end, column] = bars.get(name, 0.0)
+            first = end
+            if progress is not None:
+                progress(end, count)
+        gradient[np.isnan(values)] = np.nan
+        return values, gradient
+
+
+class Backwards:
+    """One stage backwards: from the adjoints of its results ``asked`` to those of what it takes, ``active``."""
+
+    def __init__(self, number: int, stage: Stage, asked: tuple[str, ...], active: tuple[str, ...]) -> None:
+        states = stage.accumulation.needed.states
+        if states and (stage.steps is None or not stage.roots):
+            raise ValueError(
+                f"the states {', '.join(states)} have no gradient: say which outputs their iteration brings to "
+                "zero (roots), or keep them as fields for a later stage"
+            )
+        self.number, self.stage, self.asked, self.active = number, stage, asked, active
+        self._read = stage.accumulation.read
+        self._programs: dict[object, Program] = {}
+        self._sums: dict[tuple[Reduction, ...], Accumulation] = {}
+
+    @cached_property
+    def recorded(self) -> Stage:
+        """The stage with everything among its results that the way back needs."""
+        stage, program = self.stage, self.stage.program
+        if stage.formulas is not None:
+            return stage
+        reductions = {**stage.reductions, **{self._name(r): r for r in self._read.values()}}
+        if stage.roots:
+            more = tuple((self._solved(state), index) for state, index in program.next_states)
+            reductions |= {name: Reduction(name, "last") for name, _ in more}
+            return replace(
+                stage, program=replace(program, outputs=(*program.outputs, *more)), reductions=reductions
+            )
+        asked = [r for name, r in stage.reductions.items() if name in self.asked]
+        for reduction in (*asked, *self._read.values()):
+            place = _place(reduction)
+            if place is not None:
+                reductions[self._name(place)] = place
+            elif reduction.kind == "rms":
+                reductions[self._name(reduction)] = reduction
+        return replace(stage, reductions=reductions, count=stage.count or self._name(_COUNT))
+
+    def _name(self, reduction: Reduction) -> str:
+        return f"{self.number}:{reduction.name}"
+
+    def _solved(self, state: str) -> str:
+        return f"{self.number}:solved:{state}"
+
+    def pass_on(self, known: Known, bars: Bars, run: Run) -> None:
+        """Let the adjoints of the results enter those of what the stage takes (in place)."""
+        own = self.stage.manner(run)
+        weights: dict[Reduction, Floats] = {}
+        for name in self.asked:
+            if name in self.stage.reductions and name in bars:
+                _add(weights, self.stage.reductions[name], bars[name])
+        self._through_following(known, bars, weights, own)
+        smooth = {r: w for r, w in weights.items() if r.kind not in _STEPWISE}
+        if self.stage.formulas is not None or self.stage.roots:
+            outputs: Bars = {}
+            for reduction, weight in smooth.items():
+                _add(outputs, reduction.output, weight)
+            self._through_formulas(known, bars, outputs, {}, own)
+            return
+        spread = {r: w for r, w in smooth.items() if r.kind in _SPREAD}
+        if spread:
+            self._through_positions(known, bars, spread, own)
+        places: dict[Reduction, Bars] = {}
+        for reduction, weight in smooth.items():
+            place = _place(reduction)
+            if place is not None:
+                _add(places.setdefault(place, {}), reduction.output, weight)
+        for place, outputs in places.items():
+            self._through_formulas(known, bars, outputs, self._there(known, place, own), own)
+
+    def _through_following(
+        self, known: Known, bars: Bars, weights: dict[Reduction, Floats], run: Run
+    ) -> None:
+        """From the outputs of what follows the positions to the reductions that it takes."""
+        after = self.stage.after
+        outputs = tuple(name for name in self.asked if name in bars and name not in self.stage.reductions)
+        if after is None or not outputs:
+            return
+        key = ("after", outputs)
+        if key not in self._programs:
+            self._programs[key] = back_from_formulas(after, outputs, (*self.active, *self._read))
+        columns: dict[str, ArrayLike] = {bar(name): bars[name] for name in outputs}
+        for name in after.parameters:
+            if name in self._read:
+                columns[name] = known.values[self._name(self._read[name])]
+            else:
+                columns[name] = self._count(known) if name == VALID_COUNT else known.column(name)
+        for name, found in _evaluated(self._programs[key], columns, len(known.numbers), run):
+            if name in self._read:
+                _add(weights, self._read[name], found)
+            else:
+                _add(bars, name, found)
+
+    def _through_positions(self, known: Known, bars: Bars, spread: dict[Reduction, Floats], run: Run) -> None:
+        """Adjoints summed over all valid positions."""
+        key = tuple(spread)
+        if key not in self._sums:
+            valid = self.stage.accumulation.valid
+            self._sums[key] = along_positions(self.stage.program, key, self.active, valid)
+        sums, given = self._sums[key], {}
+        for reduction, weight in spread.items():
+            share = weight if reduction.kind == "sum" else weight / self._count(known)
+            if reduction.kind == "rms":
+                share = share / known.values[self._name(reduction)]
+            given[bar(reduction.name)] = share
+        table = np.empty((len(known.numbers), len(sums.parameters)))
+        for column, name in enumerate(sums.parameters):
+            table[:, column] = given[name] if name in given else known.column(name)
+        fields = {name: known.fields[name] for name in sums.needed.fields}
+        found = reduced(sums, table, fields, None, run)
+        for name in self.active:
+            if bar(name) in found:
+                _add(bars, name, np.asarray(found[bar(name)], dtype=np.float64))
+
+    def _through_formulas(
+        self, known: Known, bars: Bars, outputs: Bars, inputs: Mapping[str, ArrayLike], run: Run
+    ) -> None:
+        """One position of every design, or the solution of an iteration."""
+        source, key = self.stage.program, tuple(outputs)
+        if not outputs:
+            return
+        if key not in self._programs:
+            if self.stage.roots:
+                program = back_from_solution(source, self.stage.roots, key, self.active)
+            else:
+                program = back_from_formulas(source, key, self.active)
+            self._programs[key] = program
+        columns: dict[str, ArrayLike] = {bar(name): weight for name, weight in outputs.items()}
+        columns |= {name: known.column(name) for name in source.parameters}
+        columns |= {name: known.values[self._solved(name)] for name in source.states}
+        columns |= inputs
+        for name, found in _evaluated(self._programs[key], columns, len(known.numbers), run):
+            _add(bars, name, found)
+
+    def _there(self, known: Known, place: Reduction, run: Run) -> dict[str, Floats]:
+        """The inputs at one position of every design, NaN where there is none."""
+        numbers = np.asarray(known.values[self._name(place)], dtype=np.float64)
+        missing = np.isnan(numbers)
+        index, designs = np.where(missing, 0.0, numbers).astype(np.int64), np.arange(len(numbers))
+        source = self.stage.program
+        found = {name: np.asarray(run.positions[name])[index] for name in source.positions}
+        found |= {name: known.fields[name][designs, index] for name in source.fields}
+        return {name: np.where(missing, np.nan, values) for name, values in found.items()}
+
+    def _count(self, known: Known) -> Floats:
+        return np.asarray(known.values[self.recorded.count], dtype=np.float64)
+
+
+def _evaluated(
+    program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run
+) -> Iterator[tuple[str, Floats]]:
+    """The adjoints that a program gives, by the names of the inputs."""
+    rows = over_designs(program, {name: columns[name] for name in program.positions}, count, run)
+    for name, row in zip(program.output_names, rows, strict=True):
+        yield name.removeprefix(bar("")), row
+
+
+def _place(reduction: Reduction) -> Reduction | None:
+    """The number of the one position whose value a reduction is."""
+    if reduction.kind in ("first", "last"):
+        return Reduction(PLACE, reduction.kind)
+    if reduction.of:
+        return Reduction(PLACE, reduction.kind, reduction.of)
+    if reduction.kind == "min":
+        return Reduction(PLACE, "at_min", reduction.output)
+    return Reduction(PLACE, "at_max", reduction.output) if reduction.kind == "max" else None
+
+
+def _add(into: dict[Key, Floats], key: Key, value: Floats) -> None:
+    into[key] = into[key] + value if key in into else value
