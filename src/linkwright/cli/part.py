@@ -63,6 +63,7 @@ COMMANDS = {
     "vibration": "vibration",
     "follower": "vibration",
     "mounts": "vibration",
+    "statistics": "statistics",
 }
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from linkwright.parts.beams.link import LinkBending as LinkBending
     from linkwright.parts.beams.materials import Material as Material
     from linkwright.parts.beams.sections import Section as Section
+    from linkwright.parts.fields import Numbers as Numbers
     from linkwright.parts.file import check as check
     from linkwright.parts.file import gallery_names as gallery_names
     from linkwright.parts.file import load as load
@@ -29,6 +30,10 @@ if TYPE_CHECKING:
     from linkwright.parts.statics.forces import ForceSystem as ForceSystem
     from linkwright.parts.statics.structure import equilibrium as equilibrium
     from linkwright.parts.statics.wedge import Wedge as Wedge
+    from linkwright.parts.statistics.samples import Asked as Asked
+    from linkwright.parts.statistics.samples import Fitting as Fitting
+    from linkwright.parts.statistics.samples import Limits as Limits
+    from linkwright.parts.statistics.samples import Samples as Samples
     from linkwright.parts.vibration.follower import FollowerSpring as FollowerSpring
     from linkwright.parts.vibration.mounts import Mounts as Mounts
     from linkwright.parts.vibration.system import Excitation as Excitation
@@ -57,6 +62,13 @@ offer(
             "Start",
             "Tie",
             "VibratingSystem",
+        ),
+        "linkwright.parts.fields": ("Numbers",),
+        "linkwright.parts.statistics.samples": (
+            "Asked",
+            "Fitting",
+            "Limits",
+            "Samples",
         ),
     },
 )

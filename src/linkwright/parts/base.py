@@ -73,10 +73,19 @@ class Problem(ABC):
 
 
 @dataclass(frozen=True)
+class Scale:
+    """A unit that the user chose: its name, its size in SI, and the SI unit of the same kind."""
+
+    unit: str
+    factor: float
+    si: str
+
+
+@dataclass(frozen=True)
 class Row:
     """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
 
-    A text in place of the number has no dimension.
+    A text in place of the number has no dimension; ``scale`` is a unit of the user's own.
     """
 
     key: str
@@ -84,12 +93,15 @@ class Row:
     dimension: str = ""
     label: str = ""
     note: str = ""
+    scale: Scale | None = None
 
     def cells(self, area: str, say: Say) -> list[str]:
         """Label, number, unit and note."""
         label = self.label or say(f"{area}.{self.key}")
         if isinstance(self.value, str):
             return [label, self.value, "", self.note]
+        if self.scale is not None:
+            return [label, f"{self.value / self.scale.factor:.6g}", self.scale.unit, self.note]
         return [label, number(self.value, self.dimension), unit(self.dimension), self.note]
 
 
@@ -144,7 +156,8 @@ class Result(ABC):
             for row in block.rows:
                 key = row.label or row.key
                 plain = isinstance(row.value, str)
-                rows[key] = row.value if plain else {"value": row.value, "unit": si_unit(row.dimension)}
+                own = row.scale.si if row.scale else si_unit(row.dimension)
+                rows[key] = row.value if plain else {"value": row.value, "unit": own}
             found[block.key] = {**rows, "remarks": list(block.remarks)} if block.remarks else rows
         return found
 

@@ -30,6 +30,7 @@ KINDS: Mapping[str, str] = {
     "vibration": "linkwright.parts.vibration.system.VibratingSystem",
     "follower": "linkwright.parts.vibration.follower.FollowerSpring",
     "mounts": "linkwright.parts.vibration.mounts.Mounts",
+    "statistics": "linkwright.parts.statistics.samples.Samples",
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {

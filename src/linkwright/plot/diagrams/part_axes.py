@@ -18,6 +18,7 @@ from linkwright.plot.diagrams.units import Unit, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 
@@ -67,6 +68,7 @@ def panes(
         _pane(one, pane, below, legend)
         if logx:
             one.set_xscale("log")
+            _plain_ticks(one.xaxis)
     axes[-1].set_xlabel(below.label(across[0]))
     framed(figure, title, request)
     figure.align_ylabels(axes)
@@ -92,9 +94,19 @@ def _pane(axes: Axes, pane: Pane, below: Unit, legend: Legend) -> None:
                           textcoords="offset points", fontsize=7.5, color=INK)  # fmt: skip
     if pane.log:
         axes.set_yscale("log")
+        _plain_ticks(axes.yaxis)
     else:
         axes.margins(y=0.16)
     axes.set_ylabel(shown.label(pane.title, "\n"))
+
+
+def _plain_ticks(axis: Axis) -> None:
+    """Ticks of a logarithmic axis at 1, 2 and 5 times powers of ten, as plain numbers."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def plane(title: str, request: Request, count: int = 1) -> tuple[Figure, list[Axes]]:

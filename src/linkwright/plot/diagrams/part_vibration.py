@@ -36,7 +36,9 @@ class VibrationDiagram(ResultKind):
             frequency, amplitudes = result.sweep()
             hertz = frequency / (2 * math.pi)
             size = tuple(Line(hertz, np.abs(amplitudes[:, i]), name) for i, name in enumerate(names))
-            turn = tuple(Line(hertz, np.angle(amplitudes[:, i]), name) for i, name in enumerate(names))
+            turn = tuple(
+                Line(hertz, np.unwrap(np.angle(amplitudes[:, i])), name) for i, name in enumerate(names)
+            )
             passed = (Line(hertz, result.transmissibility(frequency)),)
             given = [
                 Pane("|X|", length, size, log=True),

@@ -135,4 +135,5 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.residual_spectrum": "residual vibration of the law",
     "kind.mounts": "shaking force, motion, force on the ground",
     "frequency": "frequency",
+    "kind.samples": "samples",
 }

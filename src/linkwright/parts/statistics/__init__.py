@@ -1,0 +1,1 @@
+"""Engineering statistics: samples described, fitted, tested, regressed; process capability."""

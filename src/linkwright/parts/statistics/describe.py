@@ -1,0 +1,173 @@
+"""Numbers of one sample: description, intervals, fitted distributions, capability."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.parts.base import Floats
+
+#: Distributions that can be fitted: their names in SciPy, and the parameters that are held.
+DISTRIBUTIONS: dict[str, tuple[str, dict[str, float]]] = {
+    "normal": ("norm", {}),
+    "lognormal": ("lognorm", {"floc": 0.0}),
+    "weibull": ("weibull_min", {"floc": 0.0}),
+    "exponential": ("expon", {"floc": 0.0}),
+    "gamma": ("gamma", {"floc": 0.0}),
+    "uniform": ("uniform", {}),
+    "gumbel": ("gumbel_r", {}),
+}
+#: Distributions of positive values only.
+POSITIVE = ("lognormal", "weibull", "exponential", "gamma")
+
+
+@dataclass(frozen=True)
+class Description:
+    """Number, mean, standard deviation (n − 1), extremes, quartiles, skewness and excess kurtosis of a sample.
+
+    ``deviation`` NaN for a single value; quartiles by linear interpolation (type 7 of Hyndman and Fan).
+    """
+
+    count: int
+    mean: float
+    deviation: float
+    least: float
+    quartiles: tuple[float, float, float]
+    largest: float
+    skewness: float
+    kurtosis: float
+
+
+def described(values: Floats) -> Description:
+    """The description of a sample."""
+    n = len(values)
+    centred = values - values.mean()
+    spread = math.sqrt(float(centred @ centred) / (n - 1)) if n > 1 else math.nan
+    second = float((centred**2).mean())
+    third = float((centred**3).mean() / second**1.5) if second else math.nan
+    fourth = float((centred**4).mean() / second**2 - 3.0) if second else math.nan
+    low, middle, high = np.quantile(values, [0.25, 0.5, 0.75]).tolist()
+    return Description(
+        n,
+        float(values.mean()),
+        spread,
+        float(values.min()),
+        (low, middle, high),
+        float(values.max()),
+        third,
+        fourth,
+    )
+
+
+def mean_interval(values: Floats, confidence: float) -> tuple[float, float]:
+    """Student's interval of the mean: x̄ ± t s/√n."""
+    from scipy import stats
+
+    d = described(values)
+    half = float(stats.t.ppf(0.5 + confidence / 2, d.count - 1)) * d.deviation / math.sqrt(d.count)
+    return d.mean - half, d.mean + half
+
+
+def deviation_interval(values: Floats, confidence: float) -> tuple[float, float]:
+    """Interval of σ of a normal distribution: s √((n − 1)/χ²)."""
+    from scipy import stats
+
+    d = described(values)
+    ends = stats.chi2.ppf([0.5 + confidence / 2, 0.5 - confidence / 2], d.count - 1)
+    low, high = (d.deviation * math.sqrt((d.count - 1) / float(end)) for end in ends)
+    return low, high
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A distribution fitted by maximum likelihood: its parameters by name, Akaike's number, and the largest distance
+    between its distribution function and the sample's (Kolmogorov)."""
+
+    name: str
+    parameters: dict[str, float]
+    akaike: float
+    distance: float
+    values: tuple[float, ...]
+
+    def density(self, x: Floats) -> Floats:
+        """Probability density."""
+        from scipy import stats
+
+        return np.asarray(getattr(stats, DISTRIBUTIONS[self.name][0]).pdf(x, *self.values))
+
+
+def fitted(values: Floats, name: str) -> Fit:
+    """The distribution of a name fitted to a sample."""
+    from scipy import stats
+
+    scipy_name, held = DISTRIBUTIONS[name]
+    family = getattr(stats, scipy_name)
+    found = family.fit(values, **held)
+    words = [*((family.shapes or "").split(", ") if family.shapes else []), "loc", "scale"]
+    free = {w: float(v) for w, v in zip(words, found, strict=True) if f"f{w}" not in held}
+    akaike = 2.0 * len(free) - 2.0 * float(family.logpdf(values, *found).sum())
+    distance = float(stats.kstest(values, scipy_name, args=found).statistic)
+    return Fit(name, _named(name, free), akaike, distance, tuple(float(v) for v in found))
+
+
+def _named(name: str, free: dict[str, float]) -> dict[str, float]:
+    """Parameters under the names of textbooks."""
+    match name:
+        case "normal":
+            return {"μ": free["loc"], "σ": free["scale"]}
+        case "lognormal":
+            return {"μ(ln)": math.log(free["scale"]), "σ(ln)": free["s"]}
+        case "weibull":
+            return {"shape": free["c"], "scale": free["scale"]}
+        case "exponential":
+            return {"mean": free["scale"]}
+        case "gamma":
+            return {"shape": free["a"], "scale": free["scale"]}
+        case "uniform":
+            return {"from": free["loc"], "to": free["loc"] + free["scale"]}
+    return {"mode": free["loc"], "scale": free["scale"]}
+
+
+@dataclass(frozen=True)
+class Capability:
+    """Process capability against limits: Cp = (U − L)/(6σ), Cpk = min(U − x̄, x̄ − L)/(3σ) (ISO 22514-2).
+
+    ``within``: σ is that within subgroups (pooled), otherwise that of all values. ``cp`` None with one limit only.
+    ``cp_interval`` (χ²), ``cpk_interval`` (Bissell's approximation); ``outside``: share of a normal process outside.
+    """
+
+    deviation: float
+    within: bool
+    cp: float | None
+    cpk: float
+    cp_interval: tuple[float, float] | None
+    cpk_interval: tuple[float, float]
+    outside: float
+
+
+def capability(
+    values: Floats, lower: float | None, upper: float | None, subgroup: int | None, confidence: float
+) -> Capability:
+    """Capability of a sample; ``subgroup``: size of successive subgroups."""
+    from scipy import stats
+
+    n, mean = len(values), float(values.mean())
+    freedom = n - 1
+    sigma = described(values).deviation
+    if subgroup:
+        groups = values[: n // subgroup * subgroup].reshape(-1, subgroup)
+        sigma = math.sqrt(float(groups.var(axis=1, ddof=1).mean()))
+        freedom = len(groups) * (subgroup - 1)
+    distances = [upper - mean] if upper is not None else []
+    distances += [mean - lower] if lower is not None else []
+    cpk = min(distances) / (3 * sigma)
+    half = float(stats.norm.ppf(0.5 + confidence / 2)) * math.sqrt(1 / (9 * n) + cpk**2 / (2 * freedom))
+    cp, interval = None, None
+    if lower is not None and upper is not None:
+        cp = (upper - lower) / (6 * sigma)
+        ends = stats.chi2.ppf([0.5 - confidence / 2, 0.5 + confidence / 2], freedom)
+        interval = (cp * math.sqrt(float(ends[0]) / freedom), cp * math.sqrt(float(ends[1]) / freedom))
+    outside = sum(float(stats.norm.sf(distance / sigma)) for distance in distances)
+    return Capability(sigma, subgroup is not None, cp, cpk, interval, (cpk - half, cpk + half), outside)

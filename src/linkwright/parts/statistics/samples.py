@@ -1,0 +1,438 @@
+"""Samples of measurements: description, intervals, distributions, tests, regression, process capability."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright import units
+from linkwright.errors import Finding
+from linkwright.model.fields import Quantity, Text, Word
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, Scale, fault
+from linkwright.parts.display import number
+from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
+from linkwright.parts.statistics.describe import (
+    DISTRIBUTIONS,
+    POSITIVE,
+    Capability,
+    Description,
+    Fit,
+    capability,
+    described,
+    deviation_interval,
+    fitted,
+    mean_interval,
+)
+from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
+from linkwright.parts.statistics.regression import Regression, regression
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+#: A probability below this one is not told apart from nothing.
+TINY = 1e-12
+#: Values that a fitted distribution needs at least.
+FIT_LEAST = 8
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A test of ``kind`` ``of`` samples; ``value`` (SI) that the mean or deviation is compared with."""
+
+    kind: str
+    of: tuple[str, ...]
+    value: float | None = None
+    dimension: units.Dimension | None = None
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """The sample ``y`` as a polynomial of ``degree`` of one sample ``on``, or linear in several."""
+
+    y: str
+    on: tuple[str, ...]
+    degree: int = 1
+
+
+@dataclass(frozen=True)
+class Limits:
+    """``lower`` and ``upper`` limit (SI) of a sample; ``subgroup``: size of successive subgroups."""
+
+    lower: float | None = None
+    upper: float | None = None
+    subgroup: int | None = None
+
+
+def _asked(kind: str, of: tuple[str, ...], value: Any = None) -> Asked:
+    return Asked(kind, of, *(value or ()))
+
+
+def _limits(lower: Any = None, upper: Any = None, subgroup: int | None = None) -> Limits:
+    return Limits(lower and lower[0], upper and upper[0], subgroup)
+
+
+OF = Listed(Text(), "[a, b]", required=True, doc="names of the samples")
+TEST_FIELDS = {
+    "kind": Word(tuple(TESTS), required=True, doc=", ".join(TESTS)),
+    "of": OF,
+    "value": AnyQuantity(doc="mean, or standard deviation, that is compared with"),
+}
+REGRESSION_FIELDS = {
+    "y": Text(required=True, doc="the sample that is explained"),
+    "on": Listed(Text(), "[x]", required=True, doc="the samples that explain it"),
+    "degree": Whole(1, doc="degree of the polynomial of one sample, 1 unless given"),
+}
+LIMIT_FIELDS = {
+    "lower": AnyQuantity(doc="lower limit"),
+    "upper": AnyQuantity(doc="upper limit"),
+    "subgroup": Whole(2, doc="size of successive subgroups, for the deviation within them"),
+}
+
+
+@dataclass(frozen=True)
+class Samples(Problem):
+    """Samples by name (SI with the unit in which they were given) and what is asked about them."""
+
+    kind: ClassVar[str] = "statistics"
+    fields: ClassVar[Mapping[str, Any]] = {
+        "samples": Named(Sample(), "sample", required=True,
+                         doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]"),
+        "confidence": Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"),
+        "fit": Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"),
+        "tests": Named(Table(TEST_FIELDS, _asked), "test", doc="tests by name: {kind: mean, of: [a], value: 20 mm}"),
+        "regressions": Named(Table(REGRESSION_FIELDS, Fitting), "regression",
+                             doc="regressions by name: {y: force, on: [speed], degree: 2}"),
+        "capability": Named(Table(LIMIT_FIELDS, _limits), "sample",
+                            doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}"),
+    }  # fmt: skip
+    samples: Mapping[str, Numbers]
+    confidence: float = 0.95
+    fit: tuple[str, ...] = ()
+    tests: Mapping[str, Asked] = field(default_factory=dict)
+    regressions: Mapping[str, Fitting] = field(default_factory=dict)
+    capability: Mapping[str, Limits] = field(default_factory=dict)
+    name: str = ""
+    source: str = ""
+
+    def values(self, name: str) -> Floats:
+        """A sample, SI."""
+        return np.array(self.samples[name].values)
+
+    def findings(self) -> list[Finding]:
+        found = [fault("statistics.empty", f"samples.{n}") for n, s in self.samples.items() if not s.values]
+        if not 0.0 < self.confidence < 1.0:
+            found.append(fault("statistics.confidence", "confidence"))
+        for name, test in self.tests.items():
+            found += self._test_findings(f"tests.{name}", test)
+        for name, fitting in self.regressions.items():
+            found += self._regression_findings(f"regressions.{name}", fitting)
+        for name, limits in self.capability.items():
+            found += self._limit_findings(f"capability.{name}", name, limits)
+        for word in self.fit:
+            found += self._fit_findings(word)
+        return found
+
+    def _unknown(self, key: str, names: tuple[str, ...]) -> list[Finding]:
+        return [
+            fault("statistics.no_sample", key, name=name, known=", ".join(self.samples))
+            for name in names
+            if name not in self.samples
+        ]
+
+    def _small(self, key: str, names: tuple[str, ...], what: str, least: int) -> list[Finding]:
+        """A finding for every sample that is too small, or that does not vary."""
+        found = []
+        for name in names:
+            values = self.values(name)
+            if len(values) < least:
+                found.append(
+                    fault("statistics.too_small", key, sample=name, count=len(values), what=what, least=least)
+                )
+            elif np.ptp(values) == 0.0:
+                found.append(fault("statistics.constant", key, sample=name, what=what))
+        return found
+
+    def _test_findings(self, key: str, test: Asked) -> list[Finding]:
+        kind = TESTS[test.kind]
+        found = self._unknown(f"{key}.of", test.of)
+        wanted = kind.samples or 2
+        if len(test.of) != wanted if kind.samples else len(test.of) < 2:
+            found.append(
+                fault(
+                    "statistics.sample_count", f"{key}.of", what=test.kind, wanted=wanted, count=len(test.of)
+                )
+            )
+        if (test.kind in AGAINST) != (test.value is not None):
+            code = "value_needed" if test.kind in AGAINST else "value_useless"
+            found.append(fault(f"statistics.{code}", key, what=test.kind))
+        if found:
+            return found
+        found = self._small(key, test.of, test.kind, kind.least)
+        kinds = {self.samples[n].dimension for n in test.of} | ({test.dimension} if test.dimension else set())
+        if test.kind != "correlation" and len(kinds) > 1:
+            found.append(fault("statistics.kinds_differ", key))
+        if test.kind in TOGETHER and len({len(self.values(n)) for n in test.of}) > 1:
+            found.append(
+                fault(
+                    "statistics.not_paired", key, counts=" : ".join(str(len(self.values(n))) for n in test.of)
+                )
+            )
+        if test.kind == "variance" and test.value is not None and test.value <= 0:
+            found.append(fault("statistics.deviation_above_zero", f"{key}.value"))
+        if (
+            test.kind == "paired"
+            and not found
+            and np.ptp(self.values(test.of[0]) - self.values(test.of[1])) == 0.0
+        ):
+            found.append(
+                fault("statistics.constant", key, sample=f"{test.of[0]} − {test.of[1]}", what=test.kind)
+            )
+        return found
+
+    def _regression_findings(self, key: str, fitting: Fitting) -> list[Finding]:
+        found = self._unknown(key, (fitting.y, *fitting.on))
+        if found:
+            return found
+        if fitting.degree > 1 and len(fitting.on) > 1:
+            return [fault("statistics.degree_of_one", f"{key}.degree")]
+        counts = {len(self.values(n)) for n in (fitting.y, *fitting.on)}
+        if len(counts) > 1:
+            return [fault("statistics.not_paired", key, counts=" : ".join(map(str, sorted(counts))))]
+        least = len(self.columns_of(fitting)[1]) + 1
+        if min(counts) < least:
+            return [
+                fault(
+                    "statistics.too_small",
+                    key,
+                    sample=fitting.y,
+                    count=min(counts),
+                    what="regression",
+                    least=least,
+                )
+            ]
+        return [] if self.regress(fitting) else [fault("statistics.dependent", f"{key}.on")]
+
+    def _limit_findings(self, key: str, name: str, limits: Limits) -> list[Finding]:
+        found = self._unknown(key, (name,))
+        if found:
+            return found
+        if limits.lower is None and limits.upper is None:
+            return [fault("statistics.no_limits", key)]
+        if limits.lower is not None and limits.upper is not None and limits.upper <= limits.lower:
+            return [fault("statistics.limits_order", key)]
+        return self._small(key, (name,), "capability", 2 * (limits.subgroup or 1))
+
+    def _fit_findings(self, word: str) -> list[Finding]:
+        found = self._small("fit", tuple(self.samples), word, FIT_LEAST)
+        found += [
+            fault("statistics.not_positive", "fit", sample=n, what=word)
+            for n in self.samples
+            if word in POSITIVE and len(self.values(n)) and self.values(n).min() <= 0
+        ]
+        return found
+
+    def columns_of(self, fitting: Fitting) -> tuple[Floats, tuple[str, ...]]:
+        """The columns (n, p) of a regression and their names."""
+        first = [np.ones(len(self.values(fitting.y)))]
+        if len(fitting.on) == 1:
+            x = self.values(fitting.on[0])
+            powers = range(1, fitting.degree + 1)
+            names = [fitting.on[0] if p == 1 else f"{fitting.on[0]}^{p}" for p in powers]
+            return np.stack([*first, *(x**p for p in powers)], axis=1), ("1", *names)
+        return np.stack([*first, *(self.values(n) for n in fitting.on)], axis=1), ("1", *fitting.on)
+
+    def regress(self, fitting: Fitting) -> Regression | None:
+        """The least squares; None where the columns depend on each other."""
+        columns, terms = self.columns_of(fitting)
+        return regression(self.values(fitting.y), columns, terms, self.confidence)
+
+    def solve(self) -> Statistics:
+        """All that is asked. Raises ModelError with all findings."""
+        self.require()
+        return Statistics(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Statistics(Result):
+    """Descriptions, fits, outcomes of tests, regressions and capabilities by name; SI."""
+
+    area: ClassVar[str] = "statistics"
+    problem: Samples
+
+    @property
+    def title(self) -> str:
+        return self.problem.name
+
+    @cached_property
+    def descriptions(self) -> dict[str, Description]:
+        """By sample."""
+        return {name: described(self.problem.values(name)) for name in self.problem.samples}
+
+    @cached_property
+    def fits(self) -> dict[str, list[Fit]]:
+        """By sample, the best by Akaike's number first."""
+        return {
+            name: sorted(
+                (fitted(self.problem.values(name), f) for f in self.problem.fit), key=lambda fit: fit.akaike
+            )
+            for name in self.problem.samples
+        }
+
+    @cached_property
+    def tests(self) -> dict[str, Outcome]:
+        """By test."""
+        return {
+            name: TESTS[test.kind].apply([self.problem.values(n) for n in test.of], test.value or 0.0)
+            for name, test in self.problem.tests.items()
+        }
+
+    @cached_property
+    def regressions(self) -> dict[str, Regression]:
+        """By regression."""
+        found = {name: self.problem.regress(fitting) for name, fitting in self.problem.regressions.items()}
+        return {name: each for name, each in found.items() if each is not None}
+
+    @cached_property
+    def capabilities(self) -> dict[str, Capability]:
+        """By sample."""
+        return {
+            name: capability(
+                self.problem.values(name), given.lower, given.upper, given.subgroup, self.problem.confidence
+            )
+            for name, given in self.problem.capability.items()
+        }
+
+    def scale(self, name: str) -> Scale:
+        """The unit of a sample."""
+        given = self.problem.samples[name]
+        si = units.si_symbol(given.dimension)
+        return Scale(given.unit, given.factor, si) if given.unit else Scale(si, 1.0, si)
+
+    def _in_unit(self, name: str, value: float) -> str:
+        return f"{value / self.scale(name).factor:.6g}"
+
+    def blocks(self, say: Say) -> list[Block]:
+        found = [self._described(name, say) for name in self.problem.samples]
+        found += [Block(f"fit.{name}", say("statistics.fits", name=name), self._fit_rows(name, say))
+                  for name in self.problem.samples if self.problem.fit]  # fmt: skip
+        if self.tests:
+            rows = [row for name in self.tests for row in self._test_rows(name, say)]
+            found.append(Block("tests", say("statistics.tests"), rows))
+        found += [self._regressed(name, say) for name in self.regressions]
+        found += [self._capable(name, say) for name in self.capabilities]
+        return found
+
+    def _described(self, name: str, say: Say) -> Block:
+        d, scale = self.descriptions[name], self.scale(name)
+        rows = [Row("count", float(d.count)), Row("mean", d.mean, scale=scale)]
+        if d.count > 1:
+            rows.append(Row("deviation", d.deviation, scale=scale))
+            level = f"{100 * self.problem.confidence:g} %"
+            ends = mean_interval(self.problem.values(name), self.problem.confidence)
+            rows.append(
+                Row(
+                    "mean_interval",
+                    self._interval(name, ends),
+                    "",
+                    say("statistics.mean_interval", level=level),
+                )
+            )
+            ends = deviation_interval(self.problem.values(name), self.problem.confidence)
+            label = say("statistics.deviation_interval", level=level)
+            rows.append(Row("deviation_interval", self._interval(name, ends), "", label))
+        rows += [Row("least", d.least, scale=scale), Row("median", d.quartiles[1], scale=scale)]
+        rows.append(Row("quartiles", self._interval(name, (d.quartiles[0], d.quartiles[2]))))
+        rows.append(Row("largest", d.largest, scale=scale))
+        if d.count > 2 and d.least < d.largest:
+            rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
+        return Block(name, say("statistics.sample", name=name), rows)
+
+    def _interval(self, name: str, ends: tuple[float, float]) -> str:
+        unit = self.scale(name).unit
+        return f"{self._in_unit(name, ends[0])} … {self._in_unit(name, ends[1])} {unit}".rstrip()
+
+    def _fit_rows(self, name: str, say: Say) -> list[Row]:
+        rows = []
+        for fit in self.fits[name]:
+            scaled = {k: v if k in ("shape", "σ(ln)", "μ(ln)") else v / self.scale(name).factor
+                      for k, v in fit.parameters.items()}  # fmt: skip
+            note = ", ".join(f"{k} = {number(v)}" for k, v in scaled.items())
+            distance = say("statistics.distance", distance=f"{fit.distance:.4f}")
+            rows.append(Row(fit.name, fit.akaike, "", say(f"statistics.{fit.name}"), f"{note}; {distance}"))
+        return rows
+
+    def _test_rows(self, name: str, say: Say) -> list[Row]:
+        outcome, test = self.tests[name], self.problem.tests[name]
+        freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
+        rejected = outcome.p < 1.0 - self.problem.confidence
+        hypothesis = say(f"statistics.h_{test.kind}")
+        verdict = say("statistics.rejected" if rejected else "statistics.kept", hypothesis=hypothesis)
+        return [
+            Row(f"{name}.{outcome.symbol}", outcome.statistic, "", f"{name}: {outcome.symbol}{freedom}"),
+            Row(f"{name}.p", outcome.p if outcome.p >= TINY else f"< {TINY:g}", "", "  p", verdict),
+        ]
+
+    def _regressed(self, name: str, say: Say) -> Block:
+        r, rows = self.regressions[name], []
+        for i, term in enumerate(r.terms):
+            note = say("statistics.coefficient", error=number(float(r.errors[i])), low=number(float(r.low[i])),
+                       high=number(float(r.high[i])), p=number(float(r.p[i]), digits=3))  # fmt: skip
+            rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note))
+        rows += [Row("determination", r.determination), Row("residual", r.deviation)]
+        y = self.problem.regressions[name].y
+        return Block(
+            f"regression.{name}", say("statistics.regression", name=name, y=y), rows, (say("statistics.si"),)
+        )
+
+    def _capable(self, name: str, say: Say) -> Block:
+        c, rows = self.capabilities[name], []
+        mark = "C" if c.within else "P"
+        if c.cp is not None and c.cp_interval is not None:
+            rows.append(Row("cp", c.cp, "", f"{mark}p", f"{c.cp_interval[0]:.4g} … {c.cp_interval[1]:.4g}"))
+        rows.append(Row("cpk", c.cpk, "", f"{mark}pk", f"{c.cpk_interval[0]:.4g} … {c.cpk_interval[1]:.4g}"))
+        rows.append(Row("sigma", c.deviation, scale=self.scale(name)))
+        rows.append(Row("outside", 1e6 * c.outside, "", say("statistics.outside"), "ppm"))
+        remark = say("statistics.within" if c.within else "statistics.overall")
+        return Block(f"capability.{name}", say("statistics.capability", name=name), rows, (remark,))
+
+    def steps(self, say: Say) -> list[Step]:
+        found: list[Step] = []
+        for name, d in self.descriptions.items():
+            step = Step(str(len(found) + 1), say("statistics.sample", name=name))
+            unit = f" {self.scale(name).unit}".rstrip()
+            step.say(f"  n = {d.count},  x̄ = Σx/n = {self._in_unit(name, d.mean)}{unit}")
+            if d.count > 1:
+                step.say(f"  s = √(Σ(x − x̄)²/(n − 1)) = {self._in_unit(name, d.deviation)}{unit}")
+                ends = mean_interval(self.problem.values(name), self.problem.confidence)
+                step.say(f"  x̄ ± t·s/√n: {self._interval(name, ends)}")
+            found.append(step)
+        for name, outcome in self.tests.items():
+            step = Step(
+                str(len(found) + 1), f"{name}: {say(f'statistics.h_{self.problem.tests[name].kind}')}"
+            )
+            put(step, outcome.symbol, outcome.formula, outcome.statistic)
+            step.say(f"  p = {outcome.p:.3g}")
+            step.say(self._test_rows(name, say)[1].note)
+            found.append(step)
+        for name, r in self.regressions.items():
+            step = Step(
+                str(len(found) + 1),
+                say("statistics.regression", name=name, y=self.problem.regressions[name].y),
+            )
+            step.say("  b = (FᵀF)⁻¹·Fᵀ·y,  s² = Σe²/(n − p)")
+            for term, value in zip(r.terms, r.coefficients, strict=True):
+                put(step, f"b({term})", "", float(value))
+            put(step, "R²", "1 − Σe²/Σ(y − ȳ)²", r.determination)
+            found.append(step)
+        for name, c in self.capabilities.items():
+            step = Step(str(len(found) + 1), say("statistics.capability", name=name))
+            mark = "C" if c.within else "P"
+            if c.cp is not None:
+                put(step, f"{mark}p", "(U − L)/(6σ)", c.cp)
+            put(step, f"{mark}pk", "min(U − x̄, x̄ − L)/(3σ)", c.cpk)
+            found.append(step)
+        return found

@@ -1,0 +1,73 @@
+"""Diagrams of statistics: samples with the distributions fitted to them, regressions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.parts.statistics.samples import Statistics
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@RESULT_DIAGRAMS.register("samples")
+class SamplesDiagram(ResultKind):
+    """A histogram of every sample with its fits and limits, and every regression of one variable."""
+
+    name = "samples"
+    takes = Statistics
+
+    def draw(self, result: Statistics, request: Request) -> Figure:
+        lines = [n for n, fitting in result.problem.regressions.items() if len(fitting.on) == 1]
+        used = {
+            n
+            for name in lines
+            for n in (result.problem.regressions[name].y, *result.problem.regressions[name].on)
+        }
+        names = [name for name in result.problem.samples if name not in used]
+        count = max(len(names) + len(lines), 1)
+        figure = new_figure(request.size or (7.2, 1.0 + 2.6 * count))
+        axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
+        for one, name in zip(axes, names, strict=False):
+            _histogram(one, result, name)
+        for one, name in zip(axes[len(names) :], lines, strict=False):
+            _regression(one, result, name)
+        framed(figure, f"{result.title}: {request.say('kind.samples')}", request)
+        return figure
+
+
+def _histogram(axes: Axes, result: Statistics, name: str) -> None:
+    values, scale = result.problem.values(name), result.scale(name)
+    shown = values / scale.factor
+    axes.hist(shown, bins="auto", density=True, color=FAINT, alpha=0.4)
+    axes.plot(shown, np.zeros(len(shown)), "|", color="#333333", markersize=9)
+    span = np.ptp(values) or abs(values[0]) or 1.0
+    x = np.linspace(values.min() - 0.3 * span, values.max() + 0.3 * span, 300)
+    for number, fit in enumerate(result.fits.get(name, [])):
+        axes.plot(x / scale.factor, fit.density(x) * scale.factor, color=COLOURS[number], label=fit.name)
+    limits = result.problem.capability.get(name)
+    for limit in (limits.lower, limits.upper) if limits else ():
+        if limit is not None:
+            axes.axvline(limit / scale.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
+    axes.set_xlabel(f"{name} ({scale.unit})" if scale.unit else name)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend()
+
+
+def _regression(axes: Axes, result: Statistics, name: str) -> None:
+    fitting, found = result.problem.regressions[name], result.regressions[name]
+    x, y = result.problem.values(fitting.on[0]), result.problem.values(fitting.y)
+    across, up = result.scale(fitting.on[0]), result.scale(fitting.y)
+    axes.plot(x / across.factor, y / up.factor, "o", color=COLOURS[1], markersize=4)
+    line = np.linspace(x.min(), x.max(), 200)
+    fitted = sum(float(b) * line**power for power, b in enumerate(found.coefficients))
+    axes.plot(line / across.factor, fitted / up.factor, color=COLOURS[0])
+    axes.margins(0.05)
+    axes.set_xlabel(f"{fitting.on[0]} ({across.unit})")
+    axes.set_ylabel(f"{fitting.y} ({up.unit})")

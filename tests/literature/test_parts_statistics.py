@@ -1,0 +1,108 @@
+"""Statistics against certified and published numbers (NIST StRD, data sets of R) and closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from linkwright import parts
+from linkwright.parts.statistics.describe import capability, described, fitted
+from linkwright.parts.statistics.samples import Statistics
+
+NORRIS_Y = [0.1, 338.8, 118.1, 888.0, 9.2, 228.1, 668.5, 998.5, 449.1, 778.9, 559.2, 0.3, 0.1, 778.1, 668.8, 339.3,
+            448.9, 10.8, 557.7, 228.3, 998.0, 888.8, 119.6, 0.3, 0.6, 557.6, 339.3, 888.0, 998.5, 778.9, 10.2, 117.6,
+            228.9, 668.4, 449.2, 0.2]  # fmt: skip
+NORRIS_X = [0.2, 337.4, 118.2, 884.6, 10.1, 226.5, 666.3, 996.3, 448.6, 777.0, 558.2, 0.4, 0.6, 775.5, 666.9, 338.0,
+            447.5, 11.6, 556.0, 228.1, 995.8, 887.6, 120.2, 0.3, 0.3, 556.8, 339.1, 887.2, 999.0, 779.0, 11.1, 118.3,
+            229.2, 669.1, 448.9, 0.5]  # fmt: skip
+SLEEP_1 = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
+SLEEP_2 = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4]
+PLANTS = {
+    "control": [4.17, 5.58, 5.18, 6.11, 4.50, 4.61, 5.17, 4.53, 5.33, 5.14],
+    "first": [4.81, 4.17, 4.41, 3.59, 5.87, 3.83, 6.03, 4.89, 4.32, 4.69],
+    "second": [6.31, 5.12, 5.54, 5.50, 5.37, 5.29, 4.92, 6.15, 5.80, 5.26],
+}
+
+
+def solved(samples: dict, **given: object) -> Statistics:
+    held = {name: parts.Numbers(tuple(values)) for name, values in samples.items()}
+    return parts.Samples(held, **given).solve()  # type: ignore[arg-type]
+
+
+def test_regression_of_nist_norris() -> None:
+    """Certified values of NIST StRD, data set Norris."""
+    r = solved({"x": NORRIS_X, "y": NORRIS_Y}, regressions={"r": parts.Fitting("y", ("x",))}).regressions["r"]
+    assert r.coefficients == pytest.approx([-0.262323073774029, 1.00211681802045], rel=1e-10)
+    assert r.errors == pytest.approx([0.232818234301152, 0.429796848199937e-03], rel=1e-10)
+    assert r.deviation == pytest.approx(0.884796396144373, rel=1e-10)
+    assert r.determination == pytest.approx(0.999993745883712, rel=1e-12)
+
+
+def test_polynomial_through_exact_values() -> None:
+    x = np.linspace(0, 3, 9)
+    found = solved({"x": x, "y": 2 - x + 0.5 * x**3}, regressions={"r": parts.Fitting("y", ("x",), 3)})
+    assert found.regressions["r"].coefficients == pytest.approx([2, -1, 0, 0.5], abs=1e-9)
+
+
+def test_several_explaining_samples() -> None:
+    rng = np.random.default_rng(5)
+    a, b = rng.normal(size=(2, 30))
+    found = solved(
+        {"a": a, "b": b, "y": 1 + 2 * a - 3 * b}, regressions={"r": parts.Fitting("y", ("a", "b"))}
+    )
+    assert found.regressions["r"].coefficients == pytest.approx([1, 2, -3], abs=1e-12)
+
+
+def test_students_sleep_data() -> None:
+    """t = −4.0621, p = 0.002833 paired; Welch t = −1.8608, df = 17.776, p = 0.07939 (R, ?sleep)."""
+    asked = {"pair": parts.Asked("paired", ("a", "b")), "welch": parts.Asked("two_means", ("a", "b"))}
+    found = solved({"a": SLEEP_1, "b": SLEEP_2}, tests=asked).tests
+    assert found["pair"].statistic == pytest.approx(-4.0621, abs=5e-5)
+    assert found["pair"].p == pytest.approx(0.002833, abs=5e-7)
+    assert found["welch"].statistic == pytest.approx(-1.8608, abs=5e-5)
+    assert found["welch"].freedom[0] == pytest.approx(17.776, abs=5e-4)
+    assert found["welch"].p == pytest.approx(0.07939, abs=5e-6)
+
+
+def test_plant_growth() -> None:
+    """F = 4.846, p = 0.01591 (R, ?PlantGrowth)."""
+    found = solved(PLANTS, tests={"all": parts.Asked("anova", tuple(PLANTS))}).tests["all"]
+    assert found.statistic == pytest.approx(4.846, abs=5e-4)
+    assert found.p == pytest.approx(0.01591, abs=5e-6)
+    assert found.freedom == (2.0, 27.0)
+
+
+def test_description_by_hand() -> None:
+    d = described(np.array([2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]))
+    assert (d.mean, d.deviation) == pytest.approx((5.0, math.sqrt(32 / 7)))
+    assert d.quartiles == pytest.approx((4.0, 4.5, 5.5))
+    assert d.skewness == pytest.approx(5.25 / 8) and d.kurtosis == pytest.approx(44.5 / 16 - 3.0)
+
+
+def test_fits_by_closed_forms_of_maximum_likelihood() -> None:
+    x = np.array([1.2, 0.7, 3.1, 2.2, 0.9, 1.8, 1.1, 2.7, 1.5])
+    assert fitted(x, "exponential").parameters["mean"] == pytest.approx(x.mean(), rel=1e-6)
+    normal, log = fitted(x, "normal").parameters, fitted(x, "lognormal").parameters
+    assert (normal["μ"], normal["σ"]) == pytest.approx((x.mean(), x.std()), rel=1e-9)
+    assert (log["μ(ln)"], log["σ(ln)"]) == pytest.approx((np.log(x).mean(), np.log(x).std()), rel=1e-3)
+    k, scale = fitted(x, "weibull").parameters.values()
+    assert scale == pytest.approx(float((x**k).mean() ** (1 / k)), rel=1e-3)
+    assert 1 / k == pytest.approx(float((x**k * np.log(x)).sum() / (x**k).sum() - np.log(x).mean()), rel=1e-3)
+
+
+def test_capability_by_hand() -> None:
+    x = np.array([9.0, 11.0, 10.0, 12.0, 8.0, 10.0])
+    c = capability(x, 4.0, 18.0, None, 0.95)
+    s = math.sqrt(2.0)
+    assert c.cp == pytest.approx(14 / (6 * s)) and c.cpk == pytest.approx(6 / (3 * s))
+    within = capability(x, 4.0, 18.0, 2, 0.95)
+    assert within.deviation == pytest.approx(math.sqrt((2.0 + 2.0 + 2.0) / 3))
+
+
+def test_variance_tests_by_hand() -> None:
+    """(n − 1)s²/σ0² = 2.5 with 5 degrees: p = 2 P(χ² < 2.5)."""
+    asked = {"v": parts.Asked("variance", ("x",), 2.0)}
+    found = solved({"x": [9.0, 11.0, 10.0, 12.0, 8.0, 10.0]}, tests=asked).tests["v"]
+    assert found.statistic == pytest.approx(2.5)
+    tail = math.erf(math.sqrt(1.25)) - math.sqrt(5 / math.pi) * math.exp(-1.25) * (1 + 2.5 / 3)
+    assert found.p == pytest.approx(2 * tail, rel=1e-9)
