@@ -90,3 +90,59 @@ def test_slider_crank_of_the_printing_press() -> None:
     assert best.values["offset [m]"] == pytest.approx(0.0603751, abs=5e-8)
     assert best.values["quick_return_ratio"] == pytest.approx(1.0343, abs=2e-4)
     assert math.degrees(best.transmission_angle) == pytest.approx(68.4094, abs=0.03)
+
+
+PRESS_PSI = (
+    133.3740,
+    140.7340,
+    147.9701,
+    155.2380,
+    162.6878,
+    170.4900,
+    178.8701,
+    188.1747,
+    199.0442,
+    213.0665,
+)
+PRESS_PHI = (
+    176.5468,
+    186.5587,
+    196.7699,
+    207.4588,
+    218.8301,
+    231.0278,
+    244.1497,
+    258.2710,
+    273.4776,
+    289.9133,
+)
+
+
+def test_lecture_case_of_three_pairs_is_exact() -> None:
+    """45, 90, 135° to 52, 82, 112° with a frame of 50 mm: the motion itself has the pairs."""
+    inputs, outputs = np.radians([45, 90, 135]), np.radians([52, 82, 112])
+    best = lw.function_generation(inputs, outputs, input_zero=0, output_zero=0, frame=0.05).best
+    assert best.linkage.lengths()["frame"] == pytest.approx(0.05)
+    motion = lw.solve_motion(best.mechanism(), steps=8)
+    assert np.mod(motion.link("rocker").angle[:3], 2 * np.pi) == pytest.approx(outputs, abs=1e-9)
+
+
+def test_press_double_crank_of_the_report_and_better_ones() -> None:
+    """The report's lengths by its equation; with the zero angles free a third of its error, μ no worse."""
+    inputs, outputs = np.radians(PRESS_PHI), np.radians(PRESS_PSI)
+    report = lw.function_generation(
+        inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
+    ).best
+    lengths = report.linkage.lengths()
+    assert lengths["input"] == pytest.approx(0.1394962, abs=3e-6)
+    assert lengths["coupler"] == pytest.approx(0.1366159, abs=3e-6)
+    assert lengths["output"] == pytest.approx(0.1624671, abs=3e-6)
+    same = lw.function_generation(
+        inputs, outputs, input_zero=0, output_zero=0, frame=0.055, turning=True
+    ).best
+    assert same.error < report.error
+    free = lw.function_generation(
+        inputs, outputs, frame=0.055, turning=True, transmission_angle=report.transmission_angle
+    ).best
+    assert free.error < 0.4 * report.error
+    assert free.transmission_angle >= report.transmission_angle - 1e-9 and free.turns

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.synthesis.function_generation.generate import function_generation
 from linkwright.synthesis.motion_generation.generate import motion_generation
 from linkwright.synthesis.path_generation.generate import path_generation
 from linkwright.synthesis.requirements.crank_rocker import crank_rocker, quick_return
@@ -96,6 +97,27 @@ TASKS: Mapping[str, Task] = {
     ),
     "straight_line": Task(
         straight_line, {"length": "length", "deviation": "length", "kind": "word"}, ("length",)
+    ),
+    "function": Task(
+        function_generation,
+        {
+            "inputs": "angles",
+            "outputs": "angles",
+            "places": "lengths",
+            "linkage": "word",
+            "input_zero": "angle",
+            "output_zero": "angle",
+            "scale_free": "flag",
+            "frame": "length",
+            "gear_ratio": "number",
+            "turning": "flag",
+            "transmission_angle": "angle",
+            "least_squares": "flag",
+            "equation_error": "flag",
+            "count": "count",
+            "seed": "count",
+        },
+        ("inputs",),
     ),
     "motion": Task(
         motion_generation,

@@ -130,9 +130,11 @@ def _driver(linkage: Linkage, speed: str) -> list[str]:
         other, pin, ratio = linkage.second
         number, _, unit = speed.partition(" ")
         turned = f"{{turn: {other}, about: {pin}, speed: {_digits(float(number) * ratio)} {unit}"
-        begin = _angle(_phase(linkage, other, pin))
-        return ["drivers:", f"  input: {law}", f"  geared: {turned}, start: {begin}}}"]
-    lines = [f"driver: {law}"]
+        before = 0.0 if linkage.span is None else ratio * (linkage.span[0] - linkage.start)
+        begin = _angle(_phase(linkage, other, pin) + before)
+        lines = ["drivers:", f"  input: {law}", f"  geared: {turned}, start: {begin}}}"]
+    else:
+        lines = [f"driver: {law}"]
     if linkage.span is not None:
         first, last = linkage.span
         lines.append(f"cycle: {{from: {_angle(first)}, to: {_angle(last)}}}")

@@ -1,0 +1,1 @@
+"""Function generation: linkages whose output follows a function of the input."""

@@ -1,0 +1,251 @@
+"""Function generation: linkages whose output follows given pairs of input and output."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.synthesis.assessment import assess_four_bars
+from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.function_generation.exact import families, freudenstein
+from linkwright.synthesis.function_generation.fit import FunctionDemand, fit
+from linkwright.synthesis.function_generation.generators import (
+    KINDS,
+    GearedFiveBar,
+    Generator,
+    Run,
+    TurningFourBar,
+)
+from linkwright.synthesis.result import Candidate, Synthesis, note, ranked, refuse
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+FINE = 181
+#: Candidates whose points differ less than this share of their size are one.
+DISTINCT = 0.01
+
+
+def function_generation(
+    inputs: ArrayLike,
+    outputs: ArrayLike = (),
+    *,
+    places: ArrayLike | None = None,
+    linkage: str = "four_bar",
+    input_zero: float | None = None,
+    output_zero: float | None = None,
+    scale_free: bool = False,
+    frame: float = 1.0,
+    gear_ratio: float = -1.0,
+    turning: bool = False,
+    transmission_angle: float = 0.0,
+    least_squares: bool = False,
+    equation_error: bool = False,
+    count: int = 6,
+    seed: int = 0,
+) -> Synthesis:
+    """Linkages whose output follows the pairs (input, output).
+
+    Args:
+        inputs: angles of the input link (n,), rad.
+        outputs: angles of the output link, rad; with a ``slider_crank`` places of the slider, m.
+        places: another name for ``outputs`` of a slider, for files, where units are checked.
+        linkage: ``four_bar``, ``slider_crank``, ``watt``, ``stephenson`` (six-bars) or ``geared_five_bar``, whose
+            output is the turn of the link that its input crank carries.
+        input_zero, output_zero: angle (rad; place in m of a slider) of the frame's line O1→O2 (of the slider's zero)
+            to the zero of inputs and outputs; None: free.
+        scale_free: the output may be scaled; errors are then in units of the demanded output.
+        frame: length of O1 O2, m (not of a slider-crank, whose size follows from its travel).
+        gear_ratio: turns of the geared crank per turn of the input.
+        turning: the input of a four-bar must turn fully (in least squares).
+        transmission_angle: the smallest that is allowed over that turn, rad.
+        least_squares: a four-bar of least squares even where 3 to 5 pairs can be met exactly.
+        equation_error: the four-bar of least squares in Freudenstein's equation, for given zero angles: linear, as
+            textbooks do it; its structural error is larger than that of the others.
+        count, seed: candidates wanted; seed of the random starts.
+
+    Returns:
+        Candidates. A four-bar for 3 pairs (Freudenstein), 4, or 5 with free zero angles: exact, all solutions; else
+        least squares, globally from many starts. ``error``: root mean square of the structural error at the pairs,
+        rad or m; ``worst``: the greatest.
+
+    Raises:
+        SynthesisError: pairs that do not fit; no real exact solution, or none that moves (``nearest``: the one of
+        least
+            squares, or the one with defects).
+    """
+    x, y = np.asarray(inputs, float), np.asarray(outputs if places is None else places, float)
+    _check(x, y, linkage, frame)
+    demand = FunctionDemand(x, y, input_zero, output_zero, scale_free)
+    free = (input_zero is None) + (output_zero is None)
+    exact = len(x) == 3 or (len(x) == 4 and free) or (len(x) == 5 and free == 2)
+    if linkage == "four_bar" and equation_error:
+        return _by_equation(demand, frame)
+    if linkage == "four_bar" and exact and not scale_free and not least_squares:
+        return _exact(demand, frame, count, seed)
+    generator = GearedFiveBar(gear_ratio) if linkage == "geared_five_bar" else KINDS[linkage]()
+    generator = TurningFourBar(transmission_angle) if turning and linkage == "four_bar" else generator
+    return _fitted(generator, demand, frame, count, seed)
+
+
+def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
+    if linkage not in KINDS:
+        raise refuse("function.linkage", linkage=linkage, known=", ".join(KINDS))
+    if x.ndim != 1 or x.shape != y.shape or not np.isfinite(np.concatenate([x, y])).all():
+        raise refuse("function.values", inputs=x.size, outputs=y.size)
+    if len(x) < 3:
+        raise refuse("function.few", count=len(x))
+    if not 0 < frame < math.inf:
+        raise refuse("not_positive", name="frame", given=f"{frame:g}")
+
+
+def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synthesis:
+    zeros, lengths = families(demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero))
+    usable = np.isfinite(lengths).all(1) & (np.abs(lengths) > 1e-3).all(1) & (np.abs(lengths) < 1e3).all(1)
+    zeros, lengths = zeros[usable], lengths[usable]
+    target = np.stack([demand.inputs, demand.outputs])
+    if not len(zeros):
+        nearest = _fitted(KINDS["four_bar"](), demand, frame, count, seed)
+        error = f"{nearest.best.error:.4g}"
+        raise refuse("function.exact", nearest, linkage="four_bar", count=len(demand.inputs), error=error)
+    pin: Complexes = lengths[:, :1] * np.exp(1j * (demand.inputs + zeros[:, :1]))
+    joint = 1 + lengths[:, 2:] * np.exp(1j * (demand.outputs + zeros[:, 1:]))
+    one: Complexes = np.ones(len(pin), complex)
+    facts = assess_four_bars(0 * one, pin * frame, joint * frame, frame * one)
+    order = np.lexsort((-facts.transmission, ~facts.sound))[: 40 * count]
+    made = []
+    for i in order:
+        values = {"input_zero [rad]": float(zeros[i, 0]), "output_zero [rad]": float(zeros[i, 1])}
+        each = four_bar_candidate(
+            0j, pin[i] * frame, joint[i] * frame, complex(frame), facts, int(i), 0.0, values=values
+        )
+        made.append(replace(each, curve=_four_bar_curve(demand, pin[i], joint[i], float(zeros[i, 1]))))
+    counts = {"solutions": len(zeros), "sound": int(facts.sound.sum())}
+    result = Synthesis("function", _distinct(tuple(made))[:count], "angle", target, counts)
+    if made[0].defects:
+        why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
+        raise refuse("function.no_movable", result, linkage="four_bar", why=why)
+    return result
+
+
+def _by_equation(demand: FunctionDemand, frame: float) -> Synthesis:
+    """The four-bar of least squares in Freudenstein's equation, its structural error measured."""
+    zeros = (demand.input_zero or 0.0, demand.output_zero or 0.0)
+    given = replace(demand, input_zero=zeros[0], output_zero=zeros[1])
+    a, b, c = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
+    if not np.isfinite(a + b + c):
+        raise refuse("function.none", linkage="four_bar")
+    generator = KINDS["four_bar"]()
+    start = zeros[0] + (np.pi if a < 0 else 0.0)
+    x = np.array([[math.log(abs(a)), math.log(b), math.log(abs(c)), start]])
+    sides = [_candidate(generator, given, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
+    chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
+    if not chosen:
+        raise refuse("function.none", linkage="four_bar")
+    return Synthesis("function", chosen, "angle", np.stack([demand.inputs, demand.outputs]))
+
+
+def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, zero: float) -> Floats:
+    """Input and output (2, m) between the first and last demanded input, for the picture."""
+    crank, coupler, output = abs(pin[0]), abs(joint[0] - pin[0]), abs(joint[0] - 1)
+    start = cmath.phase(pin[0]) - demand.inputs[0]
+    side = np.sign((np.conj(1 - pin[0]) * (joint[0] - pin[0])).imag)
+    x = np.array([[math.log(crank), math.log(coupler), math.log(output), start]])
+    fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
+    run = KINDS["four_bar"]().run(x, np.array([[side]]), fine)
+    first = int(np.abs(fine - demand.inputs[0]).argmin())
+    shift = demand.outputs[0] - run.output[0, first] + _small(run.output[0, first] - zero - demand.outputs[0])
+    return np.stack([fine, run.output[0] + shift])
+
+
+def _small(angle: float) -> float:
+    """An angle within half a turn of zero, where it is a rounding of whole turns; else half turns are taken out."""
+    return (angle + math.pi / 2) % math.pi - math.pi / 2
+
+
+def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: int, seed: int) -> Synthesis:
+    x, signs, _ = fit(generator, demand, np.random.default_rng(seed))
+    scale = frame if generator.output_is_angle else demand.size
+    made = [
+        found
+        for i in range(len(x))
+        if (found := _candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale)) is not None
+    ]
+    chosen = _distinct(ranked(made, demand.size))[:count]
+    if not chosen:
+        raise refuse("function.none", linkage=generator.name)
+    name = "angle" if generator.output_is_angle else "length"
+    return Synthesis(
+        "function", chosen, name, np.stack([demand.inputs, demand.outputs]), {"optima": len(made)}
+    )
+
+
+def _candidate(
+    generator: Generator, demand: FunctionDemand, x: Floats, signs: Floats, scale: float
+) -> Candidate | None:
+    """One optimum with its facts over the whole range; None where it does not assemble at the pairs."""
+    unit = 1.0 if generator.output_is_angle else demand.size
+    at = generator.run(x, signs, demand.inputs)
+    if at.missing.max() > 0:
+        return None
+    off, constant, factor = demand.matched(at.output * unit)
+    fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
+    between = generator.run(x, signs, fine)
+    turn = generator.run(x, signs, np.linspace(0, 2 * np.pi, 2 * FINE))
+    turns = bool(turn.missing.max() == 0)
+    seen = turn if turns else between
+    steps = np.diff(demand.inputs)
+    monotone = bool((steps >= 0).all() or (steps <= 0).all())
+    defects = (() if between.missing.max() == 0 else ("circuit",)) + (() if monotone else ("order",))
+    points = {name: complex(places[0, 0]) * scale for name, places in at.points.items()}
+    linkage = generator.linkage(points, turns)
+    if not turns:
+        low, high = demand.inputs.min() - demand.inputs[0], demand.inputs.max() - demand.inputs[0]
+        linkage = replace(linkage, span=(linkage.start + low, linkage.start + high))
+    curve = np.stack([fine, between.output[0] * unit * factor[0] + constant[0]])
+    lengths = np.array(list(linkage.lengths().values()))
+    zero = float(np.angle(at.points["A"][0, 0]) - demand.inputs[0])
+    values = {
+        "input_zero [rad]": _turned(zero),
+        "output_constant": float(constant[0]),
+        "scale": float(factor[0]),
+    }
+    return Candidate(
+        linkage, float(np.sqrt((off**2).mean())), _type(generator, at), defects, turns,
+        float(np.arcsin(np.clip(seen.sine.min(), 0, 1))), float(lengths.max() / lengths.min()),
+        worst=float(np.abs(off).max()), curve=curve, values=values,
+    )  # fmt: skip
+
+
+def _type(generator: Generator, run: Run) -> str:
+    if generator.name not in ("four_bar", "slider_crank"):
+        return generator.name
+    if generator.name == "slider_crank":
+        crank, rod = (abs(run.points[b][0, 0] - run.points[a][0, 0]) for a, b in (("O1", "A"), ("A", "B")))
+        return "slider_crank" if crank + abs(run.points["B"][0, 0].imag) <= rod else "slider_rocker"
+    from linkwright.synthesis.assessment import TYPES, grashof_types
+
+    o1, a, b, o2 = (run.points[name][0, 0] for name in ("O1", "A", "B", "O2"))
+    return TYPES[
+        int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])
+    ]
+
+
+def _turned(angle: float) -> float:
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+def _distinct(candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+    kept: list[Candidate] = []
+    seen: list[Complexes] = []
+    for each in candidates:
+        places = np.array(list(each.linkage.points.values()))
+        size = float(np.ptp(places.real) + np.ptp(places.imag))
+        if all(np.abs(places - other).max() > DISTINCT * size for other in seen):
+            kept.append(each)
+            seen.append(places)
+    return tuple(kept)

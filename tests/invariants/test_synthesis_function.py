@@ -1,0 +1,84 @@
+"""Function generation: pairs are met by the motion, hidden linkages are found, free zeros do not matter."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.synthesis.function_generation.exact import chebyshev_spacing, five_pairs
+
+X = np.linspace(1, 2, 21)
+INPUTS, LOGARITHM = np.radians((X - 1) * 60), np.radians(np.log10(X) / np.log10(2) * 90)
+
+
+def turned_by_motion(candidate: lw.Candidate, inputs: np.ndarray, output: str = "output") -> np.ndarray:
+    """Output angles of the solved mechanism at the inputs, less the first."""
+    start = candidate.linkage.start
+    angles = []
+    for each in inputs - inputs[0]:
+        motion = lw.solve_motion(candidate.mechanism(), at=start + each)
+        angles.append(float(motion.link(output).angle[0]))
+    return np.unwrap(angles) - angles[0]
+
+
+def test_five_pairs_of_a_hidden_four_bar() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        a, b, c = rng.uniform(0.4, 1.8, 3)
+        phi = np.sort(rng.uniform(0.3, 2.4, 5))
+        reach = np.abs(a * np.exp(1j * phi) - 1)
+        cosine = (reach**2 + c * c - b * b) / (2 * reach * c)
+        if np.abs(cosine).max() > 0.97:
+            continue
+        psi = np.angle(a * np.exp(1j * phi) - 1) + np.arccos(cosine)
+        zeros, lengths = five_pairs(phi - 0.7, psi + 0.4)
+        off = np.abs(lengths - [a, b, c]).max(1) + np.abs(np.exp(1j * zeros) - np.exp([0.7j, -0.4j])).max(1)
+        assert off.min() < 1e-6
+        assert len(zeros) <= 3
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_exact_pairs_are_met_by_the_motion(count: int) -> None:
+    x = chebyshev_spacing(1, 2, count)
+    inputs, outputs = np.radians((x - 1) * 60), np.radians(np.log10(x) / np.log10(2) * 90)
+    found = lw.function_generation(inputs, outputs)
+    for each in found:
+        if each.defects:
+            continue
+        name = list(each.linkage.links)[2]
+        assert turned_by_motion(each, inputs, name) == pytest.approx(outputs - outputs[0], abs=1e-7)
+
+
+@pytest.mark.parametrize("linkage", ["four_bar", "watt", "stephenson"])
+def test_least_squares_errors_are_those_of_the_motion(linkage: str) -> None:
+    best = lw.function_generation(INPUTS, LOGARITHM, linkage=linkage).best
+    off = turned_by_motion(best, INPUTS) - (LOGARITHM - LOGARITHM[0])
+    off = off - off.mean()
+    assert math.sqrt(np.mean(off**2)) == pytest.approx(best.error, rel=1e-3, abs=1e-10)
+    assert best.error < (2e-4 if linkage == "four_bar" else 2e-5)
+
+
+def test_slider_crank_follows_its_function() -> None:
+    best = lw.function_generation(INPUTS, 0.1 * LOGARITHM, linkage="slider_crank").best
+    start = best.linkage.start
+    places = [lw.solve_motion(best.mechanism(), at=start + each).point("B").position[0, 0] for each in INPUTS]
+    off = np.array(places) - 0.1 * LOGARITHM
+    assert np.std(off) == pytest.approx(best.error, rel=1e-3, abs=1e-10)
+    assert best.error < 1e-3 * 0.1
+
+
+def test_zero_angles_do_not_matter_where_they_are_free() -> None:
+    first = lw.function_generation(INPUTS, LOGARITHM)
+    second = lw.function_generation(INPUTS + 0.8, LOGARITHM - 1.1)
+    assert first.best.error == pytest.approx(second.best.error, rel=0.02)
+
+
+def test_a_free_scale_is_no_worse() -> None:
+    scaled = lw.function_generation(INPUTS, LOGARITHM, scale_free=True).best
+    assert scaled.error <= lw.function_generation(INPUTS, LOGARITHM).best.error
+
+
+def test_chebyshev_spacing_is_that_of_the_polynomial() -> None:
+    x = chebyshev_spacing(-1, 1, 7)
+    assert np.polynomial.chebyshev.chebval(x, [0] * 7 + [1]) == pytest.approx(np.zeros(7), abs=1e-12)
