@@ -12,6 +12,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
@@ -104,7 +105,8 @@ class Work:
 
 
 def _work(mechanism: Mechanism, outputs: tuple[str, ...], columns: tuple[str, ...], steps: int) -> Work:
-    solver = MotionSolver(mechanism, frozenset(name for name in columns if not name.startswith("mode:")))
+    free = frozenset(name for name in columns if not name.startswith("mode:"))
+    solver = MotionSolver(mechanism, Manner(free=free))
     return Work(mechanism, outputs, columns, over_cycle(mechanism, steps), solver, ForceSolver(solver))
 
 

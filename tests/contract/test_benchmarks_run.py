@@ -68,9 +68,10 @@ def test_peers_agree_where_installed(name: str) -> None:
     assert all("skipped" in line for line in missing)
     exact = [peer for peer in present if peer.name != "kinepy"]  # its rates are differences
     gaps = {peer.name: peers.error(peer, work, truth) for peer in exact}
-    if not gaps:
-        pytest.skip("no peer is installed")
-    assert all(math.isnan(gap) or gap < 1e-9 for gap in gaps.values()), gaps
+    assert "fsolve per angle" in gaps
+    silent = [peer for peer, gap in gaps.items() if math.isnan(gap)]
+    assert set(silent) <= {"Exudyn"}  # it integrates in time, and gives no outputs at the angles
+    assert max(gap for peer, gap in gaps.items() if peer not in silent) < 1e-9, gaps
 
 
 @pytest.mark.parametrize("name", ["fourbar", "sixbar"])

@@ -54,22 +54,20 @@ def test_table_of_every_machine(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["crank_rocker", "shaper_quick_return", "jaw_crusher_sixbar", "stephenson_sixbar_triad"]
+    ("name", "own"),
+    [
+        ("crank_rocker", {"transmission_angle", "peak_jerk"}),
+        ("shaper_quick_return", {"transmission_angle", "peak_jerk", "stroke"}),
+        ("jaw_crusher_sixbar", {"transmission_angle", "peak_jerk"}),
+        ("stephenson_sixbar_triad", set()),
+    ],
 )
-def test_extremes_bound_every_sample_and_do_not_depend_on_the_steps(name: str) -> None:
+def test_extremes_do_not_depend_on_the_steps(name: str, own: set[str]) -> None:
     mechanism = lw.load(f"gallery:{name}")
     coarse, fine = (metrics(lw.solve_motion(mechanism, steps=n)) for n in (120, 360))
-    for metric in (
-        "transmission_angle",
-        "peak_acceleration",
-        "peak_jerk",
-        "velocity_ratio",
-        "stroke",
-        "swing_angle",
-    ):
-        if metric in fine:
-            for a, b in zip(coarse[metric], fine[metric], strict=True):
-                assert a.value == pytest.approx(b.value, rel=1e-6), (metric, a.subject)
+    for metric in {"peak_acceleration", "velocity_ratio", "swing_angle"} | own:
+        for a, b in zip(coarse[metric], fine[metric], strict=True):
+            assert a.value == pytest.approx(b.value, rel=1e-6), (metric, a.subject)
 
 
 def test_a_single_position_has_numbers_as_well() -> None:

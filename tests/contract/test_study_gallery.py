@@ -11,20 +11,8 @@ from linkwright.study import sensitivity, sweep
 STEPS = 24
 
 
-def moving() -> list[str]:
-    """Models that pass their cycle without meeting a change point."""
-    names = []
-    for name in lw.gallery_names():
-        try:
-            motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=STEPS)
-        except lw.LinkwrightError:
-            continue
-        if motion.mechanism.drivers and not motion.modes:
-            names.append(name)
-    return names
-
-
-NAMES = moving()
+AT_REST = {"truss", "two_bars_equilibrium"}
+NAMES = sorted(set(lw.gallery_names()) - AT_REST)
 
 
 def size_of(mechanism: lw.Mechanism) -> str:
@@ -42,7 +30,8 @@ def last_point(mechanism: lw.Mechanism) -> str:
     return f"{link.name}.{list(link.points)[-1]}"
 
 
-def test_there_are_models() -> None:
+def test_those_left_out_cannot_move() -> None:
+    assert all(not lw.load(f"gallery:{name}").drivers for name in AT_REST)
     assert len(NAMES) > 20
 
 
@@ -61,6 +50,7 @@ def test_a_sweep_is_every_design_for_itself(name: str) -> None:
         motion = lw.solve_motion(design, steps=STEPS, failures="mark")
         assert found.ok[index] == motion.ok.all()
         if not motion.ok.all():
+            assert np.isnan(found[f"{point}.x", "max"][index])
             continue
         x, y = motion.point(point).position.T
         scale = np.abs(motion.point(point).position).max() + 1e-3
@@ -82,6 +72,6 @@ def test_a_derivative_is_the_limit_of_differences(name: str) -> None:
     expected = (8 * (ends[2] - ends[1]) - (ends[3] - ends[0])) / (12 * step)
     found = sensitivity(mechanism, of=[f"{point}.x"], by=[address], steps=STEPS).slope(f"{point}.x", address)
     good = np.isfinite(expected)
-    assert good.any()
+    assert good.sum() >= 0.9 * len(good)
     scale = np.abs(expected[good]).max() + 1e-3
     assert np.abs(found[good] - expected[good]).max() <= 1e-6 * scale

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import degrees, hypot, pi, radians
+from math import acos, degrees, hypot, pi, radians
 
 import numpy as np
 import pytest
@@ -88,9 +88,14 @@ def test_positions_beyond_a_stretch_out_of_reach_belong_to_another_motion() -> N
 
 
 def test_limits_stay_within_the_reached_stretch() -> None:
+    """Crank and coupler in one line, 4 m from O1 to B; their overlap at acos(0.5) is in the other stretch."""
     motion = lw.solve_motion(fourbar(3, 1, 2.8, 3.2, start=50), steps=360, failures="mark")
-    for each in limit_positions(motion, "coupler"):
-        assert 33.5 < degrees(each.input) % 360 < 75.6
+    stretched = acos((4**2 + 3.2**2 - 2.8**2) / (2 * 4 * 3.2))
+    for output, kind in (("rocker", "min"), ("B.x", "max"), ("B.y", "max")):
+        (found,) = limit_positions(motion, output)
+        assert found.kind == kind
+        assert found.input % (2 * pi) == pytest.approx(stretched, abs=1e-9)
+    assert limit_positions(motion, "coupler") == ()
 
 
 @pytest.mark.parametrize(

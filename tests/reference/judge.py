@@ -80,8 +80,13 @@ def _judged_motion(mechanism: Any, motion: Any, care: float) -> Verdict:
     reached = np.isfinite(expected.q[:, 0, 0])
     if not reached.any():
         silent = motion.ok & _unsaid(motion)
-        lines = [f"{silent.sum()} given, but the branch does not reach the first position"]
-        return Verdict("beyond a limit", lines) if silent.any() else Verdict(LIMIT, [], len(reached))
+        lines = [f"{silent.sum()} given, but the drawn branch does not reach the first position"]
+        if not silent.any():
+            return Verdict(LIMIT, [], len(reached))
+        dyads = all(len(group.links) <= 2 for group in motion.structure.groups)
+        return Verdict(
+            UNSURE if dyads else "beyond a limit", lines
+        )  # a dyad's mode needs no way from the drawing
     reference = _rates(mechanism, system, expected.q, motion.time)
     nearness, condition = _nearness(reference, reached)
     verdict = Verdict(AGREES if reached.all() else LIMIT, [], len(reached))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,8 +37,7 @@ _PREFIXES = (("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6))
 class Vectors:
     """Vectors of one kind at all positions: feet (n, 2) m, values (n, 2) and symbols by name.
 
-    ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link); ``floor``: what is
-    smaller is a rounding error.
+    ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link).
     """
 
     kind: str
@@ -47,7 +46,6 @@ class Vectors:
     values: Mapping[str, Floats]
     symbols: Mapping[str, Symbol]
     toward: bool = False
-    floor: float = 0.0
 
     @property
     def style(self) -> str:
@@ -76,7 +74,7 @@ class Vectors:
 
     def seen(self, name: str, run: Sequence[int]) -> bool:
         """Whether a vector is more than zero at some positions."""
-        least = max(NOTHING * self.largest(run), self.floor)
+        least = NOTHING * self.largest(run)
         return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
@@ -105,10 +103,7 @@ class Vectors:
 
 @dataclass(frozen=True)
 class Torques:
-    """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name.
-
-    ``floor``: what is smaller is a rounding error.
-    """
+    """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name."""
 
     kind: str
     places: Mapping[str, Floats]
@@ -116,7 +111,6 @@ class Torques:
     symbols: Mapping[str, Symbol]
     radius: float = COUPLE_RADIUS
     unit: str = "N·m"
-    floor: float = 0.0
 
     @property
     def style(self) -> str:
@@ -138,7 +132,7 @@ class Torques:
 
     def seen(self, name: str, run: Sequence[int]) -> bool:
         """Whether a torque is more than rounding at some positions."""
-        least = max(NOTHING * self.largest(run), self.floor)
+        least = NOTHING * self.largest(run)
         return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
@@ -254,21 +248,7 @@ def force_vectors(forces: Forces, names: Sequence[str] | None) -> Arrows:
     reactions, couples = _reactions(forces, names)
     loads, moments = _loads(forces)
     pushes, torques = _drivers(forces)
-    return _above_rounding((reactions, loads, pushes), (couples, moments, torques))
-
-
-def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...]) -> Arrows:
-    """The same, where a force counts from a billionth of the largest on, a torque from that at the machine's size."""
-    feet = np.concatenate([np.zeros((1, 2)), *(foot for each in vectors for foot in each.feet.values())])
-    feet = feet[np.isfinite(feet).all(axis=1)]
-    everywhere = range(len(next(iter(vectors[0].values.values()), feet)))
-    force = NOTHING * max(each.largest(everywhere) for each in vectors)
-    torque = force * float(np.ptp(feet, axis=0).max())
-    return Arrows(
-        "force",
-        tuple(replace(each, floor=force) for each in vectors),
-        tuple(replace(each, floor=torque) for each in torques),
-    )
+    return Arrows("force", (reactions, loads, pushes), (couples, moments, torques))
 
 
 def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, Torques]:

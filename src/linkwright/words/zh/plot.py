@@ -135,5 +135,4 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.mounts": "震动力、位移、传到地基的力",
     "frequency": "频率",
     "kind.samples": "样本",
-    "frame": "机架",
 }
