@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import KINDS, Kind, Reduction
+from linkwright.engine.replay import along_input
 from linkwright.engine.sweep import VALID_COUNT, sweep
-from linkwright.engine.trace import Trace, exp, maximum, slope, sqrt
+from linkwright.engine.table import Table
+from linkwright.engine.trace import Trace, exp, maximum, select, slope, sqrt
 
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
 PLAIN = [kind for kind in KINDS if not kind.startswith("at_")]
@@ -269,3 +271,33 @@ def test_what_follows_the_positions_is_evaluated_once_per_design(
     np.testing.assert_allclose(got["span"], (got["y.max"] - got["y.min"]) / radii, rtol=1e-14)
     np.testing.assert_allclose(got["share"] * n, got[VALID_COUNT], rtol=1e-14)
     assert got[VALID_COUNT][2] == n
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_functions_of_the_positions_alone_are_found_once_for_all_designs(backend: str) -> None:
+    t = Trace()
+    x, a, b = t.position("x"), t.parameter("a"), t.parameter("b")
+    load = exp(x * 0.5) + t.lookup("law", x)
+    late = select(exp(x) < 2.0, load, a)
+    program = Program.of(t, {"y": load * b + a, "late": late, "load": load, "valid": x < 0.9})
+    parted = along_input(program)
+    assert parted is not None
+    alone, rest = parted
+    assert not alone.parameters
+    assert rest.parameters == program.parameters
+    assert not {"exp", "lookup"} & set(rest.counts()["position"])
+    assert along_input(rest) is None
+    table = Table.linear([-1.0, 0.0, 1.0], [3.0, 1.0, 2.0])
+    xs, numbers = np.linspace(-1.0, 1.0, 21), np.random.default_rng(1).normal(size=(6, 2))
+    kinds = [Reduction(name, kind) for name in ("y", "late", "load") for kind in ("sum", "max", "argmin")]
+    got = sweep(program, numbers, {"x": xs}, kinds, tables={"law": table}, backend=backend)
+    held = xs < 0.9
+    there = np.exp(xs * 0.5) + np.interp(xs, [-1.0, 0.0, 1.0], [3.0, 1.0, 2.0])
+    columns = dict(zip(program.parameters, numbers.T, strict=True))
+    for d in range(6):
+        one, two = columns["a"][d], columns["b"][d]
+        rows = {"y": there * two + one, "late": np.where(np.exp(xs) < 2.0, there, one), "load": there}
+        for name, row in rows.items():
+            assert got[f"{name}.sum"][d] == pytest.approx(row[held].sum(), rel=1e-12)
+            assert got[f"{name}.max"][d] == pytest.approx(row[held].max(), rel=1e-14)
+            assert row[got[f"{name}.argmin"][d]] == pytest.approx(row[held].min(), rel=1e-14)

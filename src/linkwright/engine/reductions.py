@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
-from linkwright.engine.replay import inlined
+from linkwright.engine.replay import along_input, inlined
 from linkwright.engine.trace import Scalar, Trace
 
 Kind = Literal[
@@ -155,6 +155,14 @@ class Accumulation:
             for name, reduction in self.read.items()
         }
         return Program.of(t, inlined(self.after, t, found))
+
+    @cached_property
+    def apart(self) -> tuple[Program, Accumulation] | None:
+        """What is the same for all designs, and the rest; None where that is not worth while."""
+        parted = along_input(self.program)
+        if parted is None:
+            return None
+        return parted[0], Accumulation(parted[1], self.reductions, self.valid, self.after)
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:

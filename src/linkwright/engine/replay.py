@@ -32,7 +32,11 @@ class Replay:
         self.values: dict[int, Scalar] = {}
         self._given = inputs or {}
         for index in range(len(program.nodes)) if chosen is None else chosen:
-            self.values[index] = self._written(program.nodes[index])
+            self.write(index)
+
+    def write(self, index: int) -> None:
+        """Write a line whose arguments are there."""
+        self.values[index] = self._written(self.program.nodes[index])
 
     @property
     def outputs(self) -> dict[str, Scalar | bool]:
@@ -111,3 +115,37 @@ def across_designs(program: Program) -> Program:
     """A program without positions and states with its parameters as positions: the lanes are designs."""
     t = Trace()
     return Program.of(t, inlined(program, t, {name: t.position(name) for name in program.parameters}))
+
+
+def along_input(program: Program) -> tuple[Program, Program] | None:
+    """What depends on the positions alone, as a program of its own, and the rest with its outputs as positions.
+
+    None where that holds no function and no look-up, so that it would not pay.
+    """
+    alone: set[int] = set()
+    for index, node in enumerate(program.nodes):
+        if node.op in ("position", "constant") or (node.args and all(a in alone for a in node.args)):
+            alone.add(index)
+    dear = [i for i in alone if program.nodes[i].op == "lookup" or _is_dear(program.nodes[i].op)]
+    if not any(program.nodes[i].varies for i in dear):
+        return None
+    replay = Replay(program, ())
+    for index, node in enumerate(program.nodes):
+        if index in alone and node.args and node.varies and not program.yields_truth(index):
+            replay.values[index] = replay.trace.position(f"{_ALONE}{index}")
+        else:
+            replay.write(index)
+    following = {name: replay.values[i] for name, i in program.next_states}
+    rest = Program.of(replay.trace, replay.outputs, following)
+    wanted = [name for name in rest.positions if name.startswith(_ALONE)]
+    return Program(program.nodes, tuple((name, int(name.removeprefix(_ALONE))) for name in wanted)).only(
+        wanted
+    ), rest
+
+
+#: Prefix of the positions that are found from the positions given.
+_ALONE = "along:"
+
+
+def _is_dear(op: str) -> bool:
+    return op in FUNCTIONS and bool(FUNCTIONS[op].library)

@@ -27,6 +27,8 @@ Arrays = Mapping[str, ArrayLike]
 
 #: Below this number of configurations NumPy has answered before a program is compiled.
 _WORTH_COMPILING = 20_000
+#: From this number of designs on, what is the same for all of them is found beforehand.
+_WORTH_PARTING = 4
 _NUMPY_CHUNK = 1 << 18
 
 
@@ -180,7 +182,15 @@ def blank(results: Results, failed: NDArray[np.bool_]) -> None:
 def reduced(
     accumulation: Accumulation, table: Floats, fields: Arrays, start: Floats | None, run: Run
 ) -> Results:
-    """Reductions of some designs, by their own names, on the back end that is asked for."""
+    """Reductions of some designs, by their own names, on the back end that is asked for.
+
+    ``table``: (designs, parameters) in the order of ``accumulation.parameters``.
+    """
+    if len(table) >= _WORTH_PARTING and accumulation.apart is not None:
+        alone, accumulation = accumulation.apart
+        rows = numpy_program(alone).run((), run.positions, length=run.length, tables=run.tables)
+        found = dict(zip(alone.output_names, rows, strict=True))
+        run = Run({**run.positions, **found}, run.length, run.tables, run.threads, run.backend)
     compiled = _compiled(accumulation.program, accumulation, run, len(table))
     if compiled is None:
         return _by_numpy(accumulation, table, fields, start, run)
