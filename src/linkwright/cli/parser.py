@@ -1,33 +1,16 @@
-"""Reading a command's options, with messages in the user's language and the nearest name for a slip."""
+"""The options of a command as they are declared, and its help in the user's language."""
 
 from __future__ import annotations
 
 import argparse
-import re
 from collections.abc import Sequence
-from typing import NoReturn
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.reading import read
 from linkwright.words import Say
-
-_VALUE_WITH_MINUS = re.compile(r"-[\d.]")
-#: argparse's sentences, and ours for them.
-_SENTENCES = (
-    (re.compile(r"the following arguments are required: (?P<names>.+)"), "cli.missing"),
-    (re.compile(r"argument (?P<name>\S+): expected (?:one|at least one) argument"), "cli.needs_value"),
-    (
-        re.compile(
-            r"argument (?P<name>\S+): invalid choice: '(?P<value>.*)' \(choose from (?P<choices>.+)\)"
-        ),
-        "cli.bad_choice",
-    ),
-    (re.compile(r"argument (?P<name>\S+): invalid int value: '(?P<value>.*)'"), "cli.bad_whole"),
-    (re.compile(r"argument (?P<name>\S+): not allowed with argument (?P<other>\S+)"), "cli.not_together"),
-)
 
 
 class CommandParser(argparse.ArgumentParser):
-    """argparse's parser that raises UsageError instead of leaving, and speaks the user's language."""
+    """The declared options of a command and its help; ``reading`` takes the words apart."""
 
     def __init__(self, prog: str, say: Say, *, description: str = "", epilog: str = "") -> None:
         super().__init__(
@@ -42,26 +25,9 @@ class CommandParser(argparse.ArgumentParser):
         self._positionals.title = say("cli.arguments")
         self._optionals.title = say("cli.options")
 
-    def error(self, message: str) -> NoReturn:
-        """Raises UsageError with the sentence."""
-        for pattern, key in _SENTENCES:
-            if match := pattern.fullmatch(message):
-                message = self.say(key, **match.groupdict())
-                break
-        raise UsageError(f"{message}{self.say('cli.see_help', command=self.prog)}")
-
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
-        """The options; raises UsageError for what is not known, with the nearest known name."""
-        options, unknown = self.parse_known_args(_joined(arguments))
-        if not unknown:
-            return options
-        word = unknown[0].split("=")[0]
-        key = "cli.unknown_option" if word.startswith("-") else "cli.unknown_argument"
-        message = self.say(key, name=word)
-        offer = nearest_of(word, list(self._option_string_actions)) if word.startswith("-") else None
-        if offer:
-            raise UsageError(f"{message}{self.say('cli.did_you_mean', name=offer)}")
-        raise UsageError(f"{message}{self.say('cli.see_help', command=self.prog)}")
+        """The options; raises UsageError for what is wrong with them."""
+        return read(self, arguments)
 
     def format_usage(self) -> str:
         """The line of usage, headed in the user's language."""
@@ -90,9 +56,6 @@ def whole_number(text: str) -> int:
     return number
 
 
-whole_number.__name__ = "int"
-
-
 def add_common(parser: argparse.ArgumentParser, say: Say) -> None:
     """Options that every command has."""
     group = parser.add_argument_group(say("cli.common"))
@@ -100,14 +63,3 @@ def add_common(parser: argparse.ArgumentParser, say: Say) -> None:
     group.add_argument("--lang", metavar="en|zh", help=say("cli.lang_help"))
     group.add_argument("--debug", action="store_true", help=say("cli.debug_help"))
     group.add_argument("-h", "--help", action="store_true", help=say("cli.help_help"))
-
-
-def _joined(arguments: Sequence[str]) -> list[str]:
-    """Joins ``--at -30deg`` to ``--at=-30deg``, as a value may begin with a minus."""
-    found: list[str] = []
-    for word in arguments:
-        if found and found[-1].startswith("--") and "=" not in found[-1] and _VALUE_WITH_MINUS.match(word):
-            found[-1] += f"={word}"
-        else:
-            found.append(word)
-    return found

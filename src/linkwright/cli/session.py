@@ -5,17 +5,21 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from linkwright.cli.errors import OutputError
+from linkwright.errors import Finding
 from linkwright.words import Say
 from linkwright.words.carried import terminal_text
 from linkwright.words.sentence import Sentence
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
+BOLD = "1"
+#: Red, yellow, cyan.
+COLOURS = {"error": "31", "warning": "33", "note": "36"}
 
 
 @dataclass(frozen=True)
@@ -49,11 +53,32 @@ class Session:
 
     def strong(self, text: str) -> str:
         """Bold text where the standard output is a terminal that wants it."""
-        return f"\x1b[1m{text}\x1b[0m" if _coloured(sys.stdout.isatty()) else text
+        return _in(BOLD, text) if _coloured(sys.stdout.isatty()) else text
 
     def alarm(self, text: str) -> str:
         """Red text where the standard error is a terminal that wants it."""
-        return f"\x1b[31m{text}\x1b[0m" if _coloured(sys.stderr.isatty()) else text
+        return _in(COLOURS["error"], text) if _coloured(sys.stderr.isatty()) else text
+
+    def finding(self, found: Finding) -> str:
+        """A finding in the chosen language; on a terminal the place bold, the rest by its severity."""
+        said = found.say(self.language)
+        if not _coloured(sys.stdout.isatty()):
+            return said
+        place = "".join(f"{part}: " for part in (found.where, found.key) if part)
+        return (
+            self.strong(place.rstrip()) + " " * bool(place) + _in(COLOURS[found.severity], said[len(place) :])
+        )
+
+    def table(self, lines: Sequence[str], heads: int = 1) -> list[str]:
+        """Lines of a table, the first ``heads`` bold and those that begin with ! yellow on a terminal."""
+        if not _coloured(sys.stdout.isatty()):
+            return list(lines)
+        body = (_in(COLOURS["warning"], line) if line.startswith("!") else line for line in lines[heads:])
+        return [*map(self.strong, lines[:heads]), *body]
+
+
+def _in(code: str, text: str) -> str:
+    return f"\x1b[{code}m{text}\x1b[0m" if text else text
 
 
 @contextmanager

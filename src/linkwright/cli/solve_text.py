@@ -23,10 +23,10 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         *_table(solved, options, session),
         beneath.extremes(solved, say, degrees=degrees),
         beneath.checks(solved, say),
-        beneath.closeness(solved.motion, session.language),
+        session.table(beneath.closeness(solved.motion, session.language), heads=0),
         beneath.failures(solved, say, session.language, degrees=degrees),
         [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
-        [finding.say(session.language) for finding in solved.warnings],
+        [session.finding(finding) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []
     return lines
@@ -37,7 +37,8 @@ def _table(solved: Solved, options: argparse.Namespace, session: Session) -> tup
     if not solved.motion.inputs and not options.columns:
         return [], []
     shown, left_out = _chosen(solved, options, session)
-    return table(_headed(shown, solved, session.say), session.say), [left_out] if left_out else []
+    lines = table(_headed(shown, solved, session.say), session.say)
+    return session.table(lines, heads=len(lines) - len(solved.rows)), [left_out] if left_out else []
 
 
 def _structure_line(solved: Solved, say: Say) -> str:

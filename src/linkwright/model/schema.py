@@ -12,6 +12,8 @@ from linkwright.model.read_joints import JOINT_FIELDS
 from linkwright.model.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
 from linkwright.model.read_model import HEADER, WORDS
 
+#: Version of the format of model files.
+FORMAT = 1
 _NAME_PATTERN = r"^[^\W\d][\w'-]*$"
 
 
@@ -45,6 +47,7 @@ def json_schema() -> Schema:
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:linkwright:model:{FORMAT}",
         "title": "Linkwright model",
         "type": "object",
         "properties": properties,

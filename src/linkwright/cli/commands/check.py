@@ -65,10 +65,10 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
 
 def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:
     for finding in found:
-        session.show(finding.say(session.language))
+        session.show(session.finding(finding))
     errors = sum(finding.severity == "error" for finding in found)
     if errors:
-        session.show(session.say("check.faulty", name=name, count=errors))
+        session.show(session.strong(session.say("check.faulty", name=name, count=errors)))
     else:
         session.show(session.say("check.fine", name=name, links=fact["links"], mobility=fact["mobility"]))
 

@@ -109,7 +109,7 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
     if session.json:
         session.show(json_text(found.data()))
         return
-    session.show(found.text(session.language))
+    session.show("\n".join(session.table(found.text(session.language).splitlines())))
     for path in (options.output, options.curves, options.plot):
         if path is not None:
             session.show(session.say("cli.written", path=Path(path)))

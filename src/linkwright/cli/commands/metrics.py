@@ -114,8 +114,12 @@ def _report(table: MetricsTable, session: Session) -> list[str]:
     if not table.rows:
         return [session.strong(table.title), "", say("metrics.nothing")]
     warnings = _ordered_warnings(table, session.language)
-    lines = [session.strong(table.title), "", *_lines(table, session)]
-    return [*lines, *([""] if warnings else []), *(f"! {warning}" for warning in warnings)]
+    lines = [session.strong(table.title), "", *session.table(_lines(table, session))]
+    return [
+        *lines,
+        *([""] if warnings else []),
+        *session.table([f"! {warning}" for warning in warnings], heads=0),
+    ]
 
 
 def _lines(table: MetricsTable, session: Session) -> list[str]:

@@ -91,7 +91,7 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
     if session.json:
         session.show(json_text(found.data()))
         return
-    session.show(found.text(session.language, max(2, options.rows)))
+    session.show("\n".join(session.table(found.text(session.language, max(2, options.rows)).splitlines())))
     for written in (options.output, options.plot):
         if written is not None:
             session.show()

@@ -66,4 +66,7 @@ All commands: linkwright --help""",
     "severity.error": "error",
     "severity.warning": "warning",
     "severity.note": "note",
+    "see_help_of": "see {command} --help",
+    "takes_no_value": "{name} takes no value",
+    "bad_number": '{name} takes a number, not "{value}"',
 }

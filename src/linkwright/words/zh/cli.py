@@ -64,4 +64,7 @@ Linkwright 读取描述平面机构的简短文本文件，回答设计者的问
     "severity.error": "错误",
     "severity.warning": "警告",
     "severity.note": "提示",
+    "see_help_of": "参见 {command} --help",
+    "takes_no_value": "{name} 不带值",
+    "bad_number": "{name} 应为数，而不是“{value}”",
 }
