@@ -64,6 +64,7 @@ COMMANDS = {
     "follower": "vibration",
     "mounts": "vibration",
     "statistics": "statistics",
+    "program": "program",
 }
 
 

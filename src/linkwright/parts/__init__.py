@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from linkwright.parts.file import load as load
     from linkwright.parts.file import loads as loads
     from linkwright.parts.file import schema as schema
+    from linkwright.parts.programs.problem import Variable as Variable
+    from linkwright.parts.programs.program import Program as Program
     from linkwright.parts.statics.belt import Belt as Belt
     from linkwright.parts.statics.body import RigidBody as RigidBody
     from linkwright.parts.statics.body import Support as Support
@@ -70,5 +72,7 @@ offer(
             "Limits",
             "Samples",
         ),
+        "linkwright.parts.programs.problem": ("Variable",),
+        "linkwright.parts.programs.program": ("Program",),
     },
 )

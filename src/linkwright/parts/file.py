@@ -31,6 +31,7 @@ KINDS: Mapping[str, str] = {
     "follower": "linkwright.parts.vibration.follower.FollowerSpring",
     "mounts": "linkwright.parts.vibration.mounts.Mounts",
     "statistics": "linkwright.parts.statistics.samples.Samples",
+    "program": "linkwright.parts.programs.program.Program",
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {

@@ -136,4 +136,5 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.mounts": "shaking force, motion, force on the ground",
     "frequency": "frequency",
     "kind.samples": "samples",
+    "kind.optimum": "constraints and optimum",
 }

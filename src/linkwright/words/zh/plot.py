@@ -135,4 +135,5 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.mounts": "震动力、位移、传到地基的力",
     "frequency": "频率",
     "kind.samples": "样本",
+    "kind.optimum": "约束与最优点",
 }

@@ -1,0 +1,386 @@
+"""A program from a small file: minimise or maximise an expression of variables under constraints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from linkwright import units
+from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.model import expressions
+from linkwright.model.fields import Field
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Scalar
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.display import UNITS, shown, si_unit
+from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
+from linkwright.parts.programs.conflict import conflict
+from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
+from linkwright.parts.programs.linear import feasible, runaway, solve_linear
+from linkwright.parts.programs.nonlinear import (
+    ENUMERATED,
+    branch,
+    combinations,
+    enumerate_all,
+    multipliers,
+    solve_nonlinear,
+)
+from linkwright.parts.programs.problem import Model, Variable
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.words.sentence import Sentence
+from linkwright.worked.page import Step
+
+if TYPE_CHECKING:
+    from linkwright.model.nodes import Node
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+#: A constraint is active within this share of the size of its sides.
+ACTIVE = 1e-6
+#: A variable beyond this multiple of its scale has run away.
+AWAY = 1e6
+
+
+def _variable(**given: Any) -> Variable:
+    ends = {name: given[name][0] for name in ("low", "high", "start") if given.get(name)}
+    choices = tuple(sorted(value for value, _ in given.get("choices", ())))
+    kinds = [given[name][1] for name in ("low", "high", "start") if given.get(name) and given[name][0]]
+    kinds += [kind for _, kind in given.get("choices", ())]
+    kinds = [kind for kind in kinds if kind != units.NONE] or [units.NONE]
+    return Variable(**ends, integer=bool(given.get("integer")), choices=choices, dimension=kinds[0])
+
+
+VARIABLE = {
+    "low": AnyQuantity(key="from", doc="lower bound, none unless given"),
+    "high": AnyQuantity(key="to", doc="upper bound, none unless given"),
+    "integer": Flag(doc="true: whole numbers only"),
+    "choices": Listed(AnyQuantity(), "[1 mm, 1.25 mm]", doc="the values that it may take"),
+    "start": AnyQuantity(doc="where a search begins"),
+}
+
+
+@dataclass(frozen=True)
+class Objective(Field):
+    """An expression of the variables and parameters."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Formula | None:
+        text, variables = reader.text(node, place), given.get("variables")
+        if text is None or variables is None:
+            return None
+        try:
+            return formula(text, _kinds(reader.kinds, variables), reader.values)
+        except QuantityError as error:
+            reader.quantity_error(error, node, place, text)
+            return None
+
+    def shape(self) -> dict[str, Any]:
+        return {"type": "string"}
+
+
+@dataclass(frozen=True)
+class Conditions(Field):
+    """Constraints by name: ``left <= right``, ``left >= right``, ``left = right``, ``low <= expression <= high``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        mapping, variables = reader.mapping(node, place), given.get("variables")
+        found: list[Constraint] = []
+        for entry in mapping.entries if isinstance(mapping, MappingNode) and variables is not None else []:
+            child = place.child(entry.key.text)
+            text = entry.value.text if isinstance(entry.value, Scalar) else reader.text(entry.value, child)
+            try:
+                kinds = _kinds(reader.kinds, variables or {})
+                found += constraint(entry.key.text, text or "", kinds, reader.values)
+            except QuantityError as error:
+                reader.error(entry.value, child, error.message, error.remedy, error.code)
+        return tuple(found)
+
+    def shape(self) -> dict[str, Any]:
+        return {"type": "object", "additionalProperties": {"type": "string"}}
+
+
+def _kinds(known: Mapping[str, Any], variables: Mapping[str, Variable | None]) -> dict[str, units.Dimension]:
+    return {**known, **{name: v.dimension for name, v in variables.items() if v is not None}}
+
+
+@dataclass(frozen=True)
+class Program(Problem):
+    """``minimize`` or ``maximize`` a formula of ``variables`` subject to constraints; :meth:`of` reads texts."""
+
+    kind: ClassVar[str] = "program"
+    fields: ClassVar[Mapping[str, Any]] = {
+        "variables": Named(Table(VARIABLE, _variable), "variable", required=True,
+                           doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]"),
+        "minimize": Objective(doc="what is to be small, an expression"),
+        "maximize": Objective(doc="or what is to be large"),
+        "subject_to": Conditions(doc="constraints by name: 2*x + y <= 100"),
+    }  # fmt: skip
+    variables: Mapping[str, Variable]
+    minimize: Formula | None = None
+    maximize: Formula | None = None
+    subject_to: tuple[Constraint, ...] = field(default_factory=tuple)
+    name: str = ""
+    source: str = ""
+
+    @classmethod
+    def of(
+        cls, variables: Mapping[str, Variable], *, minimize: str = "", maximize: str = "",
+        subject_to: Mapping[str, str] | None = None, parameters: Mapping[str, str] | None = None, name: str = "",
+    ) -> Program:  # fmt: skip
+        """A program from texts; ``parameters`` are quantities by name. Raises QuantityError."""
+        kinds, values = dict[str, units.Dimension](), dict[str, float]()
+        for key, text in (parameters or {}).items():
+            expression = expressions.parse_any(text, kinds)
+            kinds[key], values[key] = expression.dimension(kinds), float(expression.evaluate(values))
+        known = {**kinds, **{key: v.dimension for key, v in variables.items()}}
+        limits = [c for key, text in (subject_to or {}).items() for c in constraint(key, text, known, values)]
+        low, high = (formula(text, known, values) if text else None for text in (minimize, maximize))
+        return cls(variables, low, high, tuple(limits), name)
+
+    @property
+    def model(self) -> Model:
+        """The program in numbers."""
+        objective = self.minimize or self.maximize
+        assert objective is not None
+        return Model(self.variables, objective, 1 if self.minimize else -1, self.subject_to)
+
+    def findings(self) -> list[Finding]:
+        found = [] if self.variables else [fault("program.no_variables", "variables")]
+        if (self.minimize is None) == (self.maximize is None):
+            found.append(fault("program.one_objective", "minimize" if self.minimize else ""))
+        for name, v in self.variables.items():
+            if v.least > v.most:
+                found.append(fault("program.bounds", f"variables.{name}", low=self.shown(name, v.least),
+                                   high=self.shown(name, v.most)))  # fmt: skip
+        return found
+
+    def shown(self, variable: str, value: float) -> str:
+        """A variable's value with its unit."""
+        return in_unit(value, self.variables[variable].dimension)
+
+    def solve(self) -> Optimum:
+        """The optimum. Raises ModelError with all findings; for a program without solution with the constraints that
+        cannot hold together, for one without limit with the direction in which it runs away."""
+        self.require()
+        return self._linear() if self.model.linear and not self._choosing else self._nonlinear()
+
+    @property
+    def _choosing(self) -> bool:
+        return any(v.choices for v in self.variables.values())
+
+    def _linear(self) -> Optimum:
+        model = self.model
+        found = solve_linear(model)
+        if found is not None:
+            return Optimum(self, found.x, "integer" if found.prices is None else "linear", found.prices)
+        if not feasible(model):
+            raise self._no_solution(feasible)
+        way = runaway(model)
+        moving = tuple(
+            f"{name} {'↑' if step > 0 else '↓'}"
+            for name, step, size in zip(self.variables, way, model.sizes, strict=True)
+            if abs(step) > 1e-9 * size
+        )
+        raise ModelError([fault("program.unbounded", "subject_to", variables=moving)])
+
+    def _nonlinear(self) -> Optimum:
+        model = self.model
+        count = combinations(model)
+        if count is not None and count <= ENUMERATED:
+            found = enumerate_all(model)
+            if found is None:
+                raise self._no_solution(lambda m: enumerate_all(_aimless(m)) is not None)
+            return Optimum(self, found.x, "enumerated", None, combinations=count)
+        if any(v.discrete for v in self.variables.values()):
+            found, way = branch(model), "branched"
+        else:
+            found, way = solve_nonlinear(model), "nonlinear"
+        if found is None:
+            raise self._no_solution(lambda m: solve_nonlinear(_aimless(m), 6) is not None)
+        if (np.abs(found.x) > AWAY * model.sizes).any():
+            far = tuple(
+                n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s
+            )
+            raise ModelError([fault("program.unbounded", "subject_to", variables=far)])
+        prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
+        return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
+
+    def _no_solution(self, possible: Any) -> ModelError:
+        names, bounds = conflict(self.model, possible)
+        texts = tuple(f"{c.name} ({c.text})" for c in self.subject_to if c.name in names)
+        for name, side in bounds:
+            value = self.shown(name, getattr(self.variables[name], side))
+            texts += (f"{name} {'>=' if side == 'low' else '<='} {value}",)
+        if not texts:
+            texts = (Sentence("program.whole_numbers"),)
+        key = f"subject_to.{names[0]}" if names else "variables"
+        return ModelError([fault("program.infeasible", key, set=texts)])
+
+
+def _aimless(model: Model) -> Model:
+    """The same constraints without an aim."""
+    return Model(model.variables, formula("0", {}, {}), 1, model.constraints)
+
+
+def in_unit(value: float, kind: units.Dimension, digits: int = 6) -> str:
+    """A value in the unit of its kind as results show it."""
+    for name, dimension in units.DIMENSIONS.items():
+        if dimension == kind:
+            return shown(value, name, digits)
+    return f"{value:.{digits}g} {units.si_symbol(kind)}".rstrip()
+
+
+def unit_of(kind: units.Dimension) -> tuple[str, float]:
+    """The unit of a kind as results show it, and the factor from SI."""
+    for name, dimension in units.DIMENSIONS.items():
+        if dimension == kind:
+            return UNITS.get(name, (si_unit(name), 1.0))
+    return units.si_symbol(kind), 1.0
+
+
+@dataclass(frozen=True, repr=False)
+class Optimum(Result):
+    """The optimum: ``x`` (SI) by variable, ``value``, and for every constraint how it stands.
+
+    ``way``: linear, integer, nonlinear, enumerated, branched. ``prices``: change of the objective per unit of each
+    constraint's right side (SI), where it is known. ``agreed``: starts that came to this optimum, of how many;
+    ``gap``: how far the condition of Karush, Kuhn and Tucker is from holding, scaled.
+    """
+
+    area: ClassVar[str] = "program"
+    program: Program
+    values: Floats
+    way: str
+    _prices: Floats | None
+    agreed: tuple[int, int] = (1, 1)
+    gap: float = 0.0
+    combinations: int = 0
+
+    @property
+    def title(self) -> str:
+        return self.program.name
+
+    @property
+    def x(self) -> dict[str, float]:
+        """The variables, SI."""
+        return dict(zip(self.program.variables, self.values.tolist(), strict=True))
+
+    @cached_property
+    def point(self) -> dict[str, Floats]:
+        """The optimum as columns of one value, for formulas."""
+        return self.program.model.point(self.values[:, None])
+
+    @property
+    def value(self) -> float:
+        """The objective, SI."""
+        return float(self.program.model.objective.value(self.point)[0])
+
+    @property
+    def prices(self) -> dict[str, float]:
+        """Change of the objective, as it was given, per unit of each constraint's right side, SI."""
+        if self._prices is None:
+            return {}
+        sign = self.program.model.sign
+        pairs = zip(self.program.subject_to, self._prices, strict=True)
+        # a price counts the excess' right side; that of >= is turned round
+        return {c.name: float(sign * price * (-1.0 if c.sense == ">=" else 1.0)) + 0.0 for c, price in pairs}
+
+    def slack(self, constraint: Constraint) -> float:
+        """How much is left until the constraint becomes active, SI."""
+        return -float(constraint.excess(self.point)[0])
+
+    def active(self, constraint: Constraint) -> bool:
+        """Whether it holds with equality."""
+        sides = [abs(float(side.value(self.point)[0])) for side in (constraint.left, constraint.right)]
+        return constraint.sense == "=" or self.slack(constraint) <= ACTIVE * max(*sides, 1e-300)
+
+    def blocks(self, say: Say) -> list[Block]:
+        objective = self.program.model.objective
+        rows = [Row(name, _si(value, self.program.variables[name].dimension), "", name, self._at_bound(name, say))
+                for name, value in self.x.items()]  # fmt: skip
+        word = say("program.minimum" if self.program.minimize else "program.maximum")
+        rows.append(Row("objective", _si(self.value, objective.dimension), "", word))
+        found = [Block("optimum", say("program.optimum"), rows, (self._method(say),))]
+        limits = [self._limit_row(c, say) for c in self.program.subject_to]
+        if limits:
+            found.append(Block("constraints", say("program.constraints"), limits, self._explained(say)))
+        return found
+
+    def data(self) -> dict[str, Any]:
+        """Variables, objective, slacks and prices as numbers, SI."""
+        return {
+            "name": self.title, "way": self.way, "x": self.x, "objective": self.value,
+            "constraints": {
+                c.name: {"slack": self.slack(c), "active": self.active(c), "price": self.prices.get(c.name)}
+                for c in self.program.subject_to
+            },
+        }  # fmt: skip
+
+    def _method(self, say: Say) -> str:
+        return say(f"program.{self.way}", agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations,
+                   gap=f"{self.gap:.1e}")  # fmt: skip
+
+    def _at_bound(self, name: str, say: Say) -> str:
+        variable, value = self.program.variables[name], self.x[name]
+        for bound, word in ((variable.least, "program.at_lower"), (variable.most, "program.at_upper")):
+            if math.isfinite(bound) and abs(value - bound) <= ACTIVE * max(variable.size, abs(bound)):
+                return say(word)
+        return ""
+
+    def _limit_row(self, c: Constraint, say: Say) -> Row:
+        left, right = (
+            in_unit(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
+        )
+        state = (
+            say("program.active")
+            if self.active(c)
+            else say("program.slack", slack=in_unit(self.slack(c), c.left.dimension, 4))
+        )
+        return Row(c.name, f"{left} {c.sense} {right}", "", c.name, state)
+
+    def _explained(self, say: Say) -> tuple[str, ...]:
+        """What one more unit of every active constraint is worth."""
+        lines = []
+        for c in self.program.subject_to:
+            price = self.prices.get(c.name, 0.0)
+            if price:
+                kind = c.right.dimension if c.left.dimension == units.NONE else c.left.dimension
+                (unit, factor), (own, size) = unit_of(kind), unit_of(self.program.model.objective.dimension)
+                gain = f"{price * size / factor:+.6g} {own}".rstrip()
+                lines.append(say("program.price", name=c.name, unit=unit or "1", price=gain))
+        return tuple(lines)
+
+    def steps(self, say: Say) -> list[Step]:
+        task, found, test = (Step(str(i + 1), say(f"program.step_{i + 1}")) for i in range(3))
+        objective = self.program.model.objective
+        task.say(f"  {'min' if self.program.minimize else 'max'}  {objective.text}")
+        for c in self.program.subject_to:
+            task.say(f"  {c.name}:  {c.text}")
+        for name, v in self.program.variables.items():
+            allowed = f"{{{', '.join(self.program.shown(name, c) for c in v.choices)}}}" if v.choices else (
+                f"{self.program.shown(name, v.low)} ≤ {name} ≤ {self.program.shown(name, v.high)}")  # fmt: skip
+            task.say(
+                f"  {allowed}{' ∈ ℤ' if v.integer else ''}" if not v.choices else f"  {name} ∈ {allowed}"
+            )
+        found.say(self._method(say))
+        for name, value in self.x.items():
+            found.say(f"  {name} = {self.program.shown(name, value)}")
+        found.say(f"  f = {objective.text} = {in_unit(self.value, objective.dimension)}")
+        for c in self.program.subject_to:
+            row = self._limit_row(c, say)
+            test.say(f"  {c.name}: {row.value}   {row.note}")
+        for line in self._explained(say):
+            test.say(line)
+        if self.way == "nonlinear":
+            test.say(say("program.kkt"))
+            put(test, "|∇f + Σλ∇g|", "", self.gap)
+        return [task, found, test]
+
+
+def _si(value: float, kind: units.Dimension) -> str:
+    return in_unit(value, kind)

@@ -1,0 +1,85 @@
+"""Diagrams of programs: the feasible region of two variables, or how far each constraint is used."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kinematics.cycle import Floats
+from linkwright.parts.programs.problem import Variable
+from linkwright.parts.programs.program import Optimum, unit_of
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+GRID = 241
+
+
+@RESULT_DIAGRAMS.register("optimum")
+class OptimumDiagram(ResultKind):
+    """Contours of the objective over two variables with the region that the constraints leave; else bars."""
+
+    name = "optimum"
+    takes = Optimum
+
+    def draw(self, result: Optimum, request: Request) -> Figure:
+        figure = new_figure(request.size or (6.6, 5.2))
+        axes = figure.subplots()
+        if len(result.x) == 2:
+            _region(axes, result)
+        else:
+            _bars(axes, result)
+        framed(figure, f"{result.title}: {request.say('kind.optimum')}", request)
+        return figure
+
+
+def _span(variable: Variable, value: float) -> Floats:
+    """Places around the optimum, within the bounds."""
+    reach = 0.9 * abs(value) if value else variable.size
+    low, high = value - reach, value + reach
+    low = max(low, variable.least) if math.isfinite(variable.least) else low
+    high = min(high, variable.most) if math.isfinite(variable.most) else high
+    return np.linspace(low, high if high > low else low + 1.0, GRID)
+
+
+def _region(axes: Axes, result: Optimum) -> None:
+    names = list(result.x)
+    spans = [_span(result.program.variables[n], result.x[n]) for n in names]
+    u, v = (each.ravel() for each in np.meshgrid(*spans))
+    point = dict(zip(names, (u, v), strict=True))
+    scales = [unit_of(result.program.variables[n].dimension) for n in names]
+    x, y = (span * scale[1] for span, scale in zip(spans, scales, strict=True))
+    value = result.program.model.objective.value(point).reshape(GRID, GRID)
+    kept = np.ones(len(u), dtype=bool)
+    for number, c in enumerate(result.program.subject_to):
+        excess = c.excess(point)
+        if c.sense != "=":
+            kept &= excess <= 0.0
+        if (excess > 0).any() and (excess < 0).any():
+            drawn = axes.contour(x, y, excess.reshape(GRID, GRID), [0.0], colors=[COLOURS[(number + 1) % 8]])
+            axes.clabel(drawn, fmt={0.0: c.name}, fontsize=7.5)
+    axes.contourf(x, y, kept.reshape(GRID, GRID).astype(float), [0.5, 1.5], colors=[SHADE], alpha=0.6)
+    axes.contour(x, y, value, 14, colors=[FAINT], linewidths=0.7)
+    axes.plot(result.x[names[0]] * scales[0][1], result.x[names[1]] * scales[1][1], "o", color=INK)
+    axes.set_xlabel(f"{names[0]} ({scales[0][0]})" if scales[0][0] else names[0])
+    axes.set_ylabel(f"{names[1]} ({scales[1][0]})" if scales[1][0] else names[1])
+
+
+def _bars(axes: Axes, result: Optimum) -> None:
+    """For every constraint, how much of the larger of its sides is not left over."""
+    limits = result.program.subject_to
+    used = []
+    for c in limits:
+        sides = [abs(float(side.value(result.point)[0])) for side in (c.left, c.right)]
+        used.append(1.0 - max(result.slack(c), 0.0) / max(*sides, 1e-300) if c.sense != "=" else 1.0)
+    colours = [COLOURS[1] if result.active(c) else COLOURS[0] for c in limits]
+    axes.barh([c.name for c in limits], 100 * np.array(used), color=colours)
+    axes.set_xlim(0.0, 105.0)
+    axes.set_xlabel("%")
+    axes.invert_yaxis()
