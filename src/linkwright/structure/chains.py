@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter, deque
+from collections.abc import Mapping, Sequence, Set
+from heapq import heappop, heappush
 
 from linkwright.structure.group import Connection, Group, TreeJoint
 
@@ -11,15 +13,12 @@ SOLVED = ""
 DYADS = {"RRR": "RRR", "RRP": "RRP", "PRR": "RRP", "RPR": "RPR", "PRP": "PRP", "RPP": "RPP", "PPR": "RPP"}
 
 
-def make_group(
-    links: Sequence[str], connections: Sequence[Connection], solved: Sequence[str], redundant: tuple[str, ...]
-) -> Group:
+def make_group(links: Sequence[str], connections: Sequence[Connection], solved: Set[str]) -> Group:
     """A group from its links and joints: spanning chains, cuts, class, order and signature."""
-    known = set(solved)
-    ranked = sorted(connections, key=lambda c: _rank(c, known))
-    chosen, cuts = _spanning(ranked, known)
-    tree = _rooted(chosen, known)
-    signature, assur_class, order = _classify(links, connections, known)
+    ranked = sorted(connections, key=lambda c: _rank(c, solved))
+    chosen, cuts = _spanning(ranked, solved)
+    tree = _rooted(chosen, solved)
+    signature, assur_class, order = _classify(links, connections, solved)
     return Group(
         name="+".join(links),
         links=tuple(links),
@@ -31,7 +30,7 @@ def make_group(
     )
 
 
-def _rank(connection: Connection, solved: set[str]) -> int:
+def _rank(connection: Connection, solved: Set[str]) -> int:
     """Rigid and driven joints hang first, then guides; of the pins the outer ones: the rest is cut."""
     if connection.kind == "weld":
         return 0
@@ -42,13 +41,14 @@ def _rank(connection: Connection, solved: set[str]) -> int:
     return 3 if connection.a in solved or connection.b in solved else 4
 
 
-def _spanning(ranked: Sequence[Connection], solved: set[str]) -> tuple[list[Connection], list[Connection]]:
+def _spanning(ranked: Sequence[Connection], solved: Set[str]) -> tuple[list[Connection], list[Connection]]:
     parent: dict[str, str] = {}
 
     def root(name: str) -> str:
         name = SOLVED if name in solved else name
-        while parent.get(name, name) != name:
-            name = parent[name]
+        while (above := parent.get(name, name)) != name:
+            parent[name] = parent.get(above, above)
+            name = above
         return name
 
     chosen, cuts = [], []
@@ -62,25 +62,33 @@ def _spanning(ranked: Sequence[Connection], solved: set[str]) -> tuple[list[Conn
     return chosen, cuts
 
 
-def _rooted(chosen: Sequence[Connection], solved: set[str]) -> list[TreeJoint]:
+def _rooted(chosen: Sequence[Connection], solved: Set[str]) -> list[TreeJoint]:
     """The chosen joints, each from a link that is already placed to the next, parents first."""
-    placed = set(solved)
-    waiting = list(chosen)
+    at: dict[str, list[int]] = {}
+    ready: list[int] = []
+    for number, connection in enumerate(chosen):
+        for link in (connection.a, connection.b):
+            if link in solved:
+                heappush(ready, number)
+            else:
+                at.setdefault(link, []).append(number)
+    placed: set[str] = set()
     tree: list[TreeJoint] = []
-    while waiting:
-        for connection in waiting:
-            if connection.a in placed or connection.b in placed:
-                parent = connection.a if connection.a in placed else connection.b
-                child = connection.other(parent)
-                tree.append(TreeJoint(connection, parent, child))
-                placed.add(child)
-                waiting.remove(connection)
-                break
+    while ready:
+        connection = chosen[heappop(ready)]
+        if all(link in solved or link in placed for link in (connection.a, connection.b)):
+            continue
+        parent = connection.a if connection.a in solved or connection.a in placed else connection.b
+        child = connection.other(parent)
+        tree.append(TreeJoint(connection, parent, child))
+        placed.add(child)
+        for number in at[child]:
+            heappush(ready, number)
     return tree
 
 
 def _classify(
-    links: Sequence[str], connections: Sequence[Connection], solved: set[str]
+    links: Sequence[str], connections: Sequence[Connection], solved: Set[str]
 ) -> tuple[str, int, int]:
     """Signature, class and order; links held together by a driver or a weld count as one."""
     merged = _merge(links, connections)
@@ -111,21 +119,28 @@ def _merge(links: Sequence[str], connections: Sequence[Connection]) -> dict[str,
 
 
 def _most_joints(bodies: Sequence[str], joints: Sequence[Connection], merged: dict[str, str]) -> int:
-    return max(sum(body in (merged.get(c.a), merged.get(c.b)) for c in joints) for body in bodies)
+    counted = Counter(body for c in joints for body in {merged.get(c.a), merged.get(c.b)})
+    return max(counted[body] for body in bodies)
 
 
 def _largest_contour(bodies: Sequence[str], inner: Sequence[Connection], merged: dict[str, str]) -> int:
     """Sides of the largest of the shortest closed contours of links through each inner joint."""
     edges = [(merged[c.a], merged[c.b]) for c in inner]
-    largest = 0
-    for skipped, (start, goal) in enumerate(edges):
-        distance = {start: 1}
-        queue = [start]
-        for body in queue:
-            for i, (a, b) in enumerate(edges):
-                other = b if a == body else a if b == body else None
-                if i != skipped and other is not None and other not in distance:
-                    distance[other] = distance[body] + 1
-                    queue.append(other)
-        largest = max(largest, distance.get(goal, 0))
-    return largest
+    beside: dict[str, list[tuple[int, str]]] = {body: [] for body in bodies}
+    for number, (a, b) in enumerate(edges):
+        beside[a].append((number, b))
+        beside[b].append((number, a))
+    return max((_contour(beside, skipped, *edge) for skipped, edge in enumerate(edges)), default=0)
+
+
+def _contour(beside: Mapping[str, Sequence[tuple[int, str]]], skipped: int, start: str, goal: str) -> int:
+    """Links on the shortest way between two links without the joint between them; 0 if there is none."""
+    distance = {start: 1}
+    queue = deque([start])
+    while queue and goal not in distance:
+        body = queue.popleft()
+        for number, other in beside[body]:
+            if number != skipped and other not in distance:
+                distance[other] = distance[body] + 1
+                queue.append(other)
+    return distance.get(goal, 0)

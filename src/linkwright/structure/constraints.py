@@ -100,6 +100,7 @@ class _Classes:
 
     def root(self, name: str) -> str:
         while (above := self.parent.get(name, name)) != name:
+            self.parent[name] = self.parent.get(above, above)
             name = above
         return name
 

@@ -7,9 +7,10 @@ order (Dulmage and Mendelsohn 1958; Assur 1913; Galletti, Mech. Mach. Theory 21,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Set
 
 from linkwright.drivers.base import Driver
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
@@ -29,13 +30,8 @@ def structure(mechanism: Mechanism) -> Structure:
     graph = ConstraintGraph.of(mechanism)
     numbers = counts(mechanism)
     order = _solving_order(mechanism, graph, grubler(numbers) + len(graph.redundant))
-    driven = {driver.joint: driver for driver in mechanism.drivers.values()}
-    solved = [FRAME]
-    groups: list[Group] = []
-    for links in order:
-        connections = list(_connections(mechanism, links, solved, driven))
-        groups.append(make_group(links, connections, solved, tuple(graph.redundant)))
-        solved += links
+    grouping = _Grouping(mechanism)
+    groups = [grouping.next_group(links) for links in order]
     return Structure(
         grubler=grubler(numbers),
         redundant=tuple(graph.redundant),
@@ -114,54 +110,65 @@ def _refuse_free(
     raise explain_free(mechanism, [body for body in bodies if body in mechanism.links], len(free), mobility)
 
 
-def _connections(
-    mechanism: Mechanism, links: list[str], solved: list[str], driven: Mapping[str, Driver]
-) -> Iterable[Connection]:
-    """The joints of a group as pairs of links.
+class _Grouping:
+    """Makes the groups one after the other, each with the joints that hang it on the links before."""
 
-    A pin of many links hangs on the frame, or on a link next to it, if one of them is solved.
-    """
-    for joint in mechanism.joints.values():
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.joints = list(mechanism.joints.values())
+        self.numbers: dict[str, list[int]] = {}
+        self.grounded: set[str] = set()
+        for number, joint in enumerate(self.joints):
+            for link in dict.fromkeys(joint.joined):
+                self.numbers.setdefault(link, []).append(number)
+            if FRAME in joint.joined:
+                self.grounded.update(joint.joined)
+        self.drivers: dict[str, list[Driver]] = {}
+        for driver in mechanism.drivers.values():
+            self.drivers.setdefault(driver.joint, []).append(driver)
+        self.solved = {FRAME: 0}
+
+    def next_group(self, links: list[str]) -> Group:
+        """The group of these links."""
+        numbers = sorted({number for link in links for number in self.numbers.get(link, ())})
+        mine = set(links)
+        connections = [c for number in numbers for c in self._connections(self.joints[number], mine)]
+        group = make_group(links, connections, self.solved.keys())
+        for link in links:
+            self.solved[link] = len(self.solved)
+        return group
+
+    def _connections(self, joint: Joint, links: Set[str]) -> Iterable[Connection]:
+        """A joint of a group as pairs of links.
+
+        A pin of many links hangs on the frame, or on a link next to it, if one of them is solved.
+        """
         if isinstance(joint, RevoluteJoint):
-            yield from _pin_connections(mechanism, joint, links, solved)
-            continue
+            yield from self._pin_connections(joint, links)
+            return
         a, b = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.joined
-        if _touches(a, b, links, solved):
+        if all(link in links or link in self.solved for link in (a, b)):
             kind: Kind = "prismatic" if isinstance(joint, PrismaticJoint) else "weld"
-            driver = driven.get(joint.name)
+            driver = next(iter(self.drivers.get(joint.name, ())), None)
             yield Connection(joint.name, kind, a, b, driver.name if driver else None)
 
-
-def _pin_connections(
-    mechanism: Mechanism, joint: RevoluteJoint, links: list[str], solved: list[str]
-) -> Iterable[Connection]:
-    mine = [link for link in joint.links if link in links]
-    if not mine:
-        return
-    pairs = {
-        frozenset((driver.link, driver.relative_to)): driver.name
-        for driver in mechanism.drivers.values()
-        if driver.joint == joint.name
-    }
-    grounded = {link for other in mechanism.joints.values() if FRAME in other.joined for link in other.joined}
-    before = sorted((link for link in joint.links if link in solved), key=solved.index)
-    present = sorted(before, key=lambda link: (link != FRAME, link not in grounded)) + mine
-    ends = [*mine, *(link for link in present if link in solved)]
-    used: list[str] = []
-    for pair, driver in pairs.items():
-        if pair <= set(ends) and any(link in links for link in pair):
-            a, b = sorted(pair, key=present.index)
-            used.append(b)
-            yield Connection(joint.name, "revolute", a, b, driver)
-    base = present[0]
-    for link in mine:
-        if link != base and link not in used:
-            yield Connection(joint.name, "revolute", base, link)
-
-
-def _touches(a: str, b: str, links: list[str], solved: list[str]) -> bool:
-    known = {*links, *solved}
-    return a in known and b in known and (a in links or b in links)
+    def _pin_connections(self, joint: RevoluteJoint, links: Set[str]) -> Iterable[Connection]:
+        mine = [link for link in joint.links if link in links]
+        pairs = {
+            frozenset((driver.link, driver.relative_to)): driver.name
+            for driver in self.drivers.get(joint.name, ())
+        }
+        before = sorted((link for link in joint.links if link in self.solved), key=self.solved.__getitem__)
+        present = sorted(before, key=lambda link: (link != FRAME, link not in self.grounded)) + mine
+        used: list[str] = []
+        for pair, driver in pairs.items():
+            if pair <= set(present) and any(link in links for link in pair):
+                a, b = sorted(pair, key=present.index)
+                used.append(b)
+                yield Connection(joint.name, "revolute", a, b, driver)
+        base = present[0]
+        for link in mine:
+            if link != base and link not in used:
+                yield Connection(joint.name, "revolute", base, link)
 
 
 def _distinct(names: Iterable[str]) -> list[str]:

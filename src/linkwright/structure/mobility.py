@@ -42,6 +42,7 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
             neighbours.setdefault(body, set()).update(equation.bodies)
     found: list[list[str]] = []
     seen: set[str] = set()
+    file_order = {name: number for number, name in enumerate(mechanism.links)}
     for name in mechanism.links:
         if name in seen:
             continue
@@ -52,7 +53,7 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
                 reached.add(body)
                 stack.extend(neighbours[body])
         seen |= reached
-        found.append([link for link in mechanism.links if link in reached])
+        found.append(sorted(reached & file_order.keys(), key=file_order.__getitem__))
     return found
 
 
