@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.file import MAX_BYTES, check, load, loads, read_text
+from linkwright.model.file import check, load, loads, read_text
+from linkwright.model.source import MAX_BYTES
 
 MODEL = """\
 format: 1

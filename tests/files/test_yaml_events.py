@@ -8,8 +8,9 @@ import pytest
 from linkwright.model import events
 from linkwright.model.compose import compose
 from linkwright.model.events import _below
-from linkwright.model.file import gallery_names, loads, read_source
+from linkwright.model.file import gallery_names, loads
 from linkwright.model.nodes import Mapping, Node, Scalar
+from linkwright.model.source import read_source
 
 
 def texts_at(text: str) -> list[str]:

@@ -181,3 +181,31 @@ def test_code_without_the_function_is_refused() -> None:
     code = machine_code.object_code("define void @other(ptr %p) {\nret void\n}\n")
     with pytest.raises(RuntimeError, match=ENTRY):
         machine_code.Loaded(code, ENTRY)
+
+
+@pytest.mark.parametrize("content", [b"", b"short", b"x" * 33])
+def test_a_damaged_secret_is_made_anew_and_the_folder_serves_again(
+    base: Path, monkeypatch: pytest.MonkeyPatch, content: bytes
+) -> None:
+    assert works()
+    secret = base / "secret"
+    secret.write_bytes(content)
+    compiled = count_compilations(monkeypatch)
+    assert works()
+    assert len(secret.read_bytes()) == 32
+    assert works()
+    assert len(compiled) == 1, "the file that was written under the new secret is used"
+
+
+@posix
+def test_a_secret_that_others_can_read_is_made_anew(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert works()
+    secret = base / "secret"
+    known = secret.read_bytes()
+    secret.chmod(0o644)
+    compiled = count_compilations(monkeypatch)
+    assert works()
+    assert works()
+    assert len(compiled) == 1
+    assert secret.read_bytes() != known
+    assert secret.stat().st_mode & 0o077 == 0

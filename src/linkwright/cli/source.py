@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.file import read_source, read_text
+from linkwright.model.file import read_text
 from linkwright.model.mechanism import Mechanism
+from linkwright.model.source import read_source
 
 
 def read_model(source: str) -> tuple[Mechanism, list[Finding]]:

@@ -151,13 +151,17 @@ def _replace(path: Path, data: bytes) -> None:
 
 
 def _secret(base: Path, *, create: bool) -> bytes | None:
+    """The user's secret; one that is missing, cut short or readable by others is made anew where ``create``."""
     path = base / "secret"
-    if create and not path.exists():
-        _replace(path, secrets.token_bytes(_DIGEST))
-    if not path.is_file() or not _is_ours(path, private=True):
+    if path.is_file() and _is_ours(path, private=True):
+        secret = path.read_bytes()
+        if len(secret) == _DIGEST:
+            return secret
+    if not create:
         return None
-    secret = path.read_bytes()
-    return secret if len(secret) == _DIGEST else None
+    secret = secrets.token_bytes(_DIGEST)
+    _replace(path, secret)
+    return secret
 
 
 def _is_ours(path: Path, *, private: bool = False) -> bool:

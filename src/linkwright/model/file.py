@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 
 from linkwright.errors import Finding, ModelError
@@ -11,14 +10,11 @@ from linkwright.model.document import Document
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.nodes import Node, Scalar
 from linkwright.model.read_model import read_model
+from linkwright.model.source import gallery_names, read_source
 from linkwright.model.write import dump
-from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
 __all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
-
-MAX_BYTES = 5_000_000
-GALLERY = "gallery:"
 
 
 def load(source: str | Path) -> Mechanism:
@@ -85,122 +81,3 @@ def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
         )
         return None, findings or [empty]
     return root, findings
-
-
-def gallery_names() -> list[str]:
-    """Names of the models in the gallery."""
-    folder = resources.files("linkwright") / "gallery"
-    return sorted(
-        entry.name.removesuffix(".yaml") for entry in folder.iterdir() if entry.name.endswith(".yaml")
-    )
-
-
-def read_source(source: str | Path) -> tuple[str, str]:
-    """Text of a source, and the name of the file for findings."""
-    if isinstance(source, str) and source.startswith(GALLERY):
-        return _read_gallery(source.removeprefix(GALLERY))
-    path = Path(source)
-    try:
-        if path.is_dir():
-            raise _refuse(path, Sentence("model.folder"), Sentence("model.name_file_in"), "not-a-file")
-        if not path.exists():
-            raise _refuse(path, Sentence("model.no_file"), _near_file(path), "no-file")
-        size = path.stat().st_size
-        if size > MAX_BYTES:
-            raise _refuse(
-                path,
-                Sentence("model.file_size", size=size / 1000000.0),
-                Sentence("model.most_size", most=MAX_BYTES / 1000000.0),
-                "size",
-            )
-        with path.open("rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _refuse(
-            path, Sentence("model.unreadable", reason=reason), Sentence("model.check_permissions"), "no-file"
-        ) from None
-    if len(content) > MAX_BYTES:
-        raise _refuse(
-            path, Sentence("model.no_end"), Sentence("model.most_size", most=MAX_BYTES / 1000000.0), "size"
-        )
-    return decode(content, path.name), path.name
-
-
-def _refuse(path: Path, message: str, remedy: str, code: str) -> ModelError:
-    return ModelError([Finding("error", str(path), "", message, remedy, code)])
-
-
-def _near_file(path: Path) -> str:
-    folder = path.parent
-    names = [entry.name for entry in list(folder.iterdir())[:1000]] if folder.is_dir() else []
-    if not folder.is_dir():
-        return Sentence("model.no_folder", folder=folder)
-    near = nearest(path.name, names)
-    if near is None and path.name in gallery_names():
-        return Sentence("model.write_gallery", gallery=GALLERY, name=path.name)
-    return Sentence("names.did_you_mean", offer=near) if near else Sentence("model.check_path")
-
-
-def _read_gallery(name: str) -> tuple[str, str]:
-    names = gallery_names()
-    if name not in names:
-        near = nearest(name, names)
-        remedy = (
-            Sentence("names.did_you_mean", offer=f"{GALLERY}{near}")
-            if near
-            else Sentence("names.one_of", names=tuple(names))
-        )
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    GALLERY + name,
-                    "",
-                    Sentence("model.no_gallery_model", name=name),
-                    remedy,
-                    "no-file",
-                )
-            ]
-        )
-    content = (resources.files("linkwright") / "gallery" / f"{name}.yaml").read_bytes()
-    return decode(content, f"{name}.yaml"), f"{name}.yaml"
-
-
-def decode(content: bytes, name: str) -> str:
-    """Text of a file's bytes; raises ModelError with the place of the first byte that is not UTF-8."""
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise ModelError(
-            [Finding("error", name, "", Sentence("model.utf16"), Sentence("model.save_utf8"), "encoding")]
-        )
-    if b"\x00" in content:
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    name,
-                    "",
-                    Sentence("model.not_text", offset=content.index(0)),
-                    Sentence("model.name_text_file"),
-                    "encoding",
-                )
-            ]
-        )
-    try:
-        return content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        before = content[: error.start]
-        line, column = before.count(b"\n") + 1, len(before) - before.rfind(b"\n")
-        byte = content[error.start]
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    f"{name}:{line}:{column}",
-                    "",
-                    Sentence("model.not_utf8", byte=byte, start=error.start),
-                    Sentence("model.save_utf8"),
-                    "encoding",
-                )
-            ]
-        ) from None

@@ -10,13 +10,14 @@ from typing import Any, cast
 
 from linkwright.errors import Finding, ModelError
 from linkwright.model.fields import Count, Field, Free, Text, Word, table_schema
-from linkwright.model.file import read_root, read_source
+from linkwright.model.file import read_root
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar
 from linkwright.model.nodes import Sequence as SequenceNode
 from linkwright.model.plain_reader import Place
 from linkwright.model.read_model import FORMAT, read_parameters
 from linkwright.model.reader import Reader
+from linkwright.model.source import read_source
 from linkwright.parts.base import Problem
 
 #: Kinds of calculations: the class that holds the problem.

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkwright.model.fields import Text
-from linkwright.model.file import GALLERY, load
+from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
+from linkwright.model.source import GALLERY
 
 MECHANISM = Text(required=True, doc="model file of the mechanism, beside this file, or gallery:NAME")
 

@@ -11,9 +11,9 @@ from typing import Any
 from linkwright import units
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.model.compose import compose
-from linkwright.model.file import read_source
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
+from linkwright.model.source import read_source
 from linkwright.registry import nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence

@@ -37,7 +37,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
     from linkwright.kinematics import solve_motion
     from linkwright.kinematics.rank import analysed
-    from linkwright.model.file import read_source, read_text
+    from linkwright.model.file import read_text
+    from linkwright.model.source import read_source
 
     try:
         mechanism, found = read_text(*read_source(name))

@@ -244,4 +244,7 @@ WORDS = {
     "weld": "weld",
     "length_zero": "zero",
     "more_findings": "there are more than {count} findings; mend these first",
+    "no_regular_file": "this is neither a file nor a pipe",
+    "gives_nothing": "nothing comes from it",
+    "name_model_file": "name a model file",
 }

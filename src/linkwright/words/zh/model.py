@@ -243,4 +243,7 @@ WORDS = {
     "weld": "刚性连接",
     "length_zero": "零",
     "more_findings": "问题多于 {count} 个；请先改正以上各处",
+    "no_regular_file": "这既不是文件也不是管道",
+    "gives_nothing": "从中读不到任何内容",
+    "name_model_file": "请给出模型文件",
 }
