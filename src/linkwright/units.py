@@ -73,6 +73,34 @@ SI_UNITS: Mapping[str, str] = {
     "linear_density": "kg/m",
     "mass_moment": "kg·m",
 }
+#: What no machine reaches, in SI; a value beyond is a slip in a number or its unit, and squares of it stay finite.
+LARGEST: Mapping[str, float] = {
+    "dimensionless": 1e12,
+    "length": 1e7,
+    "angle": 1e9,
+    "time": 1e10,
+    "mass": 1e12,
+    "inertia": 1e24,
+    "velocity": 3e8,
+    "acceleration": 1e12,
+    "angular_velocity": 1e8,
+    "angular_acceleration": 1e14,
+    "frequency": 1e9,
+    "force": 1e15,
+    "torque": 1e18,
+    "power": 1e18,
+    "pressure": 1e14,
+    "area": 1e14,
+    "volume": 1e21,
+    "density": 1e8,
+    "stiffness": 1e18,
+    "damping": 1e18,
+    "torsional_stiffness": 1e21,
+    "torsional_damping": 1e21,
+    "second_moment_of_area": 1e12,
+}
+#: A size that must be above zero is not smaller in any machine, SI.
+SMALLEST = 1e-12
 USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "angular_velocity": "rpm"}
 
 _FORCE, _ENERGY, _POWER, _PRESSURE = (1, 1, -2, 0), (2, 1, -2, 0), (2, 1, -3, 0), (-1, 1, -2, 0)

@@ -15,9 +15,16 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import no_such
+from linkwright.units import LARGEST, SI_UNITS
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+
+#: Dimensions of a coordinate and its rates, by whether the driver turns.
+_RATES = {
+    True: ("angle", "angular_velocity", "angular_acceleration"),
+    False: ("length", "velocity", "acceleration"),
+}
 
 
 class CycleError(LinkwrightError):
@@ -64,8 +71,30 @@ def at_times(
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.isfinite(t).all():
         raise CycleError(Sentence("motion.bad_time"))
-    coordinates = {name: driver.law.coordinate(t) for name, driver in mechanism.drivers.items()}
+    coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
     return Positions(t, coordinates, _rotary(mechanism), closed, period)
+
+
+def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
+    """Coordinate and rates of a driver; raises CycleError where a law has none, or none that a machine can have."""
+    with np.errstate(all="ignore"):
+        rows = driver.law.coordinate(time)
+    kinds = _RATES[driver.law.rotary]
+    for row, kind in zip(rows, kinds, strict=True):
+        bad = np.flatnonzero(~(np.abs(row) <= LARGEST[kind]))
+        if len(bad):
+            value, at = float(row[bad[0]]), float(time[bad[0]])
+            shown = f"{value:g} {SI_UNITS[kind]}"
+            raise CycleError(
+                Sentence(
+                    "motion.law_beyond",
+                    name=driver.name,
+                    kind=Sentence(f"nouns.a_{kind}"),
+                    value=shown,
+                    time=at,
+                )
+            )
+    return rows
 
 
 def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> Positions:
@@ -91,7 +120,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     law = mechanism.drivers[first].law
     assert isinstance(law, ConstantSpeed)
     time = np.broadcast_to((q - law.start) / law.speed if law.speed else 0.0 * q, (count,))
-    coordinates = {name: driver.law.coordinate(time) for name, driver in mechanism.drivers.items()}
+    coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
     return Positions(np.array(time), coordinates, _rotary(mechanism), False, None)

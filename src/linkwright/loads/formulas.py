@@ -12,9 +12,12 @@ from linkwright.model.expression_tree import Binary, Call, Negative, Node, Numbe
 from linkwright.model.expressions import Expression, array_functions
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import offered
+from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
 _HALVINGS = 60
+#: Any magnitude is below the largest torque.
+_LARGEST = LARGEST["torque"]
 #: Positions of a turning input that are further apart (rad) are not taken for neighbours.
 _APART = 0.5
 
@@ -30,7 +33,7 @@ def calculated(expression: Expression, signals: Signals, where: Mask) -> Array:
             found = column(expression.evaluate(columns, array_functions()), len(where))
         except ZeroDivisionError:
             found = np.full(len(where), np.nan)
-    bad = np.flatnonzero(where & ~np.isfinite(found))
+    bad = np.flatnonzero(where & ~(np.abs(found) <= _LARGEST))
     if len(bad):
         raise LinkwrightError(_refusal(expression, columns, signals, int(bad[0])))
     _no_poles_between(expression, columns, signals, where)

@@ -104,7 +104,7 @@ class Quantity(Field):
     def _admits(self, value: float) -> bool:
         if self.minimum is not None and value < self.minimum:
             return False
-        if self.above is not None and value <= self.above:
+        if self.above is not None and value <= max(self.above, units.SMALLEST):
             return False
         return not (self.nonzero and value == 0)
 

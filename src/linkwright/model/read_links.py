@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from linkwright import units
 from linkwright.model.fields import Field, Quantities, Quantity, Schema, quantity_schema
 from linkwright.model.geometry import from_drawing
 from linkwright.model.mechanism import Geometry, Link, Vec
@@ -284,7 +285,7 @@ def _place_points(
 
 def _bent(reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any]) -> _Placed | None:
     first, second = given["lengths"]
-    if first <= 0 or second <= 0:
+    if min(first, second) <= units.SMALLEST:
         reader.error(
             node.get("lengths"),
             place.child("lengths"),

@@ -84,13 +84,27 @@ class Reader(PlainReader):
         if self.si and NUMBER.fullmatch(text):
             text = f"{text} {units.SI_UNITS[dimension]}".strip()
         try:
-            value = expressions.parse_quantity(text, dimension, self.kinds)
-            if isinstance(value, float):
-                return value
-            return self._evaluated(value, node, place)
+            given = expressions.parse_quantity(text, dimension, self.kinds)
+            value = given if isinstance(given, float) else self._evaluated(given, node, place)
+            return None if value is None else self._within(value, node, place, dimension)
         except QuantityError as error:
             self.quantity_error(error, node, place, text)
             return None
+
+    def _within(self, value: float, node: Node, place: Place, dimension: str) -> float | None:
+        """The value, or None after a finding where no machine has one so large."""
+        if abs(value) <= units.LARGEST[dimension]:
+            return value
+        limit = units.format(units.LARGEST[dimension], dimension)
+        shown = node.text if isinstance(node, Scalar) else f"{value:g}"
+        self.error(
+            node,
+            place,
+            Sentence("model.beyond", shown=shown),
+            Sentence("model.check_size", limit=limit),
+            "range",
+        )
+        return None
 
     def _evaluated(self, value: Expression, node: Node, place: Place) -> float | None:
         self.used |= value.names

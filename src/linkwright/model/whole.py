@@ -27,6 +27,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
     _islands(reader, root, mechanism)
     _near_points(reader, root, mechanism)
     _unlikely_inertias(reader, root, mechanism)
+    _missing_inertias(reader, root, mechanism)
 
 
 def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
@@ -142,6 +143,23 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
         at = node.get("inertia") if isinstance(node, MappingNode) else None
         remedy = Sentence("model.check_inertia")
         reader.error(at or node, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
+
+
+def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
+    sliding, grown = {"frame"}, bool(mechanism.drivers)
+    while grown:
+        pairs = [j.joined[:2] for j in mechanism.joints.values() if isinstance(j, PrismaticJoint | WeldJoint)]
+        more = {link for pair in pairs if sliding & set(pair) for link in pair} - sliding
+        sliding, grown = sliding | more, bool(more)
+    for name, link in mechanism.links.items() if mechanism.drivers else ():
+        node = _link_node(root, name)
+        if not isinstance(node, MappingNode) or name in sliding or not link.mass or node.get("inertia"):
+            continue
+        message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))
+        remedy = Sentence("model.add_inertia")
+        at = node.get("mass") or node
+        reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
 
 
 def _size(link: Link) -> float:

@@ -35,4 +35,6 @@ WORDS = {
     "several_points": "several links have a point {name!r} of their own; say which: {choices}",
     "no_rank": "position {index} is not solved, so its Jacobian has no rank; choose another one",
     "needs_pandas": "pandas is not installed; install it with: pip install pandas",
+    "law_beyond": "driver {name!r} gives {kind} of {value} at {time:g} s, "
+    "which no machine has; change its law or the cycle",
 }

@@ -246,4 +246,9 @@ WORDS = {
     "no_regular_file": "这既不是文件也不是管道",
     "gives_nothing": "从中读不到任何内容",
     "name_model_file": "请给出模型文件",
+    "beyond": "{shown} 超出了任何机器可能的数值",
+    "check_size": "请检查数值和单位；最大 {limit}",
+    "set_beyond": "{address} 设为 {value:g}，超出了任何机器可能的数值；请检查",
+    "no_inertia": "构件“{link}”会转动且质量为 {mass} kg，但没有转动惯量：按零计算",
+    "add_inertia": "请加上 inertia: 2.5 kg·m²（对质心），若确为零则写 inertia: 0",
 }
