@@ -33,9 +33,10 @@ class Size:
     peer_designs: int = 200
     accuracy_steps: int = 72
     starts: int = 11
+    chains: tuple[int, ...] = (10, 50, 100, 200)
 
 
-QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3)
+QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3, (2, 5, 10))
 
 
 def _agreement(gaps: Mapping[str, float]) -> str:
@@ -133,6 +134,27 @@ def gradients(size: Size) -> Section:
     return Section("Value and reverse gradient, one thread", header, rows, goals, notes)
 
 
+def growing(size: Size) -> Section:
+    """Every step from the model to the numbers, for chains of more and more dyads."""
+    from benchmarks import growth
+
+    few, many = size.chains[0], size.chains[-1]
+    rounds = growth.measure(size.chains, size.steps, min(size.rounds, 5), size.slice_s)
+    header, rows = growth.table(rounds, size.chains)
+    goals = [
+        Goal(
+            f"{row[0]}: power of n by which its time grows",
+            growth.exponent(rounds, row[0], few, many),
+            1.15,
+            False,
+        )
+        for row in rows
+    ]
+    if 100 in size.chains and any(row[0] == growth.COMPILE for row in rows):
+        goals.append(Goal("100 dyads compiled, seconds", growth.compile_time(rounds, 100), 0.5, False))
+    return Section("Chains of n dyads with all forces", header, rows, goals)
+
+
 def cold_start(size: Size) -> Section:
     """Process start to the printed table."""
     from benchmarks import cold
@@ -188,6 +210,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "w4-fourbar": lambda size: sweeps("fourbar", size),
     "w4-sixbar": lambda size: sweeps("sixbar", size),
     "gradient": gradients,
+    "growth": growing,
     "cold": cold_start,
     "accuracy": accuracy,
 }

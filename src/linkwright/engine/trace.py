@@ -212,8 +212,12 @@ class Trace:
     def neg(self, a: Scalar) -> Scalar:
         if isinstance(a, float | int):
             return -a
-        negated = self._negated(a)
-        return negated if negated is not None else self._operation("neg", a)
+        index = a.index
+        node = self.nodes[index]
+        if node[0] == "neg":
+            return Value(self, node[1][0])
+        known = self._known.get(("neg", index))
+        return self._operation("neg", a) if known is None else Value(self, known)
 
     def stop(self, a: Scalar) -> Scalar:
         """The value, taken as constant by derivatives."""
