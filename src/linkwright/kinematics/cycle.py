@@ -53,14 +53,15 @@ class Positions:
 
     @cached_property
     def arrays(self) -> dict[str, Floats]:
-        """The program's inputs per position, by name."""
-        found: dict[str, Floats] = {}
+        """The program's inputs per position, by name; ``input`` is the first driver's coordinate."""
+        found: dict[str, Floats] = {"time": self.time}
         for name, (q, rate, second) in self.coordinates.items():
             if self.rotary[name]:
                 found[f"cos:{name}"], found[f"sin:{name}"] = np.cos(q), np.sin(q)
             else:
                 found[f"slide:{name}"] = q
             found[f"rate:{name}"], found[f"second:{name}"] = rate, second
+            found.setdefault("input", q)
         return found
 
 

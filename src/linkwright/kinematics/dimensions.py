@@ -45,7 +45,7 @@ class Dimensions:
 
     def _from_expression(self, address: str) -> Scalar:
         """The traced value of an expression; parameters that follow others are traced in their order, once."""
-        from linkwright.kinematics.expressions import traced
+        from linkwright.model.traced_expressions import traced
 
         expressions = self.mechanism.expressions
         waiting, needed = [address], set[str]()

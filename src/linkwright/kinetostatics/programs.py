@@ -19,9 +19,10 @@ _OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa"})
 class ForcePrograms:
     """The traced forces of all mechanisms of one shape, and the programs made of them."""
 
-    def __init__(self, motion: MotionPrograms, inertia: bool) -> None:
+    def __init__(self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str]) -> None:
         self.motion = motion
         self.inertia = inertia
+        self.along_input = along_input
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
 
     @cached_property
@@ -29,7 +30,12 @@ class ForcePrograms:
         """Reactions and efforts as traced values."""
         with self.motion.lock:
             friction = FrictionTerms.of(self.motion.mechanism, self.motion.motion)
-            return trace_forces(self.motion.motion, inertia=self.inertia, extra=friction.wrenches())
+            return trace_forces(
+                self.motion.motion,
+                inertia=self.inertia,
+                extra=friction.wrenches(),
+                along_input=self.along_input,
+            )
 
     @cached_property
     def outputs(self) -> ForceOutputs:
@@ -49,9 +55,12 @@ class ForcePrograms:
         return (self.motion.outputs if of_motion else self.outputs).value(name)
 
 
-def force_programs(motion: MotionPrograms, *, inertia: bool = True) -> ForcePrograms:
-    """The programs of the forces that belong to those of a motion."""
-    return _kept.get(motion, inertia, lambda: ForcePrograms(motion, inertia))
+def force_programs(
+    motion: MotionPrograms, *, inertia: bool = True, along_input: frozenset[str] = frozenset()
+) -> ForcePrograms:
+    """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``."""
+    key = (inertia, along_input)
+    return _kept.get(motion, key, lambda: ForcePrograms(motion, inertia, along_input))
 
 
 _kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)

@@ -20,14 +20,17 @@ from linkwright.kinetostatics.trace import ForceTrace
 class ForceSolver:
     """Evaluates the forces of a motion solver's mechanism."""
 
-    def __init__(self, motion: MotionSolver, *, inertia: bool = True) -> None:
+    def __init__(
+        self, motion: MotionSolver, *, inertia: bool = True, along_input: frozenset[str] = frozenset()
+    ) -> None:
         self.motion = motion
         self.inertia = inertia
+        self.along_input = along_input
 
     @cached_property
     def programs(self) -> ForcePrograms:
         """The programs of the mechanism's shape."""
-        return force_programs(self.motion.programs, inertia=self.inertia)
+        return force_programs(self.motion.programs, inertia=self.inertia, along_input=self.along_input)
 
     @cached_property
     def friction(self) -> FrictionTerms:

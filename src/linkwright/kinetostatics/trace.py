@@ -8,7 +8,7 @@ joint that carries it (d'Alembert; Artobolevsky, Theory of Mechanisms and Machin
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 
 from linkwright.engine.linear import product, transposed
@@ -91,16 +91,20 @@ class ForceTrace:
 
 
 def trace_forces(
-    motion: MotionTrace, *, inertia: bool = True, extra: Mapping[str, list[Wrench]] | None = None
+    motion: MotionTrace,
+    *,
+    inertia: bool = True,
+    extra: Mapping[str, list[Wrench]] | None = None,
+    along_input: Set[str] = frozenset(),
 ) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 
     ``inertia`` False leaves the inertia forces out (static analysis); ``extra``: further wrenches by name, such
-    as the friction of joints.
+    as the friction of joints; ``along_input``: loads whose magnitude is traced over the input.
     """
     forces = ForceTrace(motion)
     for name, load in motion.mechanism.loads.items():
-        forces.wrenches[name] = list(load.wrenches(TracedSite(motion, load)))
+        forces.wrenches[name] = list(load.wrenches(TracedSite(motion, load, along_input=name in along_input)))
     forces.wrenches |= extra or {}
     demands = {name: Demand() for name in ("frame", *motion.mechanism.links)}
     for name in motion.mechanism.links:

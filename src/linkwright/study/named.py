@@ -127,10 +127,11 @@ class Named:
         if part not in POINT_PARTS or not owner or (part == "position" and not axis):
             return None
         kind, dimension = POINT_PARTS[part]
-        vector = self.motion.outputs.point(self._point_key(owner))["pva".index(kind)]
+        vector = self.motion.outputs.point(self.point_key(owner))["pva".index(kind)]
         return Quantity(name, dimension, _component(vector, axis))
 
-    def _point_key(self, owner: str) -> str:
+    def point_key(self, owner: str) -> str:
+        """The canonical key of a point, or of a link's mass centre."""
         link = self.mechanism.links.get(owner.removesuffix(".centre"))
         if owner.endswith(".centre") and link is not None and "centre" not in link.points:
             return owner.removesuffix("centre") + "@centre"

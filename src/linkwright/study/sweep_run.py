@@ -19,9 +19,9 @@ from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import MARGIN, Following
+from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.study.loads import OneByOne
 from linkwright.study.summary import Summary, finished, reductions
-from linkwright.study.swing_loads import SwingLoads, swings
 from linkwright.study.touching import Touching
 from linkwright.study.traced import NEAREST, VALID, Traced
 
@@ -75,7 +75,9 @@ class SweepRun:
         """Assembled positions (designs,), and every summary (designs,)."""
         assembled = np.zeros(self.designs, dtype=np.int64)
         values = {summary: np.empty(self.designs) for summary in self.asked}
-        for first, end in chunks(self.designs, LOADED_BLOCK if self.alone else BLOCK):
+        for first, end in chunks(
+            self.designs, LOADED_BLOCK if self.alone and self._loaded is None else BLOCK
+        ):
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
@@ -103,7 +105,9 @@ class SweepRun:
         numbers = np.arange(first, first + len(next(iter(part.values()))))
         if self.traced.nominal.modes:
             return self._noted(self._one_by_one(self._flipping, part), numbers)
-        if self.alone:
+        if self.alone and self._loaded is not None:
+            results = self._noted(self._with_loads(self._loaded, part), numbers)
+        elif self.alone:
             results = self._noted(self._one_by_one(self._single, part), numbers)
         else:
             results = self._reduced(self.traced, self.program, part, {})
@@ -112,27 +116,25 @@ class SweepRun:
     def _one_by_one(self, source: OneByOne, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
         """Two passes: the motion of each design with its loads, then the summaries of the block."""
         program = _fed(source.traced.program(source.traced.quantities(self.quantities)))
-        if not source.flipping and not self.manner.partial and swings(source.traced, program.fields, part):
-            rows, failed = self._swinging(source, program.fields, part)
-        else:
-            rows, failed = source.rows(program.fields, part)
+        rows, failed = source.rows(program.fields, part)
         return self._reduced(source.traced, program, part, rows), failed
 
-    def _swinging(
-        self, source: OneByOne, names: tuple[str, ...], part: Mapping[str, Floats]
-    ) -> tuple[dict[str, Floats], dict[int, str]]:
-        """Loads between limit positions, all designs together; those that are not certain one by one."""
-        rows, unsure = self._swing_loads.rows(names, part)
-        if not len(unsure):
-            return rows, {}
-        own, failed = source.rows(names, {address: column[unsure] for address, column in part.items()})
-        for name, found in own.items():
-            rows[name][unsure] = found
-        return rows, {int(unsure[index]): sentence for index, sentence in failed.items()}
-
     @cached_property
-    def _swing_loads(self) -> SwingLoads:
-        return SwingLoads(self.traced)
+    def _loaded(self) -> LoadedCycle | None:
+        """The cycle program for loads that follow the input; None where some do not."""
+        if self.manner.partial or self.traced.nominal.modes or self.program.states:
+            return None
+        return loaded_cycle(self.traced, self.columns, tuple(self.quantities), self.reductions)
+
+    def _with_loads(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
+        """All designs together; those whose limit positions are not certain one by one."""
+        results, doubtful = loaded.evaluate(part, self.manner.threads, self.manner.backend)
+        if not len(doubtful):
+            return results, {}
+        again, failed = self._one_by_one(self._single, {a: c[doubtful] for a, c in part.items()})
+        for name, column in again.items():
+            results[name][doubtful] = column
+        return results, {int(doubtful[index]): sentence for index, sentence in failed.items()}
 
     def _noted(self, found: tuple[Results, dict[int, str]], numbers: NDArray[np.intp]) -> Results:
         """The results; sentences of designs that failed are kept under their numbers in the whole sweep."""

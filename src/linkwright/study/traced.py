@@ -39,7 +39,7 @@ class Traced:
 
     ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form;
     ``turning``: angles of links that turn through may be asked; ``flipping``: the programs take the signs of assembly
-    modes per position.
+    modes per position; ``along_input``: loads whose magnitudes are traced over the input.
     """
 
     def __init__(
@@ -51,6 +51,7 @@ class Traced:
         iterations: int = 1,
         turning: bool = False,
         flipping: bool = False,
+        along_input: frozenset[str] = frozenset(),
     ) -> None:
         self.mechanism = mechanism
         self.positions = positions
@@ -60,7 +61,7 @@ class Traced:
             groups = modal_groups(motion_programs(mechanism, manner).structure)
             manner = replace(manner, flipping=frozenset(groups))
         self.solver = MotionSolver(mechanism, manner)
-        self.forces = ForceSolver(self.solver)
+        self.forces = ForceSolver(self.solver, along_input=along_input)
         self.named = Named(self.forces, self._middle)
 
     @cached_property

@@ -23,9 +23,6 @@ WORDS = {
     "refused_told": "{name!r} cannot be solved at {where}: {sentence}; {told}; {advice}",
     "advice": "change the dimensions, the assembly or the range of the input (cycle: {{from: …, to: …}}), or "
     "ask for marked outcomes",
-    "power_varies": '"{text}" has a power that varies; write a whole or half exponent so that it can be swept',
-    "odd_power": '"{text}" has the power {exponent:g}; only whole and half ones can be swept',
-    "no_sweep": '"{text}" uses {name}(), which cannot be swept; vary the dimension itself instead',
     "no_output": "there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its "
     "displacement); {hint}",
     "no_way_between": "the positions of this motion do not follow the law of driver {name!r} in time, so "

@@ -21,9 +21,6 @@ WORDS = {
     "refused": "“{name}”在{where}处无法求解：{sentence}；{advice}",
     "refused_told": "“{name}”在{where}处无法求解：{sentence}；{told}；{advice}",
     "advice": "请修改尺寸、装配模式或输入的范围（cycle: {{from: …, to: …}}），或要求标出失败的位置",
-    "power_varies": "“{text}”的指数会变化；请写成整数或半整数，以便扫描",
-    "odd_power": "“{text}”的指数为 {exponent:g}；只有整数和半整数指数才能扫描",
-    "no_sweep": "“{text}”用了 {name}()，不能扫描；请直接改变该尺寸",
     "no_output": "没有输出“{text}”；请写构件名（其角度）、点.x、点.y 或移动副名（其位移）；{hint}",
     "no_way_between": "该运动的各位置不按驱动“{name}”的时间规律，因此位置之间没有通路；"
     "请在一个循环或给定时刻的运动中求极限位置",

@@ -1,0 +1,126 @@
+"""Stages of cycle programs that find the two limit positions of an output, in all designs at once.
+
+The extremes over the positions bracket the limits; safeguarded Newton steps with the exact acceleration refine them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.replay import inlined
+from linkwright.engine.stage import Stage
+from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin
+from linkwright.kinetostatics.site import limit_name
+from linkwright.model.signal_fields import Output
+from linkwright.study.traced import VALID, Traced
+
+#: Names of an output's rate and second derivative among the motion's outputs.
+RATES = {
+    "angle": ("w:{0}", "g:{0}"),
+    "displacement": ("sv:{0}", "sa:{0}"),
+    "x": ("v:{0}.x", "a:{0}.x"),
+    "y": ("v:{0}.y", "a:{0}.y"),
+}
+#: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
+STEPS, CONVERGED = 16, 1e-10
+
+
+def limit_stages(traced: Traced, outputs: Iterable[Output]) -> list[Stage]:
+    """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), and ``doubt:OUTPUT``:
+    above zero where these are not certain to be its only limits."""
+    found: list[Stage] = []
+    for output in dict.fromkeys(outputs):
+        found.append(_nearest(traced, output))
+        found += [_refined(traced, output, kind) for kind in ("max", "min")]
+        found += [_counted(traced, output), _doubt(output)]
+    return found
+
+
+def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
+    """Rate and second derivative of an output as traced values."""
+    solver = traced.solver
+    owner = traced.named.point_key(output.owner) if output.kind in ("x", "y") else output.owner
+    rate, second = (solver.outputs.value(name.format(owner)) for name in RATES[output.kind])
+    return rate, second
+
+
+def _nearest(traced: Traced, output: Output) -> Stage:
+    """The inputs of the positions with the largest and the smallest value."""
+    trace = traced.solver.motion.trace
+    carrier = traced.named.quantity(f"{output.owner}.{output.kind}").carrier
+    program = Program.of(
+        trace, {"value": carrier, "input": trace.position("input"), VALID: traced.solver.motion.valid}
+    )
+    near = {f"near:{output}:{kind}": Reduction("input", f"at_{kind}", "value") for kind in ("max", "min")}  # type: ignore[arg-type]
+    return Stage(program, near, valid=VALID)
+
+
+def _refined(traced: Traced, output: Output, kind: str) -> Stage:
+    """The input where the rate is zero, within one step of the nearest position."""
+    t = Trace()
+    (driver,) = traced.mechanism.drivers
+    x, low, high = (t.state(name) for name in ("x", "low", "high"))
+    speed = t.parameter(f"{driver}.speed")
+    rate, second = rates(traced, output)
+    motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second})
+    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x)})
+    falling = there["rate"] if kind == "max" else -there["rate"]
+    before = falling > 0.0
+    step = t.parameter("step of the input") * sign(speed)
+    near = t.parameter(f"near:{output}:{kind}")
+    first = absolute(low) + absolute(high) <= 0.0
+    low0, high0 = select(first, near - step, low), select(first, near + step, high)
+    low1, high1 = select(before, x, low0), select(before, high0, x)
+    newton = x - there["rate"] / there["second"] * speed
+    following = select((newton - low1) * (newton - high1) <= 0.0, newton, 0.5 * (low1 + high1))
+    program = Program.of(
+        t,
+        {"x": following, "rate": there["rate"], "moved": absolute(following - x)},
+        {"x": following, "low": low1, "high": high1},
+    )
+    name = limit_name(output, kind)
+    return Stage(
+        program,
+        {name: Reduction("x", "last"), f"moved:{output}:{kind}": Reduction("moved", "last")},
+        steps=STEPS,
+        starts={"x": f"near:{output}:{kind}", "low": 0.0, "high": 0.0},
+        roots={"x": "rate"},
+    )
+
+
+def _counted(traced: Traced, output: Output) -> Stage:
+    """How often the rate changes its sign from one position to the next."""
+    trace = traced.solver.motion.trace
+    rate, _ = rates(traced, output)
+    before = trace.state(f"before:{output}")
+    turns = select(before * rate < 0.0, 1.0, 0.0) + select(absolute(rate) <= 0.0, 1.0, 0.0)
+    program = Program.of(
+        trace, {"turns": turns, VALID: traced.solver.motion.valid}, {f"before:{output}": rate}
+    )
+    return Stage(
+        program,
+        {f"turns:{output}": Reduction("turns", "sum")},
+        valid=VALID,
+        count=f"assembled:{output}",
+        starts={f"before:{output}": 0.0},
+    )
+
+
+def _doubt(output: Output) -> Stage:
+    t = Trace()
+    doubt: Scalar = select(t.parameter(f"turns:{output}") > 2.5, 1.0, 0.0)
+    doubt = doubt + select(t.parameter(f"assembled:{output}") < t.parameter("positions"), 1.0, 0.0)
+    for kind in ("max", "min"):
+        moved = t.parameter(f"moved:{output}:{kind}")
+        doubt = doubt + select(moved <= CONVERGED, 0.0, 1.0)
+    return Stage(Program.of(t, {"doubt": doubt}), {f"doubt:{output}": Reduction("doubt", "first")}, steps=1)
+
+
+def constants(traced: Traced) -> dict[str, float]:
+    """What the stages take besides dimensions: the step between positions, rad, and their number."""
+    count = traced.positions.count
+    return {"step of the input": 2.0 * np.pi / count, "positions": float(count)}
