@@ -8,7 +8,7 @@ import pytest
 
 from linkwright.plot.svg.element import element, group, number
 from linkwright.plot.symbols.base import SYMBOLS, hatching, placed
-from linkwright.plot.symbols.body import convex_hull
+from linkwright.plot.symbols.bodies import convex_hull
 
 NEEDED = {
     "fixed_pivot", "pin", "slider", "ground_guide", "moving_guide", "weld", "plate", "gear", "rack", "cam",

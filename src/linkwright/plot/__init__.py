@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
-    from linkwright.plot.diagrams.make import plot as plot
+    from linkwright.plot.diagrams.diagram_by_name import plot as plot
     from linkwright.plot.diagrams.picture import Diagram as Diagram
 
 PUBLIC = {
-    "linkwright.plot.diagrams.make": ("plot",),
+    "linkwright.plot.diagrams.diagram_by_name": ("plot",),
     "linkwright.plot.diagrams.picture": ("Diagram",),
 }
 

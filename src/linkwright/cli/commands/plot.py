@@ -24,7 +24,7 @@ STEPS = 720
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The command's options."""
-    from linkwright.plot.diagrams.make import kinds
+    from linkwright.plot.diagrams.diagram_by_name import kinds
 
     parser.add_argument("files", metavar="FILE", nargs="+", help=say("plot.files_help"))
     what = parser.add_argument_group(say("plot.what_title"))
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _require_kind(options: argparse.Namespace) -> None:
     from linkwright.errors import LinkwrightError
     from linkwright.plot.diagrams.base import OPTIONS
-    from linkwright.plot.diagrams.make import require_kind, require_options
+    from linkwright.plot.diagrams.diagram_by_name import require_kind, require_options
 
     option = "kind"
     try:
@@ -113,7 +113,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
 def _drawn(
     options: argparse.Namespace, session: Session, motions: dict[str, Motion], fluctuation: float | None
 ) -> Diagram:
-    from linkwright.plot.diagrams.make import plot
+    from linkwright.plot.diagrams.diagram_by_name import plot
 
     return plot(
         motions,

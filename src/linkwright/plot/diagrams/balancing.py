@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.balancing import Balancing
-from linkwright.plot.diagrams.axes import equal, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import Source

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.plot.diagrams.axes import equal, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import InputAxis

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.metrics.coupler_curve import CouplerCurve
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import unit_of
 

@@ -8,10 +8,9 @@ import numpy as np
 
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.design_table import DesignTable, Measure, Varied
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import significant
 

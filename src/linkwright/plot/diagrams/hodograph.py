@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
-from linkwright.plot.diagrams.axes import equal, framed
+from linkwright.plot.diagrams.axes import Legend, equal, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
 from linkwright.plot.diagrams.reactions import require_forces

@@ -9,9 +9,8 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
 from linkwright.plot.diagrams.units import Unit, unit_of
 

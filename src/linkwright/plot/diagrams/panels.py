@@ -11,11 +11,9 @@ import numpy as np
 
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.signal_fields import Output
-from linkwright.plot.diagrams.axes import framed, label_input
+from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import Kind, Request
-from linkwright.plot.diagrams.legend import Legend
-from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, phase_marks
-from linkwright.plot.diagrams.peaks import mark_peaks
+from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, mark_peaks, phase_marks
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.plot.diagrams.units import Unit, unit_of

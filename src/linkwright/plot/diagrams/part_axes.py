@@ -10,9 +10,8 @@ import numpy as np
 
 from linkwright.kinematics.cycle import Floats
 from linkwright.parts.display import UNITS, unit
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
 from linkwright.plot.diagrams.units import Unit, unit_of
 

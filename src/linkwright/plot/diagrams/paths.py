@@ -10,10 +10,9 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.signal_fields import Output
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.outputs import output_named, traced_points
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure

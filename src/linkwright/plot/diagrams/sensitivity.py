@@ -11,10 +11,9 @@ from linkwright import units
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.mechanism import Mechanism
-from linkwright.plot.diagrams.axes import framed, label_input
+from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.design_table import chosen
-from linkwright.plot.diagrams.legend import Legend
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.source import InputAxis

@@ -14,7 +14,7 @@ from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
-from linkwright.plot.symbols.slider import HEIGHT, LENGTH
+from linkwright.plot.symbols.guides_and_blocks import HEIGHT, LENGTH
 
 STUB = 8.0
 

@@ -13,7 +13,7 @@ from linkwright.plot.drawing.guides import block_direction, direction, ground_si
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS, Vec
-from linkwright.plot.symbols.slider import HEIGHT
+from linkwright.plot.symbols.guides_and_blocks import HEIGHT
 
 RADIUS = 21.0
 

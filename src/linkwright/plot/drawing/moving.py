@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.vectors import Torques, Vectors
 from linkwright.plot.svg.element import Element, Floats, coordinates, element, group, number
-from linkwright.plot.symbols.arrow import arrow_points
+from linkwright.plot.symbols.arrows import arrow_points
 from linkwright.plot.symbols.base import SYMBOLS
 
 

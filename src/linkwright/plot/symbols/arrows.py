@@ -1,0 +1,190 @@
+"""Arrows: what is driven, vectors, moments, pressures; dimension lines and arcs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.plot.svg.element import Element, Floats, path
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, placed, points
+
+HEAD = 9.0
+
+
+def head(tip: Vec, along: Vec, size: float, style: str) -> Element:
+    """A filled arrowhead with its point at ``tip``."""
+    return path(placed([(0, 0), (-size, -0.38 * size), (-size, 0.38 * size)], tip, along), style, closed=True)
+
+
+@SYMBOLS.register("crank_arrow")
+def crank_arrow(
+    *,
+    at: Vec = (0.0, 0.0),
+    radius: float = 22.0,
+    middle: float = -0.8,
+    sweep: float = 1.9,
+    turning: int = 1,
+    style: str = "lw-input",
+) -> Shape:
+    """An arc about a pin with a head: the direction of rotation.
+
+    ``middle``: angle of the arc's middle on the paper (rad, clockwise from the right, as y is down);
+    ``turning`` +1: counter-clockwise as seen, -1: clockwise, 0: both ways.
+    """
+    forward = -1.0 if turning >= 0 else 1.0
+    angle = middle + forward * np.linspace(-sweep / 2, sweep / 2, 49)
+    arc = np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+    size = HEAD
+    back = max(1, round(size * (len(arc) - 1) / (abs(sweep) * radius)))
+    elements: list[Element] = [path(_shortened(arc, size, both=turning == 0), f"{style}-line")]
+    elements.append(head(_place(arc[-1]), _chord(arc[-1 - back], arc[-1]), size, f"{style}-head"))
+    if turning == 0:
+        elements.append(head(_place(arc[0]), _chord(arc[back], arc[0]), size, f"{style}-head"))
+    return Shape(tuple(elements), (arc,))
+
+
+@SYMBOLS.register("slide_arrow")
+def slide_arrow(
+    *,
+    at: Vec = (0.0, 0.0),
+    along: Vec = (1.0, 0.0),
+    length: float = 34.0,
+    both: bool = True,
+    style: str = "lw-input",
+) -> Shape:
+    """A straight arrow: the direction in which a block is driven; ``both`` for a motion to and fro."""
+    a = length / 2
+    line = placed([(-a, 0), (a, 0)], at, along)
+    stroke = placed([(-a + (5 if both else 0), 0), (a - 5, 0)], at, along)
+    elements = [path(stroke, f"{style}-line"), head(_place(line[1]), along, 9.0, f"{style}-head")]
+    if both:
+        elements.append(head(_place(line[0]), (-along[0], -along[1]), 9.0, f"{style}-head"))
+    return Shape(tuple(elements), (line,))
+
+
+def _shortened(arc: Floats, head: float, *, both: bool) -> Floats:
+    """An arc that ends within its heads."""
+    step = float(np.hypot(*(arc[1] - arc[0])))
+    count = max(1, round(0.7 * head / step))
+    return points(arc[count if both else 0 : -count])
+
+
+def _place(row: Floats) -> Vec:
+    return float(row[0]), float(row[1])
+
+
+def _chord(a: Floats, b: Floats) -> Vec:
+    dx, dy = float(b[0] - a[0]), float(b[1] - a[1])
+    length = math.hypot(dx, dy)
+    return dx / length, dy / length
+
+
+def arrow_points(start: Vec, end: Vec) -> tuple[Floats, Floats]:
+    """Shaft (2, 2) and head (3, 2) of an arrow; the head shrinks with a short arrow."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(dx, dy)
+    along = (dx / length, dy / length) if length else (1.0, 0.0)
+    size = min(HEAD, 0.6 * length)
+    neck = (end[0] - 0.8 * size * along[0], end[1] - 0.8 * size * along[1])
+    tip = placed([(0, 0), (-size, -0.36 * size), (-size, 0.36 * size)], end, along)
+    return points([start, neck]), tip
+
+
+@SYMBOLS.register("arrow")
+def arrow(*, start: Vec = (0.0, 0.0), end: Vec = (50.0, -20.0), style: str = "lw-force") -> Shape:
+    """A vector from ``start`` to ``end``; nothing where both are the same."""
+    if math.hypot(end[0] - start[0], end[1] - start[1]) < 0.8:
+        return EMPTY
+    shaft, tip = arrow_points(start, end)
+    elements = (path(shaft, f"{style}-line"), path(tip, f"{style}-head", closed=True))
+    return Shape(elements, (points([start, end]), tip))
+
+
+@SYMBOLS.register("moment")
+def moment(*, at: Vec = (0.0, 0.0), turning: int = 1, radius: float = 16.0, style: str = "lw-force") -> Shape:
+    """A bent arrow about a point; ``turning`` +1: counter-clockwise."""
+    return crank_arrow(at=at, radius=radius, middle=-math.pi / 2, sweep=4.4, turning=turning, style=style)
+
+
+@SYMBOLS.register("pressure")
+def pressure(
+    *,
+    at: Vec = (0.0, 0.0),
+    along: Vec = (1.0, 0.0),
+    length: float = 24.0,
+    height: float = 20.0,
+    style: str = "lw-load",
+) -> Shape:
+    """Three arrows side by side whose points stand on the face at ``at`` and push it ``along``."""
+    elements, ink = [], []
+    for y in (-0.4 * height, 0.0, 0.4 * height):
+        (x0, y0), (x1, y1) = placed([(-length, y), (0.0, y)], at, along).tolist()
+        shaft, tip = arrow_points((x0, y0), (x1, y1))
+        elements += [path(shaft, f"{style}-thin"), path(tip, f"{style}-head", closed=True)]
+        ink += [shaft, tip]
+    back = placed([(-length, -0.5 * height), (-length, 0.5 * height)], at, along)
+    return Shape((*elements, path(back, f"{style}-thin")), (*ink, back))
+
+
+@SYMBOLS.register("dimension_line")
+def dimension_line(
+    *,
+    start: Vec = (0.0, 0.0),
+    end: Vec = (80.0, 0.0),
+    offset: float = 26.0,
+    rises: tuple[float, float] = (0.0, 0.0),
+) -> Shape:
+    """A line with two heads beside the distance from ``start`` to ``end``, with extension lines.
+
+    ``offset``: to the right of the way from start to end on the paper, negative: to the left. ``rises``: how far
+    to the right of start and end the places lie from which the extension lines come.
+    """
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(dx, dy)
+    if length < 1.0:
+        return EMPTY
+    along = (dx / length, dy / length)
+    over = offset + math.copysign(5.0, offset)
+    line = placed([(0, offset), (length, offset)], start, along)
+    first, last = ((float(x), float(y)) for x, y in line)
+    inside = length > 24.0
+    back = (-along[0], -along[1])
+    stroke = line if inside else placed([(-16, offset), (length + 16, offset)], start, along)
+    extensions = tuple(
+        placed([(x, rise + math.copysign(7.0, offset - rise)), (x, over)], start, along)
+        for x, rise in zip((0.0, length), rises, strict=True)
+    )
+    elements = (
+        path(stroke, "lw-dimension"),
+        *(path(line, "lw-dimension") for line in extensions),
+        head(first, back if inside else along, 8.0, "lw-dimension-head"),
+        head(last, along if inside else back, 8.0, "lw-dimension-head"),
+    )
+    return Shape(elements, (points(stroke), *extensions))
+
+
+@SYMBOLS.register("dimension_arc")
+def dimension_arc(
+    *, at: Vec = (0.0, 0.0), radius: float = 34.0, first: float = 0.0, sweep: float = -1.0
+) -> Shape:
+    """An arc with two heads for an angle at a place, from the direction ``first`` on (rad, clockwise on paper)."""
+    angle = first + sweep * np.linspace(0.0, 1.0, 25)
+    arc = np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+    sides = tuple(
+        placed([(0.3 * radius, 0.0), (radius + 5.0, 0.0)], at, (math.cos(each), math.sin(each)))
+        for each in (first, first + sweep)
+    )
+    heads: tuple[Element, ...] = ()
+    if abs(sweep) * radius > 24.0:
+        chords = [(arc[0], arc[0] - arc[4]), (arc[-1], arc[-1] - arc[-5])]
+        heads = tuple(
+            head((float(tip[0]), float(tip[1])), _unit(way), 8.0, "lw-dimension-head") for tip, way in chords
+        )
+    lines = (arc, *sides)
+    return Shape((*(path(line, "lw-dimension") for line in lines), *heads), lines)
+
+
+def _unit(way: Floats) -> Vec:
+    length = float(np.hypot(*way))
+    return float(way[0]) / length, float(way[1]) / length

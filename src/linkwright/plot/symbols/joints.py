@@ -1,0 +1,72 @@
+"""Pins, plain points, supports, welds and the mass centre."""
+
+from __future__ import annotations
+
+from linkwright.plot.svg.element import circle, element, number, path
+from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, hatching, placed, points, ring
+
+
+@SYMBOLS.register("pin")
+def pin(*, at: Vec = (0.0, 0.0), radius: float = PIN) -> Shape:
+    """A small open circle."""
+    return Shape((circle(at, radius, "lw-pin"),), (ring(at, radius),))
+
+
+@SYMBOLS.register("point")
+def point(*, at: Vec = (0.0, 0.0), radius: float = 0.55 * PIN) -> Shape:
+    """A dot: a named point that is no joint."""
+    return Shape((circle(at, radius, "lw-point"),), (ring(at, radius, 8),))
+
+
+@SYMBOLS.register("fixed_pivot")
+def fixed_pivot(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float = 18.0) -> Shape:
+    """Triangle from the pin to the ground, which lies in the direction ``toward``."""
+    half, base = 0.62 * size, 0.9 * size
+    triangle = placed([(0, 0), (size, -half), (size, half)], at, toward)
+    ground = placed([(size, base), (size, -base)], at, toward)
+    first, last = ((float(x), float(y)) for x, y in ground)
+    elements = (
+        path(triangle, "lw-support", closed=True),
+        path(ground, "lw-ground"),
+        *(path(stroke, "lw-hatch") for stroke in hatching(first, last, 1)),
+    )
+    outline = placed([(0, 0), (size, -half), (size, -base), (size + 7, -base), (size + 7, base), (size, base),
+                      (size, half), (0, 0)], at, toward)  # fmt: skip
+    middle = placed([(0, 0), (size + 4, 0), (size + 4, -base), (size + 4, base)], at, toward)
+    return Shape(elements, (outline, middle))
+
+
+@SYMBOLS.register("weld")
+def weld(
+    *, at: Vec = (0.0, 0.0), first: Vec = (1.0, 0.0), second: Vec = (0.0, 1.0), size: float = 13.0
+) -> Shape:
+    """A filled triangle between the directions ``first`` and ``second`` of two bars; a square where they align."""
+    cross = first[0] * second[1] - first[1] * second[0]
+    if abs(cross) < 0.17:
+        a = 0.45 * size
+        corners = placed([(-a, -a), (a, -a), (a, a), (-a, a)], at, first)
+    else:
+        corners = points([at, *((at[0] + size * x, at[1] + size * y) for x, y in (first, second))])
+    return Shape((path(corners, "lw-weld", closed=True),), (corners,))
+
+
+@SYMBOLS.register("wall")
+def wall(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float = 18.0) -> Shape:
+    """Hatched ground to which a link is welded; it lies in the direction ``toward``."""
+    line = placed([(0, size), (0, -size)], at, toward)
+    a, b = ((float(x), float(y)) for x, y in line)
+    strokes = hatching(a, b, 1)
+    ink = placed([(0, size), (0, -size), (7, -size), (7, size)], at, toward)
+    return Shape((path(line, "lw-ground"), *(path(stroke, "lw-hatch") for stroke in strokes)), (ink,))
+
+
+@SYMBOLS.register("mass_centre")
+def mass_centre(*, at: Vec = (0.0, 0.0), radius: float = 6.0) -> Shape:
+    """The symbol for the centre of mass."""
+    x, y, r = at[0], at[1], radius
+
+    def quarter(dx: float, dy: float) -> str:
+        return f"M{number(x)} {number(y)}h{number(dx)}A{number(r)} {number(r)} 0 0 1 {number(x)} {number(y + dy)}Z"
+
+    filled = element("path", {"class": "lw-mass", "d": quarter(r, r) + quarter(-r, -r)})
+    return Shape((circle(at, r, "lw-mass-ring"), filled), (ring(at, r),))
