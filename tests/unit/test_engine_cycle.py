@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import runpy
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -286,3 +288,15 @@ def test_names_that_do_not_fit_together_are_refused() -> None:
     with pytest.raises(ValueError, match="columns r, l, e"):
         whole().evaluate(np.zeros((3, 2)), INPUT)
     assert CycleProgram((coarse(), refined("in"))).dimensions == ("r", "l", "e")
+
+
+def test_the_example_of_the_documentation_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    page = Path(__file__).parents[2] / "docs" / "en" / "theory" / "engine.md"
+    file = tmp_path / "example.py"
+    file.write_text(
+        page.read_text(encoding="utf-8").split("```python\n")[1].split("```")[0], encoding="utf-8"
+    )
+    runpy.run_path(str(file))
+    printed = capsys.readouterr().out
+    assert printed.splitlines()[0] == "[3.96862697 5.        ]"
+    assert f"{4.0 / math.sqrt(15.75):.8f}" in printed
