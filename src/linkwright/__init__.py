@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from linkwright.study.study import study as study
     from linkwright.synthesis.function_generation.generate import function_generation as function_generation
     from linkwright.synthesis.motion_generation.generate import motion_generation as motion_generation
+    from linkwright.synthesis.path_generation.cognates import cognates as cognates
+    from linkwright.synthesis.path_generation.exact import exact_path_generation as exact_path_generation
     from linkwright.synthesis.path_generation.generate import path_generation as path_generation
     from linkwright.synthesis.result import Candidate as Candidate
     from linkwright.synthesis.result import Synthesis as Synthesis
@@ -82,6 +84,8 @@ PUBLIC = {
     "linkwright.study.study": ("Study", "study"),
     "linkwright.synthesis.function_generation.generate": ("function_generation",),
     "linkwright.synthesis.motion_generation.generate": ("motion_generation",),
+    "linkwright.synthesis.path_generation.cognates": ("cognates",),
+    "linkwright.synthesis.path_generation.exact": ("exact_path_generation",),
     "linkwright.synthesis.path_generation.generate": ("path_generation",),
     "linkwright.synthesis.result": ("Candidate", "Synthesis", "SynthesisError"),
     "linkwright.synthesis.tasks": ("synthesize",),

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import linkwright as lw
@@ -87,3 +88,22 @@ def test_sentences(task: str, demands: dict[str, object], words: str) -> None:
     with pytest.raises(lw.SynthesisError, match=words) as caught:
         lw.synthesize(task, **demands)
     assert caught.value.say("zh") != str(caught.value)
+
+
+def test_nine_points_that_no_real_four_bar_passes_in_order() -> None:
+    rng = np.random.default_rng(3)
+    points = rng.normal(size=(9, 2))
+    with pytest.raises(lw.SynthesisError, match=r"none in order on one branch|no real four-bar") as caught:
+        lw.exact_path_generation(points)
+    nearest = caught.value.nearest
+    assert nearest is not None and (nearest.best.defects or nearest.best.error > 0)
+
+
+def test_ten_points_are_too_many_for_exactness() -> None:
+    with pytest.raises(lw.SynthesisError, match="3 to 9 points, given: 10"):
+        lw.exact_path_generation([(k, k * k) for k in range(10)])
+
+
+def test_a_slider_crank_has_no_cognates() -> None:
+    with pytest.raises(lw.SynthesisError, match="four-bar"):
+        lw.cognates(slider_crank_from_ratios(0.3, 3.0).best.linkage)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.synthesis.function_generation.generate import function_generation
 from linkwright.synthesis.motion_generation.generate import motion_generation
+from linkwright.synthesis.path_generation.exact import exact_path_generation
 from linkwright.synthesis.path_generation.generate import path_generation
 from linkwright.synthesis.requirements.crank_rocker import crank_rocker, quick_return
 from linkwright.synthesis.requirements.drag_link import drag_link
@@ -145,5 +146,8 @@ TASKS: Mapping[str, Task] = {
             "seed": "count",
         },
         ("points",),
+    ),
+    "exact_path": Task(
+        exact_path_generation, {"points": "points", "count": "count", "seed": "count"}, ("points",)
     ),
 }

@@ -117,7 +117,8 @@ linkwright synthesize press.yaml --json""",
     "path.no_movable": "{real} real four-bars pass exactly through the points, none in order on one branch; "
     "the best one "
     "shows: {why}",
-    "path.trace": "the trace test of the start set gives {residual}: no class is missing",
+    "cognates.four_bar": "cognates belong to a four-bar with pins and a coupler point P; give one",
+    "cognates.pin": "the coupler point lies on a pin, so its path is a circle without cognates; move it",
     "motion.poses": "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
     "motion.same": "poses {first} and {second} are the same; leave one out",
     "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",

@@ -1,0 +1,1 @@
+"""All four-bars whose coupler point passes nine given points."""

@@ -1,0 +1,91 @@
+"""Exact path generation: four-bars whose coupler point passes three to nine points."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.synthesis.assessment import Assessment, assess_four_bars
+from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
+from linkwright.synthesis.nine_points.classes import is_real, relatives
+from linkwright.synthesis.nine_points.query import NinePoints, nine_points
+from linkwright.synthesis.path_generation.generate import complex_points, path_generation
+from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
+
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+
+#: Sum of squares below which a path of least squares passes its points exactly, in units of their size squared.
+EXACT = 1e-18
+
+
+def exact_path_generation(points: ArrayLike, *, count: int = 6, seed: int = 0) -> Synthesis:
+    """Four-bars whose coupler point passes the points exactly.
+
+    Args:
+        points: (n, 2) or complex (n,), m, 3 ≤ n ≤ 9, in the order in which they shall be passed.
+        count, seed: candidates wanted; seed of the starts (n < 9).
+
+    Returns:
+        Nine points: every four-bar there is, from all 1442 classes of Roberts' cognates, of which those that are real
+        are examined with both inputs and all cognates for circuit, branch and order defects. Three to eight points
+        leave numbers free: those of least squares with a turning crank whose error vanishes.
+
+    Raises:
+        SynthesisError: another number of points, or points that coincide; no real four-bar; none that passes the
+        points
+            in order on one branch (``nearest``: the best with its defects, or that of least squares).
+    """
+    z = complex_points(points)
+    if not 3 <= len(z) <= 9:
+        raise refuse("path.exact_few", count=len(z))
+    size = float(np.sqrt(np.mean(np.abs(z - z.mean()) ** 2)))
+    if np.abs(z[:, None] - z)[~np.eye(len(z), dtype=bool)].min() <= 1e-9 * size or not size > 0:
+        raise refuse("path.one_place")
+    if len(z) < 9:
+        return _fewer(z, size, count, seed)
+    found = nine_points(z)
+    return _nine(z, found, count, seed)
+
+
+def _fewer(z: Complexes, size: float, count: int, seed: int) -> Synthesis:
+    found = path_generation(z, count=4 * count, seed=seed)
+    exact = tuple(each for each in found if each.error <= EXACT * size**2 and not each.defects)
+    if not exact:
+        raise refuse("path.no_real", found, count=len(z), error=f"{found.best.error:.4g}")
+    return Synthesis("exact_path", exact[:count], "squares", z, {"exact": len(exact)})
+
+
+def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
+    real = found.solutions[is_real(found.solutions)]
+    counts = {"classes": len(found.solutions), "real": len(real)}
+    if not len(real):
+        nearest = path_generation(z, count=count, seed=seed)
+        raise refuse("path.no_real", nearest, count=9, error=f"{nearest.best.error:.4g}")
+    u = np.concatenate(relatives(real, found.q))
+    usable = np.isfinite(u).all(1) & (np.abs(u[:, [0, 2, 4, 6]]).max(1) < 1e4)
+    u = u[usable]
+    turn = np.concatenate([np.ones((len(u), 1)), 1 + u[:, 8:]], 1)
+    pins = [z + found.scale * u[:, o, None] * turn for o in (0, 4)]
+    pivots = [z[0] + found.scale * (u[:, o] + u[:, o + 2]) for o in (0, 4)]
+    facts = assess_four_bars(pivots[0], pins[0], pins[1], pivots[1])
+    order = np.lexsort((-facts.transmission, facts.ratio > 20, ~facts.sound))[:count]
+    made = tuple(_candidate(z, pivots, pins, facts, int(i)) for i in order)
+    counts |= {"four_bars": len(u), "sound": int(facts.sound.sum())}
+    notes = (note("path.nine", classes=counts["classes"], real=counts["real"], sound=counts["sound"]),)
+    result = Synthesis("exact_path", made, "squares", z, counts, notes)
+    if made[0].defects:
+        why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
+        raise refuse("path.no_movable", result, real=len(u), why=why)
+    return result
+
+
+def _candidate(
+    z: Complexes, pivots: list[Complexes], pins: list[Complexes], facts: Assessment, i: int
+) -> Candidate:
+    o1, o2 = (complex(each[i]) for each in pivots)
+    a, b = (each[i] for each in pins)
+    lengths = [np.ptp(np.abs(pin - pivot)) for pin, pivot in ((a, o1), (b, o2))]
+    curve = path_of_four_bar(o1, a[0], b[0], o2, z[0])
+    error = float(max(lengths))
+    return four_bar_candidate(o1, a, b, o2, facts, i, error**2, p=complex(z[0]), worst=error, curve=curve)
