@@ -8,7 +8,8 @@ first point a dyad has its moving pin at x and its fixed pivot at x + w, with pa
     m n - m W - n w = 0,  m = d + x g,  n = e + X f:
 
 16 equations for u = (x, X, w, W, y, Y, v, V, g₁ … g₈). With w and g instead of pivots and rotations nothing cancels
-near translations. In a linear solve the two equations of a point lose dg_j by one combination; an 8 × 8 system is left.
+near translations. In a linear solve the two equations of a point lose dg_j by one combination; an 8 × 8 system is
+left.
 
 Along (d, e) = q₀ + t (q₁ - q₀) a path takes a step by Runge and Kutta's fourth order and two Newton corrections; the
 first correction's size sets the next step.
