@@ -88,4 +88,4 @@ def test_names_are_distinct_identifiers() -> None:
 
 
 def test_texts_cannot_end_early() -> None:
-    assert quoted('a "b" \\ \n c') == '"a \\"b\\" \\\\   c"'
+    assert quoted('a "b" \\ \n c') == '"a \\"b\\" \\\\ c"'
