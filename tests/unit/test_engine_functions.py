@@ -13,11 +13,15 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from linkwright.engine import trace as tr
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.derivative import forward, value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.stage import Stage
 from linkwright.engine.sweep import sweep
 from linkwright.engine.table import Table
 
@@ -174,11 +178,10 @@ def test_floor_sign_and_turns_are_exact(backend: str) -> None:
     np.testing.assert_array_equal(slopes[3:], np.zeros((3, 6)))
 
 
-def looked_up(order: int = 0, *, design: bool = False) -> Program:
+def looked_up(order: int = 0) -> Program:
     t = tr.Trace()
-    x = t.parameter("x") if design else t.position("x")
-    outputs = {"y": tr.lookup("law", x, order), "z": t.lookup("other", x, order) * x}
-    return Program.of(t, {**outputs, "i": t.position("i")} if design else outputs)
+    x = t.position("x")
+    return Program.of(t, {"y": tr.lookup("law", x, order), "z": t.lookup("other", x, order) * x})
 
 
 def curve(count: int, seed: int = 0) -> tuple[Floats, Floats]:
@@ -223,6 +226,58 @@ def test_straight_tables_stay_level_beyond_their_ends_and_break_where_they_say(b
     got = evaluate(looked_up(), backend, [], {"x": at}, tables={"law": table, "other": steps})
     np.testing.assert_array_equal(got[0], [2.0, 2.0, 2.0, 3.0, 4.0, 3.5, 3.0, 3.0, 3.0, math.nan])
     np.testing.assert_array_equal(got[1][:-1] / np.where(at == 0, 1, at)[:-1], [5, 7, 0, 5, 7, 5, 7, 5, 5])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_look_ups_of_a_design_and_of_a_state(backend: str) -> None:
+    """y' = law(a + y / 10), from the look-up at the dimension on."""
+    xs, ys = curve(12, 9)
+    spline, table = CubicSpline(xs, ys), Table.spline(xs, ys)
+    t = tr.Trace()
+    a, s = t.parameter("a"), t.state("s")
+    start = t.lookup("law", a)
+    following = t.lookup("law", a + s * 0.1)
+    program = Program.of(t, {"start": start + 0.0 * s, "s": following}, {"s": following})
+    numbers = np.linspace(xs[1], xs[-2], 11)
+    value, want = np.full(11, 0.25), []
+    for _ in range(5):
+        value = spline(numbers + value * 0.1)
+        want.append(value)
+    if backend == "scalar":
+        scalar = ScalarProgram(program, {"law": table})
+        for d, number in enumerate(numbers):
+            outputs, state = scalar.step([float(number)], [], [0.25])
+            assert outputs[0] == pytest.approx(spline(number), rel=1e-12)
+            assert state[0] == pytest.approx(want[0][d], rel=1e-12)
+        return
+    got = sweep(
+        program,
+        numbers[:, None],
+        {},
+        [("start", "first"), ("s", "last"), ("s", "first")],
+        start=[0.25],
+        length=5,
+        tables={"law": table},
+        backend=backend,  # type: ignore[arg-type]
+    )
+    np.testing.assert_allclose(got["start.first"], spline(numbers), rtol=1e-12)
+    np.testing.assert_allclose(got["s.first"], want[0], rtol=1e-12)
+    np.testing.assert_allclose(got["s.last"], want[-1], rtol=1e-12)
+
+
+@pytest.mark.parametrize("backend", ["numpy", pytest.param("llvm", marks=needs_compiler)])
+def test_gradients_through_look_ups_are_those_of_the_spline(backend: str) -> None:
+    xs, ys = curve(12, 4)
+    spline, tables = CubicSpline(xs, ys), {"law": Table.spline(xs, ys), "other": Table.spline(xs, ys)}
+    t = tr.Trace()
+    y = t.lookup("law", t.parameter("a") + t.position("x")) * t.parameter("b")
+    cycle = CycleProgram((Stage(Program.of(t, {"y": y}), {"sum": Reduction("y", "sum")}),), ("a", "b"))
+    at, table = np.linspace(0.0, 1.0, 9), np.array([[xs[2], 2.0], [xs[4], -1.0], [xs[5], 0.5]])
+    values, slopes = cycle_gradient(cycle, "sum").evaluate(table, {"x": at}, tables=tables, backend=backend)  # type: ignore[arg-type]
+    places = table[:, :1] + at
+    np.testing.assert_allclose(values, spline(places).sum(axis=1) * table[:, 1], rtol=1e-11)
+    np.testing.assert_allclose(slopes[:, 0], spline(places, 1).sum(axis=1) * table[:, 1], rtol=1e-11)
+    np.testing.assert_allclose(slopes[:, 1], spline(places).sum(axis=1), rtol=1e-11)
 
 
 @needs_compiler
