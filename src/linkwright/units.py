@@ -98,7 +98,12 @@ LARGEST: Mapping[str, float] = {
     "torsional_stiffness": 1e21,
     "torsional_damping": 1e21,
     "second_moment_of_area": 1e12,
+    "line_load": 1e15,
+    "linear_density": 1e12,
+    "mass_moment": 1e18,
 }
+#: For a quantity of any other dimension.
+LARGEST_OF_ALL = max(LARGEST.values())
 #: A size that must be above zero is not smaller in any machine, SI.
 SMALLEST = 1e-12
 USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "angular_velocity": "rpm"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,12 @@ class MotionSolver:
         self.mechanism = mechanism
         self.manner = manner
         self._assembly = assembly
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what every process makes for itself."""
+        return {
+            name: each for name, each in self.__dict__.items() if name not in ("programs", "_own_follower")
+        }
 
     @cached_property
     def programs(self) -> MotionPrograms:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,10 @@ class ForceSolver:
         self.motion = motion
         self.inertia = inertia
         self.along_input = along_input
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what every process makes for itself."""
+        return {name: each for name, each in self.__dict__.items() if name not in ("programs", "friction")}
 
     @cached_property
     def programs(self) -> ForcePrograms:

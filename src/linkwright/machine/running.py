@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -173,10 +174,12 @@ def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
 
 
 def _with_flywheel(reduced: Equivalent, work: Integral, flywheel: float) -> SpeedCurve:
-    def total(angle: Floats) -> Floats:
-        return flywheel + reduced.inertia_at(angle)
-
+    total = partial(_inertia_with, flywheel, reduced)
     return speed_of(work, total, reduced.speed, motor_torque=reduced.load.mean)
+
+
+def _inertia_with(flywheel: float, reduced: Equivalent, angle: Floats) -> Floats:
+    return flywheel + reduced.inertia_at(angle)
 
 
 def _exact(reduced: Equivalent, work: Integral, required: float, first: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -88,9 +89,7 @@ def speed_of(
     least = Piecewise(edges, done.reshape(-1, POINTS)).extreme("min").value
     energy = _initial_energy(done, inertia, weights / period, speed, least)
 
-    def at(angle: Floats) -> Floats:
-        return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
-
+    at = partial(_speed, energy, work, total)
     curve = Piecewise(edges, np.sqrt(2.0 * (energy + done) / inertia).reshape(-1, POINTS))
     if not curve.smooth.all():
         curve = Piecewise(edges, curve.values, at, edges)
@@ -103,7 +102,15 @@ def speed_of(
 def _constant(inertia: float) -> Function:
     if not inertia > 0:
         raise LinkwrightError(Sentence("running.bad_inertia", inertia=inertia))
-    return lambda angle: np.full(angle.shape, float(inertia))
+    return partial(_same, float(inertia))
+
+
+def _same(value: float, angle: Floats) -> Floats:
+    return np.full(angle.shape, value)
+
+
+def _speed(energy: float, work: Integral, total: Function, angle: Floats) -> Floats:
+    return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
 
 
 def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float, least: float) -> float:

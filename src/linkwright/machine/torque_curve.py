@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
+from linkwright.model.expressions import Expression, array_functions, parse
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -52,12 +53,9 @@ class TorqueCurve:
         if not period > 0:
             raise LinkwrightError(Sentence("running.bad_period", period=period))
         if isinstance(torque, str):
-            return cls(_expression(torque), period)
+            return cls(partial(_expressed, parse(torque, ("theta",))), period)
         if callable(torque):
-            given = torque
-            return cls(
-                lambda theta: np.broadcast_to(np.asarray(given(theta), dtype=float), theta.shape), period
-            )
+            return cls(partial(_given, torque), period)
         values = np.asarray(torque, dtype=float)
         return cls.from_table(np.arange(values.size) * period / max(values.size, 1), values, period=period)
 
@@ -76,12 +74,12 @@ class TorqueCurve:
             raise LinkwrightError(Sentence("running.table_order"))
         if x[-1] - x[0] < period * (1 - 1e-12):
             x, y = np.append(x, x[0] + period), np.append(y, y[0])
-        return cls(lambda theta: _linear(x, y, theta), period, float(x[0]), tuple(x.tolist()))
+        return cls(partial(_linear, x, y), period, float(x[0]), tuple(x.tolist()))
 
     @classmethod
     def constant(cls, torque: float, *, period: float = TURN) -> TorqueCurve:
         """The same torque at all angles."""
-        return cls(lambda theta: np.full(theta.shape, float(torque)), period)
+        return cls(partial(_constant, float(torque)), period)
 
     def __call__(self, theta: ArrayLike) -> Floats:
         """Torque at any angles, (n,) N·m."""
@@ -120,7 +118,7 @@ class TorqueCurve:
                 )
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
-        return TorqueCurve(lambda theta: self(theta) - other(theta), long, self.start, tuple(knots))
+        return TorqueCurve(partial(_difference, self, other), long, self.start, tuple(knots))
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
         """The torque over the angle, with its mean; options: ``linkwright.plot.plot``."""
@@ -148,11 +146,17 @@ def _linear(x: Floats, y: Floats, theta: Floats) -> Floats:
     return np.asarray(y[cell] + share * (y[cell + 1] - y[cell]))
 
 
-def _expression(text: str) -> Callable[[Floats], Floats]:
-    from linkwright.model.expressions import array_functions, parse
+def _expressed(expression: Expression, theta: Floats) -> Floats:
+    return _given(lambda angle: expression.evaluate({"theta": angle}, array_functions()), theta)
 
-    read = parse(text, ("theta",))
-    functions = array_functions()
-    return lambda theta: np.broadcast_to(
-        np.asarray(read.evaluate({"theta": theta}, functions), float), theta.shape
-    )
+
+def _given(function: Callable[[Floats], ArrayLike], theta: Floats) -> Floats:
+    return np.broadcast_to(np.asarray(function(theta), dtype=float), theta.shape)
+
+
+def _constant(torque: float, theta: Floats) -> Floats:
+    return np.full(theta.shape, torque)
+
+
+def _difference(first: TorqueCurve, second: TorqueCurve, theta: Floats) -> Floats:
+    return first(theta) - second(theta)

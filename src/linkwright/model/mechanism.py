@@ -14,7 +14,7 @@ from linkwright.joints.base import Joint
 from linkwright.loads.base import Load
 from linkwright.model.geometry import centre, local_points, point_addresses, second_point_address
 from linkwright.registry import nearest, no_such
-from linkwright.units import LARGEST, Dimension
+from linkwright.units import LARGEST_OF_ALL, Dimension
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -241,7 +241,7 @@ class Mechanism:
         value = float(value)
         if not math.isfinite(value):
             raise RequestError(Sentence("model.set_not_finite", address=address, value=value))
-        if abs(value) > max(LARGEST.values()):
+        if abs(value) > LARGEST_OF_ALL:
             raise RequestError(Sentence("model.set_beyond", address=address, value=value))
         last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
         owner = address.split(".", maxsplit=1)[0]

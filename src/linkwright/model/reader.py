@@ -93,9 +93,10 @@ class Reader(PlainReader):
 
     def _within(self, value: float, node: Node, place: Place, dimension: str) -> float | None:
         """The value, or None after a finding where no machine has one so large."""
-        if abs(value) <= units.LARGEST[dimension]:
+        largest = units.LARGEST.get(dimension, units.LARGEST_OF_ALL)
+        if abs(value) <= largest:
             return value
-        limit = units.format(units.LARGEST[dimension], dimension)
+        limit = units.format(largest, dimension)
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
         self.error(
             node,

@@ -42,6 +42,9 @@ class Criterion:
     measure: Callable[[Alternative], Measured | None]
     forces: bool = False
 
+    def __reduce__(self) -> tuple[Callable[[str], Criterion], tuple[str]]:
+        return criterion, (self.name,)
+
     def label(self, language: str = "en") -> str:
         """Its name in words."""
         if self.name in OWN:

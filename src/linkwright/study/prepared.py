@@ -63,6 +63,7 @@ class Prepared:
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
+        self.backend = backend
         self.solver = MotionSolver(mechanism, Manner(frozenset(vary)))
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
@@ -74,6 +75,9 @@ class Prepared:
         self._base = np.array([nominal[name] for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         self._plain = not (self.program.fields or self.program.states)
+
+    def __reduce__(self) -> tuple[type[Prepared], tuple[object, ...]]:
+        return Prepared, (self.mechanism, self.vary, self.positions, self.backend)
 
     def _trace(self) -> Program:
         motion, forces = self.solver.outputs, self.force_solver.outputs
