@@ -65,6 +65,7 @@ COMMANDS = {
     "mounts": "vibration",
     "statistics": "statistics",
     "program": "program",
+    "tolerance": "tolerance",
 }
 
 

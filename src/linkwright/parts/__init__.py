@@ -42,6 +42,9 @@ if TYPE_CHECKING:
     from linkwright.parts.vibration.system import Start as Start
     from linkwright.parts.vibration.system import Tie as Tie
     from linkwright.parts.vibration.system import VibratingSystem as VibratingSystem
+    from linkwright.tolerance.problem import Clearance as Clearance
+    from linkwright.tolerance.problem import Tolerance as Tolerance
+    from linkwright.tolerance.problem import ToleranceStudy as ToleranceStudy
 
 offer(
     __name__,
@@ -74,5 +77,10 @@ offer(
         ),
         "linkwright.parts.programs.problem": ("Variable",),
         "linkwright.parts.programs.program": ("Program",),
+        "linkwright.tolerance.problem": (
+            "Clearance",
+            "Tolerance",
+            "ToleranceStudy",
+        ),
     },
 )

@@ -33,6 +33,7 @@ KINDS: Mapping[str, str] = {
     "mounts": "linkwright.parts.vibration.mounts.Mounts",
     "statistics": "linkwright.parts.statistics.samples.Samples",
     "program": "linkwright.parts.programs.program.Program",
+    "tolerance": "linkwright.tolerance.problem.ToleranceStudy",
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {

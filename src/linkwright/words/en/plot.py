@@ -137,4 +137,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "frequency": "frequency",
     "kind.samples": "samples",
     "kind.optimum": "constraints and optimum",
+    "kind.tolerance": "spread by tolerances",
+    "machines": "machines",
 }

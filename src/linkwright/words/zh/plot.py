@@ -136,4 +136,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "frequency": "频率",
     "kind.samples": "样本",
     "kind.optimum": "约束与最优点",
+    "kind.tolerance": "公差引起的分散",
+    "machines": "机器数",
 }

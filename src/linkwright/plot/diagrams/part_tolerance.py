@@ -1,0 +1,67 @@
+"""Diagrams of tolerance studies: the machines' numbers, and curves with their bands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.part_axes import unit_for
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
+from linkwright.tolerance.result import Spread
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@RESULT_DIAGRAMS.register("tolerance")
+class ToleranceDiagram(ResultKind):
+    """Histograms of summaries with the linear normal distribution and limits; curves' deviation ±3σ and shift."""
+
+    name = "tolerance"
+    takes = Spread
+
+    def draw(self, result: Spread, request: Request) -> Figure:
+        texts = [t for t in result.study.of if result.swept is not None]
+        count = max(len(texts) + len(result.study.curves), 1)
+        figure = new_figure(request.size or (7.2, 1.0 + 2.4 * count))
+        axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
+        for one, text in zip(axes, texts, strict=False):
+            _histogram(one, result, text, request)
+        for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
+            _band(one, result, output)
+        framed(figure, f"{result.title}: {request.say('kind.tolerance')}", request)
+        return figure
+
+
+def _histogram(axes: Axes, result: Spread, text: str, request: Request) -> None:
+    values, shown = result.values(text), unit_for(result.dimension(text))
+    axes.hist(values * shown.factor, bins=60, color=FAINT, alpha=0.5)
+    sigma, middle = result.linear(text), float(values.mean())
+    if sigma:
+        x = np.linspace(values.min(), values.max(), 300)
+        width = float(np.ptp(values)) / 60
+        density = np.exp(-0.5 * ((x - middle) / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
+        axes.plot(x * shown.factor, density * width * len(values), color=COLOURS[0])
+    limit = result.study.limits.get(text)
+    for end in (limit.lower, limit.upper) if limit else ():
+        if np.isfinite(end):
+            axes.axvline(end * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
+    axes.set_xlabel(shown.label(text))
+    axes.set_ylabel(request.say("machines"))
+
+
+def _band(axes: Axes, result: Spread, output: str) -> None:
+    """±3σ about the shift by pressed pins, over the input."""
+    place, _, deviation = result.curve(output)
+    shift, shown = result.pressed(output), unit_for(result.dimension(output))
+    turning = unit_for("angle" if result.turning else "length")
+    x = place * turning.factor
+    low, high = ((shift + sign * 3 * deviation) * shown.factor for sign in (-1, 1))
+    axes.fill_between(x, low, high, color=COLOURS[0], alpha=0.2, linewidth=0)
+    axes.plot(x, shift * shown.factor, color=COLOURS[0])
+    axes.set_xlabel(turning.label("φ" if result.turning else "s"))
+    axes.set_ylabel(shown.label(f"Δ {output} ± 3σ", "\n"))

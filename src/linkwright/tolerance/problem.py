@@ -1,0 +1,262 @@
+"""What varies and what is asked: tolerances of dimensions, clearances of pins, outputs and their limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from linkwright import units
+from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.model.fields import Quantity, Text, Word
+from linkwright.model.mechanism import Link, Mechanism
+from linkwright.parts.base import Floats, Problem, fault
+from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
+from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.registry import nearest
+from linkwright.study.ranges import dimension_of
+
+if TYPE_CHECKING:
+    from linkwright.tolerance.result import Spread
+
+#: Standard deviation of each distribution as a share of its tolerance ±t.
+DEVIATIONS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3), "triangular": 1 / math.sqrt(6)}
+#: Fewer samples than this tell nothing about a spread.
+LEAST = 64
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """± ``tolerance`` (SI) about the nominal value: normal with 3σ = t, uniform, or triangular."""
+
+    tolerance: float
+    distribution: str = "normal"
+    dimension: units.Dimension | None = None
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation."""
+        return self.tolerance * DEVIATIONS[self.distribution]
+
+    def values(self, share: Floats) -> Floats:
+        """Deviations from the nominal value for even shares between 0 and 1."""
+        from scipy import stats
+
+        match self.distribution:
+            case "normal":
+                return np.asarray(stats.norm.ppf(share)) * self.deviation
+            case "uniform":
+                return self.tolerance * (2.0 * share - 1.0)
+        return np.asarray(stats.triang.ppf(share, 0.5, loc=-self.tolerance, scale=2 * self.tolerance))
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """Radial ``clearance`` (m) of a pin in its hole in link ``on``.
+
+    ``kind``: ``free`` — the pin touches the hole anywhere, each machine somewhere else, all directions alike;
+    ``pressed`` — at every position the joint's own reaction presses the pin against the hole.
+    """
+
+    clearance: float
+    on: str
+    kind: str = "free"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """``lower`` and ``upper`` limit (SI) of an output."""
+
+    lower: float = -math.inf
+    upper: float = math.inf
+    kinds: tuple[units.Dimension, ...] = ()
+
+
+def _tolerance(tolerance: Any, distribution: str = "normal") -> Tolerance:
+    return Tolerance(tolerance[0], distribution, tolerance[1])
+
+
+def _limit(lower: Any = None, upper: Any = None) -> Limit:
+    kinds = tuple(each[1] for each in (lower, upper) if each is not None)
+    return Limit(lower[0] if lower else -math.inf, upper[0] if upper else math.inf, kinds)
+
+
+@dataclass(frozen=True)
+class ToleranceField(Either):
+    """``0.05 mm`` (normal, ± 3σ), or ``{tolerance: 0.05 mm, distribution: uniform}``."""
+
+    def read(self, reader: Any, node: Any, place: Any, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        return _tolerance(found) if isinstance(found, tuple) else found
+
+
+TOLERANCE = {
+    "tolerance": AnyQuantity(required=True, doc="± about the nominal value"),
+    "distribution": Word(tuple(DEVIATIONS), doc=", ".join(DEVIATIONS)),
+}
+CLEARANCE = {
+    "clearance": Quantity("length", required=True, above=0.0, doc="radius of the hole less that of the pin"),
+    "on": Text(required=True, doc="the link with the hole"),
+    "kind": Word(
+        ("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"
+    ),
+}
+LIMIT = {"lower": AnyQuantity(doc="lower limit"), "upper": AnyQuantity(doc="upper limit")}
+
+
+@dataclass(frozen=True)
+class ToleranceStudy(Problem):
+    """Tolerances by address of a dimension (``crank.length``), clearances by pin, and the outputs ``of`` interest.
+
+    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``); ``curves``:
+    outputs over the cycle; ``limits`` by summary.
+    """
+
+    kind: ClassVar[str] = "tolerance"
+    fields: ClassVar[Mapping[str, Any]] = {
+        "mechanism": MECHANISM,
+        "dimensions": ByAddress(
+            ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
+            doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
+        ),
+        "clearances": Named(Table(CLEARANCE, Clearance), "pin",
+                            doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}"),
+        "of": Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"),
+        "curves": Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"),
+        "limits": ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"),
+        "samples": Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"),
+        "seed": Whole(0, doc="seed of the random numbers"),
+        "steps": Whole(4, doc="positions over the cycle, 360 unless given"),
+    }  # fmt: skip
+    mechanism: Mechanism
+    dimensions: Mapping[str, Tolerance] = field(default_factory=dict)
+    clearances: Mapping[str, Clearance] = field(default_factory=dict)
+    of: tuple[str, ...] = ()
+    curves: tuple[str, ...] = ()
+    limits: Mapping[str, Limit] = field(default_factory=dict)
+    samples: int = 8192
+    seed: int = 1
+    steps: int = 360
+    name: str = ""
+    source: str = ""
+
+    @classmethod
+    def of_file(cls, values: Mapping[str, Any], folder: Path) -> ToleranceStudy:
+        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
+
+    def findings(self) -> list[Finding]:
+        found = (
+            [] if self.dimensions or self.clearances else [fault("tolerance.nothing_varies", "dimensions")]
+        )
+        found += [] if self.of or self.curves else [fault("tolerance.nothing_asked", "of")]
+        for address, tolerance in self.dimensions.items():
+            found += self._dimension_findings(address, tolerance)
+        for pin, clearance in self.clearances.items():
+            found += self._clearance_findings(pin, clearance)
+        found += [
+            fault("tolerance.limit_of", f"limits.{name}", name=name)
+            for name in self.limits
+            if name not in self.of
+        ]
+        found += [
+            fault("tolerance.limits_order", f"limits.{name}")
+            for name, limit in self.limits.items()
+            if limit.lower >= limit.upper
+        ]
+        if self.samples < LEAST:
+            found.append(fault("tolerance.few_samples", "samples", least=LEAST))
+        return found
+
+    def _dimension_findings(self, address: str, tolerance: Tolerance) -> list[Finding]:
+        key, known = f"dimensions.{address}", self.mechanism.dimensions()
+        if address not in known:
+            return [
+                fault("tolerance.no_dimension", key, name=address, nearest=nearest(address, known) or "—")
+            ]
+        if tolerance.tolerance <= 0:
+            return [fault("tolerance.not_above_zero", key)]
+        needed = dimension_of(self.mechanism, address)
+        if tolerance.dimension not in (None, units.NONE, needed) and needed is not None:
+            assert tolerance.dimension is not None
+            given, wanted = units.name_of(tolerance.dimension), units.name_of(needed)
+            return [fault("tolerance.wrong_kind", key, name=address, given=given, needed=wanted)]
+        owner = address.partition(".")[0]
+        moved = any(clearance.on == owner for clearance in self.clearances.values())
+        link = self.mechanism.links.get(owner)
+        if moved and link is not None and self._alias(address) not in self.prepared.dimensions():
+            return [fault("tolerance.bent_clearance", key, link=owner)]
+        return []
+
+    def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
+        joint = self.mechanism.joints.get(pin)
+        key = f"clearances.{pin}"
+        if not isinstance(joint, RevoluteJoint):
+            pins = [name for name, each in self.mechanism.joints.items() if isinstance(each, RevoluteJoint)]
+            return [fault("tolerance.no_pin", key, name=pin, known=", ".join(pins))]
+        if clearance.on not in joint.joined:
+            return [
+                fault(
+                    "tolerance.not_on", f"{key}.on", pin=pin, link=clearance.on, known=", ".join(joint.joined)
+                )
+            ]
+        return []
+
+    @cached_property
+    def prepared(self) -> Mechanism:
+        """The mechanism with the holes' links given by coordinates, so that their points can move."""
+        links, mechanism = dict(self.mechanism.links), self.mechanism
+        moved = {c.on for c in self.clearances.values() if c.on in links}
+        for name in moved:
+            links[name] = _by_coordinates(links[name])
+        kept = {a: e for a, e in mechanism.expressions.items() if a.partition(".")[0] not in moved}
+        return replace(mechanism, links=links, expressions=kept)
+
+    def _alias(self, address: str) -> str:
+        """Where a dimension is found in the prepared mechanism: a length as its second point's x."""
+        owner, _, last = address.partition(".")
+        link = self.mechanism.links.get(owner)
+        if link is not None and last == "length" and self.prepared.links[owner].geometry != "length":
+            return f"{owner}.{list(link.points)[1]}.x"
+        return address
+
+    @cached_property
+    def deviating(self) -> dict[str, Tolerance]:
+        """Tolerances by address in the prepared mechanism."""
+        return {self._alias(address): each for address, each in self.dimensions.items()}
+
+    def written(self, address: str) -> str:
+        """The address as the user wrote it."""
+        return next((own for own in self.dimensions if self._alias(own) == address), address)
+
+    def holes(self, kind: str) -> dict[str, tuple[str, str]]:
+        """Addresses of the hole's coordinates by pin, for clearances of a kind."""
+        return {
+            pin: (f"{each.on}.{pin}.x", f"{each.on}.{pin}.y")
+            for pin, each in self.clearances.items()
+            if each.kind == kind
+        }
+
+    def solve(self) -> Spread:
+        """The spread. Raises ModelError with all findings, also where the mechanism does not pass its cycle."""
+        from linkwright.tolerance.result import Spread
+
+        self.require()
+        try:
+            found = Spread(self)
+            found.check()
+        except ModelError:
+            raise
+        except LinkwrightError as error:
+            raise ModelError([fault("tolerance.unsolved", "mechanism", why=error.sentence)]) from None
+        return found
+
+
+def _by_coordinates(link: Link) -> Link:
+    """The same link, its points given by coordinates."""
+    return replace(link, geometry="coordinates", lengths=(), angle=0.0)

@@ -1,0 +1,68 @@
+"""The command ``tolerance``."""
+
+WORDS = {
+    "summary": "what tolerances and clearances do to a mechanism's numbers",
+    "description": """\
+Finds the spread of design numbers and curves of a mechanism from tolerances of its
+dimensions and clearances of its pins: linear with exact derivatives, and by Monte
+Carlo; what contributes most; the share of machines within limits. A clearance is
+free, or its pin follows the joint's own reaction.""",
+    "examples": """\
+linkwright tolerance gallery:crank_rocker_tolerance
+linkwright tolerance gallery:pressed_pins --plot pins.svg
+linkwright tolerance study.yaml --output machines.csv""",
+    "nominal": "nominal value",
+    "shift": "shift by pressed pins",
+    "no_shift": "not followed (no position)",
+    "linear": "standard deviation, linear",
+    "monte_carlo": "standard deviation, Monte Carlo",
+    "machines": "{count} machines",
+    "mean": "mean, Monte Carlo",
+    "range": "99.73 % of the machines",
+    "worst": "± worst case (all tolerances used up)",
+    "yield": "yield",
+    "interval": "95 % interval {low} … {high} %; linear {linear} %",
+    "contributions": "Contributions to the variance",
+    "part": "∂y/∂p = {slope}",
+    "curve": "Curve {name}",
+    "largest_deviation": "largest standard deviation",
+    "largest_shift": "largest shift by pressed pins",
+    "at": "at {place}",
+    "formula": "σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)",
+    "pressed": "Pin {pin} pressed by its own reaction",
+    "agree": "{name}: linear and Monte Carlo agree within 0.5 %.",
+    "differ": "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is not linear in the "
+    "tolerances: over ±2σ of {dimension} it bends by {bend} of its change.",
+    "dead_point": "The cycle comes near a dead point (closeness {closeness} at {place}, 0 at a dead point): there "
+    "the derivatives grow without bound, and the linear spread holds for ever smaller tolerances only.",
+    "failed": "{failed} of {count} machines do not pass the cycle; the numbers are of the others.",
+    "nothing_varies": "nothing varies",
+    "nothing_varies_remedy": "write dimensions: {{crank.length: 0.05 mm}}, or clearances",
+    "nothing_asked": "nothing is asked",
+    "nothing_asked_remedy": 'write of: ["rocker.angle range"], or curves',
+    "no_dimension": 'the mechanism has no dimension "{name}"',
+    "no_dimension_remedy": "the nearest is {nearest}",
+    "not_above_zero": "a tolerance of zero or less",
+    "not_above_zero_remedy": "give a tolerance above zero, or leave it out",
+    "wrong_kind": "the tolerance of {name} is {given}, where {needed} is needed",
+    "wrong_kind_remedy": "write it in the unit of the dimension",
+    "bent_clearance": "{link} has a hole with clearance and a tolerance that its coordinates do not show",
+    "bent_clearance_remedy": "give the clearance on the other link of the pin",
+    "no_pin": 'there is no pin "{name}"',
+    "no_pin_remedy": "one of: {known}",
+    "not_on": "the pin {pin} does not touch {link}",
+    "not_on_remedy": "one of: {known}",
+    "limit_of": 'there is a limit of "{name}", which is not asked',
+    "limit_of_remedy": "name it under of as well",
+    "limits_order": "the upper limit is not above the lower one",
+    "limits_order_remedy": "give the larger value as upper",
+    "few_samples": "too few machines to tell a spread",
+    "few_samples_remedy": "give at least {least}",
+    "no_kind": '"{name}" is a curve, not one number of a machine',
+    "no_kind_remedy": "add min, max, mean, rms, range or peak, or name it under curves",
+    "no_position": "{name} is no position, and pressed pins are followed for positions only",
+    "no_position_remedy": "ask for angles, coordinates or displacements, or take free clearances",
+    "no_force": "the pin {pin} carries no force, so nothing presses it; give masses, gravity or loads",
+    "unsolved": "the study cannot be made: {why}",
+    "unsolved_remedy": "mend the mechanism or the names (linkwright check, linkwright solve)",
+}

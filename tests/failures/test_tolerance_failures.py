@@ -1,0 +1,51 @@
+"""Tolerance studies that cannot be made say what is missing, all at once."""
+
+import pytest
+
+import linkwright as lw
+from linkwright import parts
+
+HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("of: [rocker.angle range]", "nothing varies"),
+        ("dimensions: {crank.length: 1 mm}", "nothing is asked"),
+        ("dimensions: {crank.lenght: 1 mm}\nof: [rocker.angle range]", "the nearest is crank.length"),
+        ("dimensions: {crank.length: 1 kg}\nof: [rocker.angle range]", "is a mass, where a length is needed"),
+        ("dimensions: {crank.length: 0 mm}\nof: [rocker.angle range]", "zero or less"),
+        ("clearances: {C: {clearance: 1 mm, on: rocker}}\nof: [rocker.angle range]", 'no pin "C"'),
+        ("clearances: {B: {clearance: 1 mm, on: crank}}\nof: [rocker.angle range]", "does not touch crank"),
+        ("dimensions: {crank.length: 1 mm}\nof: [rocker.angle]", "is a curve, not one number"),
+        ("dimensions: {crank.length: 1 mm}\nof: [rokcer.angle range]", "the study cannot be made"),
+        (
+            "dimensions: {crank.length: 1 mm}\nof: [rocker.angle range]\nsamples: 3",
+            "whole number of 64 or more",
+        ),
+        (
+            "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]\nlimits: {B.x max: {lower: 1 m}}",
+            "not asked",
+        ),
+        (
+            "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angle]",
+            "carries no force",
+        ),
+        (
+            "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angular_velocity]",
+            "is no position",
+        ),
+    ],
+)
+def test_studies(text: str, words: str) -> None:
+    with pytest.raises(lw.ModelError) as error:
+        parts.loads(f"{HEAD}{text}\n", "t.yaml").solve()
+    assert words in str(error.value)
+    if "t.yaml" not in str(error.value):
+        assert error.value.say("zh") != str(error.value)
+
+
+def test_the_named_mechanism_must_be_there() -> None:
+    with pytest.raises(lw.ModelError, match=r"no file|no such file"):
+        parts.loads(HEAD.replace("gallery:crank_rocker", "nowhere.yaml") + "of: [B.x max]\n", "t.yaml")

@@ -1,0 +1,183 @@
+"""Tolerances against closed forms: swing of a four-bar, stroke of a slider-crank, rods that clearance shortens."""
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright import parts
+from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
+from linkwright.tolerance.pressed import exact, is_position
+from linkwright.tolerance.problem import Limit
+
+FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}
+SLIDER = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 100 mm}
+  rod: {points: [A, B], length: 400 mm}
+  slider: {points: [B], mass: 0 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slider, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+loads: {gas: {kind: force, on: slider, at: B, direction: 180 deg, magnitude: 500 N}}
+"""
+
+
+def swing(a: object, b: object, c: object, d: object) -> np.ndarray:
+    """Swing of the rocker of a crank-rocker (crank, coupler, rocker, frame) from its limit positions."""
+    a, b, c, d = (np.asarray(each, dtype=float) for each in (a, b, c, d))
+    far = np.arccos((c * c + d * d - (a + b) ** 2) / (2 * c * d))
+    near = np.arccos((c * c + d * d - (b - a) ** 2) / (2 * c * d))
+    return far - near
+
+
+def gradient() -> np.ndarray:
+    nominal, steps = np.array(list(FOURBAR.values())), 1e-6 * np.eye(4)
+    return np.array([(swing(*(nominal + s)) - swing(*(nominal - s))) / 2e-6 for s in steps])
+
+
+def study(**given: object) -> ToleranceStudy:
+    tolerances = dict(zip(FOURBAR, (0.003, 0.006, 0.006, 0.008), strict=True))
+    held = {name: Tolerance(t) for name, t in tolerances.items()}
+    return ToleranceStudy(
+        lw.load("gallery:crank_rocker"), **{"dimensions": held, "of": ("rocker.angle range",), **given}
+    )  # type: ignore[arg-type]
+
+
+def test_linear_spread_is_that_of_the_closed_form() -> None:
+    found = study(steps=2880).solve()
+    sigma = np.array([0.001, 0.002, 0.002, 0.008 / 3])
+    parts_ = (gradient() * sigma) ** 2
+    assert found.linear("rocker.angle range") == pytest.approx(math.sqrt(parts_.sum()), rel=5e-4)
+    shares = {each.name: each.share for each in found.shares("rocker.angle range")}
+    expected = dict(zip(FOURBAR, parts_ / parts_.sum(), strict=True))
+    assert shares == pytest.approx(expected, abs=1e-4)
+
+
+def test_monte_carlo_agrees_with_linear_and_with_machines_in_closed_form() -> None:
+    """Half a percent, away from dead points; 400 000 machines by NumPy's own random numbers."""
+    found = study().solve()
+    rng = np.random.default_rng(11)
+    drawn = [
+        v + s * rng.normal(size=400_000)
+        for v, s in zip(FOURBAR.values(), (0.001, 0.002, 0.002, 0.008 / 3), strict=True)
+    ]
+    independent = float(swing(*drawn).std())
+    text = "rocker.angle range"
+    assert found.monte_carlo(text) == pytest.approx(independent, rel=5e-3)
+    assert found.monte_carlo(text) == pytest.approx(found.linear(text), rel=5e-3)
+    assert "agree" in found.text()
+
+
+def test_distributions_have_their_deviations() -> None:
+    for name, share in (("normal", 1 / 3), ("uniform", 3**-0.5), ("triangular", 6**-0.5)):
+        even = (np.arange(100_000) + 0.5) / 100_000
+        values = Tolerance(0.3, name).values(even)
+        assert values.std() == pytest.approx(0.3 * share, rel=1e-3)
+        assert Tolerance(0.3, name).deviation == pytest.approx(0.3 * share)
+
+
+def test_stroke_of_a_slider_crank_spreads_twice_as_the_crank() -> None:
+    one = ToleranceStudy(lw.loads(SLIDER), {"crank.length": Tolerance(3e-4)}, of=("B.x range",), samples=1024)
+    found = one.solve()
+    assert found.linear("B.x range") == pytest.approx(2e-4, rel=1e-9)
+    assert found.worst_case("B.x range") == pytest.approx(6e-4, rel=1e-9)
+
+
+def test_free_pin_spreads_the_slider_along_the_rod() -> None:
+    """∂x/∂(hole) has the size 1/cos β; its spread over directions is c/(√2 cos β)."""
+    one = ToleranceStudy(
+        lw.loads(SLIDER), clearances={"B": Clearance(1e-4, "rod")}, curves=("B.x",), steps=72
+    )
+    place, _, deviation = one.solve().curve("B.x")
+    beta = np.arcsin(100 / 400 * np.sin(place))
+    assert deviation == pytest.approx(1e-4 / math.sqrt(2) / np.cos(beta), rel=1e-9)
+
+
+@pytest.mark.parametrize(("direction", "sign"), [("180 deg", -1.0), ("0 deg", 1.0)])
+def test_pressed_pin_of_a_rod_without_mass_changes_its_length(direction: str, sign: float) -> None:
+    """A two-force rod: pushed together it is shorter by the clearance, pulled apart longer."""
+    text = SLIDER.replace("direction: 180 deg, m", f"direction: {direction}, m")
+    one = ToleranceStudy(
+        lw.loads(text), clearances={"B": Clearance(1e-4, "rod", "pressed")}, curves=("B.x",), steps=36
+    )
+    found = one.solve()
+    place, moved, deviation = found.curve("B.x")
+
+    def travel(rod: float) -> np.ndarray:
+        return 0.1 * np.cos(place) + np.sqrt(rod**2 - (0.1 * np.sin(place)) ** 2)
+
+    change = travel(0.4 + sign * 1e-4) - travel(0.4)
+    assert exact(one, "B.x") - travel(0.4) == pytest.approx(change, abs=1e-12)
+    assert moved - travel(0.4) == pytest.approx(change, abs=2e-8)
+    assert not deviation.any()
+
+
+def test_first_order_follows_the_exact_solution_of_every_position() -> None:
+    one = parts.load("gallery:pressed_pins")
+    assert isinstance(one, ToleranceStudy)
+    small = ToleranceStudy(one.mechanism, clearances=one.clearances, curves=("jaw.angle",), steps=24)
+    found = small.solve()
+    first = found.pressed("jaw.angle")
+    whole = exact(small, "jaw.angle") - found.derivatives.curve("jaw.angle")
+    assert np.abs(first - whole).max() < 0.01 * np.abs(whole).max()
+
+
+def near_dead_point() -> ToleranceStudy:
+    mechanism = lw.load("gallery:crank_rocker").with_dimensions({"frame.O2.x": 4.998})
+    held = {"frame.O2.x": Tolerance(0.0015)}
+    return ToleranceStudy(mechanism, held, of=("rocker.angular_acceleration peak",), samples=1024)
+
+
+def test_near_a_dead_point_they_differ_and_the_reason_is_said() -> None:
+    found = near_dead_point().solve()
+    assert found.ratio("rocker.angular_acceleration peak") > 1.1
+    assert found.closeness is not None and found.closeness[0] < 0.05
+    assert math.degrees(found.closeness[1]) % 360 == pytest.approx(180, abs=2)
+    text = found.text()
+    assert "times the linear spread" in text and "near a dead point" in text and "180°" in text
+
+
+def test_machines_that_cannot_turn_are_counted() -> None:
+    mechanism = lw.load("gallery:crank_rocker").with_dimensions({"frame.O2.x": 4.998})
+    held = {"frame.O2.x": Tolerance(0.006)}
+    found = ToleranceStudy(mechanism, held, of=("rocker.angle range",), samples=2048).solve()
+    failing = 0.5 * math.erfc(1 / math.sqrt(2))  # a frame longer by more than one standard deviation
+    assert found.failed / 2048 == pytest.approx(failing, abs=0.005)
+    assert "do not pass the cycle" in found.text()
+
+
+def test_yield() -> None:
+    """Limits at ±1.5σ of a single normal tolerance that enters the stroke linearly."""
+    problem = ToleranceStudy(
+        lw.loads(SLIDER), {"crank.length": Tolerance(3e-4)}, of=("B.x range",),
+        limits={"B.x range": Limit(0.2 - 3e-4, 0.2 + 3e-4)}, samples=4096,
+    )  # fmt: skip
+    share, low, high, linear = problem.solve().passed("B.x range")
+    assert linear == pytest.approx(math.erf(1.5 / math.sqrt(2)), rel=1e-6)
+    assert share == pytest.approx(linear, abs=2e-3) and low < linear < high
+
+
+def test_an_outside_library_finds_the_same_spread() -> None:
+    ot = pytest.importorskip("openturns")
+    formula = "acos((c*c+d*d-(a+b)^2)/(2*c*d))-acos((c*c+d*d-(b-a)^2)/(2*c*d))"
+    inputs = [
+        ot.Normal(v, s) for v, s in zip(FOURBAR.values(), (0.001, 0.002, 0.002, 0.008 / 3), strict=True)
+    ]
+    together = getattr(ot, "JointDistribution", None) or ot.ComposedDistribution
+    vector = ot.RandomVector(together(inputs))
+    output = ot.CompositeRandomVector(ot.SymbolicFunction(["a", "b", "c", "d"], [formula]), vector)
+    taylor = ot.TaylorExpansionMoments(output).getCovariance()[0, 0] ** 0.5
+    drawn = output.getSample(200_000).computeStandardDeviation()[0]
+    found = study().solve()
+    assert found.linear("rocker.angle range") == pytest.approx(taylor, rel=5e-3)
+    assert found.monte_carlo("rocker.angle range") == pytest.approx(drawn, rel=5e-3)
+
+
+def test_positions_are_told_from_rates() -> None:
+    one = study()
+    assert is_position(one, "rocker.angle") and is_position(one, "B.x")
+    assert not is_position(one, "rocker.angular_velocity") and not is_position(one, "B.velocity.x")
