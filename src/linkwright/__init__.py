@@ -41,6 +41,9 @@ if TYPE_CHECKING:
     from linkwright.study.compare import compare as compare
     from linkwright.study.designs import Sweep as Sweep
     from linkwright.study.designs import sweep as sweep
+    from linkwright.study.objective import Objective as Objective
+    from linkwright.study.objective import PathError as PathError
+    from linkwright.study.objective import objective as objective
     from linkwright.study.prepared import Prepared as Prepared
     from linkwright.study.prepared import prepare as prepare
     from linkwright.study.sensitivity import Sensitivity as Sensitivity
@@ -79,6 +82,7 @@ PUBLIC = {
     "linkwright.structure": ("Structure", "StructureError", "structure"),
     "linkwright.study.compare": ("Comparison", "compare"),
     "linkwright.study.designs": ("Sweep", "sweep"),
+    "linkwright.study.objective": ("Objective", "PathError", "objective"),
     "linkwright.study.prepared": ("Prepared", "prepare"),
     "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
     "linkwright.study.study": ("Study", "study"),

@@ -29,14 +29,14 @@ RATES = {
 STEPS, CONVERGED = 16, 1e-10
 
 
-def limit_stages(traced: Traced, outputs: Iterable[Output]) -> list[Stage]:
-    """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), and ``doubt:OUTPUT``:
-    above zero where these are not certain to be its only limits."""
+def limit_stages(traced: Traced, outputs: Iterable[Output], *, judged: bool = True) -> list[Stage]:
+    """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), and where ``judged``
+    ``doubt:OUTPUT``: above zero where these are not certain to be its only limits."""
     found: list[Stage] = []
     for output in dict.fromkeys(outputs):
         found.append(_nearest(traced, output))
         found += [_refined(traced, output, kind) for kind in ("max", "min")]
-        found += [_counted(traced, output), _doubt(output)]
+        found += [_counted(traced, output), _doubt(output)] if judged else []
     return found
 
 

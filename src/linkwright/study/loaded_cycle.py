@@ -49,41 +49,55 @@ class LoadedCycle:
         return np.stack([np.broadcast_to(each, designs) for each in columns], axis=1)
 
 
-def loaded_cycle(
-    traced: Traced, columns: Mapping[str, Floats], names: Iterable[str], reductions: Iterable[Reduction]
-) -> LoadedCycle | None:
-    """The cycle program of all designs; None where some load does not follow the input, or the cycle is no single
-    turn of one driver of constant speed.
+@dataclass(frozen=True)
+class AlongInput:
+    """Loads whose magnitudes are traced over the input, and the outputs whose limit positions they need."""
 
-    Raises LinkwrightError where the loads of the mechanism as it is cannot be found.
-    """
-    mechanism = traced.mechanism
-    fields = traced.program(traced.quantities(names)).fields
-    wanted = frozenset(name.removeprefix("load:") for name in fields)
-    if not _one_turn(traced, columns) or any(not name.startswith("load:") for name in fields):
+    names: frozenset[str]
+    outputs: tuple[Output, ...]
+
+
+def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) -> AlongInput | None:
+    """The loads behind a program's inputs per position; None where some input is no load that follows the input, or
+    the cycle is no single turn of one driver of constant speed."""
+    mechanism, given = traced.mechanism, tuple(fields)
+    names = frozenset(name.removeprefix("load:") for name in given)
+    if not given:
+        return AlongInput(names, ())
+    if not _one_turn(traced, varied) or any(not name.startswith("load:") for name in given):
         return None
-    loads = [mechanism.loads[name] for name in wanted]
-    parameters = frozenset(mechanism.parameters)
-    given = [a for a in mechanism.expressions if a.startswith(tuple(f"loads.{each.name}." for each in loads))]
-    if given or not all(follows_input(load, parameters) for load in loads):
+    loads = [mechanism.loads[name] for name in names]
+    addresses = tuple(f"loads.{each.name}." for each in loads)
+    if any(address.startswith(addresses) for address in mechanism.expressions):
+        return None
+    if not all(follows_input(load, frozenset(mechanism.parameters)) for load in loads):
         return None
     phases = [phase for each in loads if isinstance(phase := getattr(each, "phase", None), SwingPhase)]
-    outputs = tuple(dict.fromkeys(phase.output for phase in phases))
-    over_input = Traced(mechanism, columns, traced.positions, along_input=wanted)
+    return AlongInput(names, tuple(dict.fromkeys(phase.output for phase in phases)))
+
+
+def loaded_cycle(
+    traced: Traced, varied: Iterable[str], names: Iterable[str], reductions: Iterable[Reduction]
+) -> LoadedCycle | None:
+    """The cycle program of all designs; None where the loads do not follow the input."""
+    known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)
+    if known is None:
+        return None
+    over_input = Traced(traced.mechanism, varied, traced.positions, along_input=known.names)
     try:
-        stages = limit_stages(over_input, outputs)
+        stages = limit_stages(over_input, known.outputs)
     except LinkwrightError:
         return None
     program = over_input.program(over_input.quantities(names))
     stages.append(Stage(program, {each.name: each for each in reductions}, valid=VALID, count=VALID_COUNT))
-    return LoadedCycle(over_input, CycleProgram(tuple(stages)), outputs)
+    return LoadedCycle(over_input, CycleProgram(tuple(stages)), known.outputs)
 
 
-def _one_turn(traced: Traced, columns: Mapping[str, Floats]) -> bool:
+def _one_turn(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether the cycle is one closed turn of the only driver, of constant speed, whatever varies."""
     drivers = list(traced.mechanism.drivers.values())
     if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed):
         return False
     span = abs(drivers[0].law.speed) * (traced.positions.period or 0.0)
     turns = traced.positions.closed and traced.positions.rotary[drivers[0].name]
-    return turns and abs(span - TURN) <= 1e-9 and f"{drivers[0].name}.speed" not in columns
+    return turns and abs(span - TURN) <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)

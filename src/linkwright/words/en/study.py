@@ -96,6 +96,15 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "nothing_to_differentiate": "no dimension is given to differentiate by; name some, such as "
     "by=['crank.length']",
     "no_outputs": 'no outputs are asked for; name some, such as "driver.effort rms"',
+    "objective_shape": "the designs must have the columns {names}, not the shape {shape}",
+    "objective_target": "the target of a path error is a list of points [x, y] in m, and all targets have as many "
+    "points",
+    "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
+    "objective_loads": "{name!r} has loads or friction that do not follow the input alone or an output's way between "
+    "its limits, so no gradient is found through them; use sensitivity, which takes them one design at a time",
+    "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
+    "found; use sensitivity",
+    "objective_idle": "{names} has no influence on what is asked; leave it out",
     "place_without_slope": "{name!r} is a place, which has no derivative here; ask for its extreme",
     "moves_input": "{address} moves the positions of the input; derivatives are taken at fixed input, so "
     "leave it out",

@@ -83,6 +83,13 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_summary_asked": "没有要求汇总“{output}”；已有 {names}",
     "nothing_to_differentiate": "没有给出求导的尺寸；请给出一些，如 by=['crank.length']",
     "no_outputs": "没有要求任何输出；请给出一些，如“driver.effort rms”",
+    "objective_shape": "各方案的列必须是 {names}，而不是形状 {shape}",
+    "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
+    "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
+    "objective_loads": "{name!r} 的载荷或摩擦不只取决于输入或输出在极限位置之间的行程，因此求不出对它们的梯度；"
+    "请用 sensitivity，它逐个方案计算",
+    "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；请用 sensitivity",
+    "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
     "moves_input": "{address} 会移动输入的位置；导数在固定的输入处求得，请去掉它",
     "no_llvmlite": "无法载入 llvmlite：请安装，或使用 numpy 后端",

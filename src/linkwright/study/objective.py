@@ -1,0 +1,250 @@
+"""Objectives of designs: value and exact gradient of weighted summaries and path errors, for one design and many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.machine_code import available
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.trace import Scalar, Trace, absolute, atan, maximum
+from linkwright.errors import RequestError
+from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.loaded_cycle import along_input
+from linkwright.study.named import Quantity
+from linkwright.study.summary import KINDS, Summary, reductions, wanted
+from linkwright.study.traced import VALID, Traced
+from linkwright.study.vary import checked_addresses, refuse_moved_positions
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+VALUE = "objective"
+
+
+@dataclass(frozen=True, eq=False)
+class PathError:
+    """Mean square distance, m², of a point from target points (n, 2), m, position by position.
+
+    ``point``: ``C`` or ``coupler.P``. There are as many positions as targets: over the cycle, or at the inputs that
+    the objective is given.
+    """
+
+    point: str
+    target: ArrayLike
+
+
+Terms = str | PathError | Mapping[str | PathError, float] | Sequence[str | PathError]
+
+
+class Objective:
+    """A function of dimensions with its exact gradient; made by :func:`objective`.
+
+    ``names``: the dimensions; ``start`` (k,): their values in the mechanism, SI. Called with (k,) values it gives
+    the value and the gradient (k,), as ``scipy.optimize.minimize(f, f.start, jac=True)`` takes them; :meth:`many`
+    does the same for (designs, k). NaN where a design does not pass its cycle.
+    """
+
+    def __init__(
+        self,
+        traced: Traced,
+        names: tuple[str, ...],
+        gradient: CycleGradient,
+        targets: Mapping[str, Floats],
+        backend: Backend,
+    ) -> None:
+        self.names = names
+        self._gradient = gradient
+        self._backend: Backend = "llvm" if backend == "auto" and available() else backend
+        self._arrays = {**traced.positions.arrays, **targets}
+        known = {**traced.solver.nominal.parameters, **constants(traced)}
+        self.start: Floats = np.array([known[name] for name in names])
+        self._base = np.array([known[name] for name in gradient.cycle.dimensions])
+        self._columns = [gradient.cycle.dimensions.index(name) for name in names]
+
+    def __call__(self, values: ArrayLike) -> tuple[float, Floats]:
+        """Value and gradient (k,) of one design."""
+        found, gradient = self.many(np.asarray(values, dtype=float)[None, :])
+        return float(found[0]), gradient[0]
+
+    def many(self, values: ArrayLike, *, threads: int | None = 1) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, k) of many designs (designs, k)."""
+        given = np.asarray(values, dtype=float)
+        if given.ndim != 2 or given.shape[1] != len(self.names):
+            raise RequestError(
+                Sentence("study.objective_shape", names=self.names, shape=str(np.shape(values)))
+            )
+        table = np.repeat(self._base[None, :], len(given), axis=0)
+        table[:, self._columns] = given
+        return self._gradient.evaluate(table, self._arrays, threads=threads, backend=self._backend)
+
+    def __repr__(self) -> str:
+        return f"Objective({', '.join(self.names)})"
+
+
+def objective(
+    mechanism: Mechanism,
+    terms: Terms,
+    *,
+    vary: Iterable[str],
+    steps: int = 360,
+    at: ArrayLike | None = None,
+    backend: Backend = "auto",
+) -> Objective:
+    """A weighted sum of summaries over the cycle and of path errors, as a function of some dimensions.
+
+    Args:
+        mechanism: the design to start from; its assembly modes hold for all.
+        terms: summaries such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms, range, peak)
+            and :class:`PathError`; several with their weights in a mapping.
+        vary: addresses of dimensions, or names of parameters.
+        steps: positions over the cycle; a path error sets them itself.
+        at: inputs of the first driver, rad or m, instead of the cycle.
+        backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
+
+    Extremes are those of the positions; loads that follow the input or an output's way between its limits are
+    included, limit positions with their derivatives.
+
+    Raises:
+        LinkwrightError: unknown names; groups without closed form, friction and loads of other kinds, through which
+            no gradient is found yet.
+    """
+    names = checked_addresses(mechanism, vary)
+    given = _weighted(terms)
+    targets = [np.asarray(term.target, dtype=float) for term in given if isinstance(term, PathError)]
+    counts = {len(target) for target in targets}
+    if any(target.ndim != 2 or target.shape[1] != 2 for target in targets) or len(counts) > 1:
+        raise RequestError(Sentence("study.objective_target"))
+    positions = (
+        at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, next(iter(counts), steps))
+    )
+    if counts and positions.count not in counts:
+        raise RequestError(Sentence("study.objective_count", points=counts.pop(), positions=positions.count))
+    known = mechanism.dimensions()
+    if at is None:
+        refuse_moved_positions(
+            mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
+        )
+    return _Builder(mechanism, names, positions, given).built(backend)
+
+
+def _weighted(terms: Terms) -> dict[str | PathError, float]:
+    if isinstance(terms, str | PathError):
+        return {terms: 1.0}
+    if isinstance(terms, Mapping):
+        return dict(terms)
+    return dict.fromkeys(terms, 1.0)
+
+
+class _Builder:
+    """Traces what the terms need into one cycle program."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        names: tuple[str, ...],
+        positions: Positions,
+        terms: dict[str | PathError, float],
+    ) -> None:
+        self.terms = terms
+        self.names = names
+        plain = Traced(mechanism, names, positions)
+        if plain.solver.motion.next_states:
+            raise RequestError(Sentence("study.objective_iterates", name=mechanism.name))
+        outputs = [summary.output for summary in self.summaries]
+        loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
+        if loads is None:
+            raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
+        self.outputs = loads.outputs
+        self.traced = Traced(mechanism, names, positions, along_input=loads.names) if loads.names else plain
+
+    @cached_property
+    def summaries(self) -> dict[Summary, float]:
+        """The summaries with their weights."""
+        return {wanted([term])[0]: weight for term, weight in self.terms.items() if isinstance(term, str)}
+
+    @cached_property
+    def quantities(self) -> dict[str, Quantity]:
+        """The outputs that are summarised."""
+        return self.traced.quantities(summary.output for summary in self.summaries)
+
+    @property
+    def paths(self) -> list[tuple[PathError, float]]:
+        """The path errors with their weights."""
+        return [(term, weight) for term, weight in self.terms.items() if isinstance(term, PathError)]
+
+    def built(self, backend: Backend) -> Objective:
+        outputs, targets = self._outputs()
+        program = Program.of(
+            self.traced.solver.motion.trace, {**outputs, VALID: self.traced.solver.motion.valid}
+        )
+        made = {each.name: each for each in reductions(self.summaries, self.quantities)}
+        made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
+        stages = [
+            *limit_stages(self.traced, self.outputs, judged=False),
+            Stage(program, made, valid=VALID, complete=True),
+            Stage(self._total(), {VALUE: Reduction(VALUE, "first")}, steps=1),
+        ]
+        gradient = cycle_gradient(CycleProgram(tuple(stages)), VALUE, self._known(stages))
+        return Objective(self.traced, self.names, gradient, targets, backend)
+
+    def _known(self, stages: list[Stage]) -> tuple[str, ...]:
+        """The varied dimensions that the program depends on; raises where one has no influence."""
+        dimensions = CycleProgram(tuple(stages)).dimensions
+        idle = [name for name in self.names if name not in dimensions]
+        if idle:
+            raise RequestError(Sentence("study.objective_idle", names=tuple(idle)))
+        return self.names
+
+    def _outputs(self) -> tuple[dict[str, Scalar], dict[str, Floats]]:
+        """What is reduced, and the targets as inputs per position."""
+        trace = self.traced.solver.motion.trace
+        outputs = {name: each.carrier for name, each in self.quantities.items()}
+        targets: dict[str, Floats] = {}
+        for k, (term, _) in enumerate(self.paths):
+            place = self.traced.solver.outputs.point(self.traced.named.point_key(term.point))[0]
+            points = np.asarray(term.target, dtype=float)
+            squares: Scalar = 0.0
+            for axis, value, column in (("x", place.x, points[:, 0]), ("y", place.y, points[:, 1])):
+                name = f"target {k}.{axis}"
+                targets[name] = np.ascontiguousarray(column)
+                gap = value - trace.position(name)
+                squares = squares + gap * gap
+            outputs[f"path {k}"] = squares
+        return outputs, targets
+
+    def _total(self) -> Program:
+        """The weighted sum, from the reductions."""
+        t = Trace()
+        total: Scalar = 0.0
+        for summary, weight in self.summaries.items():
+            total = total + weight * _summary(t, summary, self.quantities[summary.output])
+        for k, (_, weight) in enumerate(self.paths):
+            total = total + weight * t.parameter(f"path {k}")
+        return Program.of(t, {VALUE: total})
+
+
+def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:
+    """A summary in its unit from the reductions of its carrier."""
+    if summary.kind in ("argmin", "argmax"):
+        raise RequestError(Sentence("study.place_without_slope", name=summary.name))
+    parts = [t.parameter(f"{summary.output}.{kind}") for kind in KINDS[summary.kind]]
+    shown = [_shown(part, quantity) for part in parts]
+    if summary.kind == "range":
+        return shown[1] - shown[0]
+    return maximum(absolute(shown[0]), absolute(shown[1])) if summary.kind == "peak" else shown[0]
+
+
+def _shown(carrier: Scalar, quantity: Quantity) -> Scalar:
+    if quantity.form == "plain":
+        return carrier
+    return quantity.reference + (2.0 if quantity.form == "half tangent" else 1.0) * atan(carrier)

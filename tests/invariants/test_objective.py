@@ -1,0 +1,134 @@
+"""Values of objectives are those of the machine solved alone, gradients the differences of such solutions."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+SIXBAR = "gallery:jaw_crusher_sixbar"
+LENGTHS = ["crank.length", "pitman.length", "rocker.length", "toggle.length", "jaw.length"]
+
+
+def differences(function, x, share=1e-5):
+    found = []
+    for i, value in enumerate(x):
+        ends = []
+        for sign in (1, -1):
+            moved = x.copy()
+            moved[i] += sign * share * value
+            ends.append(function(moved))
+        found.append((ends[0] - ends[1]) / (2 * share * value))
+    return np.array(found)
+
+
+def torque_rms(forces):
+    return np.sqrt((forces.input_torque**2).mean())
+
+
+def pivot_peak(forces):
+    return np.hypot(*forces.reaction("O5", on="jaw").T).max()
+
+
+def swing(forces):
+    return np.ptp(forces.motion.link("jaw").angle)
+
+
+@pytest.mark.parametrize("backend", ["numpy", "auto"])
+@pytest.mark.parametrize(
+    ("term", "number", "names"),
+    [
+        ("driver.effort rms", torque_rms, [*LENGTHS, "loads.crushing.ramp.1", "jaw.mass", "frame.O3.x"]),
+        ("reaction O5 on jaw max", pivot_peak, [*LENGTHS, "loads.crushing.ramp.1"]),
+        ("jaw.angle range", swing, LENGTHS),
+    ],
+)
+def test_value_and_gradient_through_the_load_between_limit_positions(term, number, names, backend):
+    crusher = lw.load(SIXBAR)
+    f = lw.objective(crusher, term, vary=names, backend=backend)
+    value, gradient = f(f.start)
+    assert value == pytest.approx(number(lw.solve_forces(crusher)), rel=1e-12)
+
+    def alone(x):
+        return number(lw.solve_forces(crusher.with_dimensions(dict(zip(f.names, x, strict=True)))))
+
+    assert gradient == pytest.approx(differences(alone, f.start), rel=2e-6, abs=1e-6 * np.abs(gradient).max())
+
+
+def test_a_load_over_an_interval_of_the_input():
+    conveyor = lw.load("gallery:swing_conveyor")
+    f = lw.objective(conveyor, "driver.effort rms", vary=["coupler.length", "loads.resistance.magnitude"])
+    value, gradient = f(f.start)
+    assert value == pytest.approx(torque_rms(lw.solve_forces(conveyor)), rel=1e-12)
+
+    def alone(x):
+        return torque_rms(lw.solve_forces(conveyor.with_dimensions(dict(zip(f.names, x, strict=True)))))
+
+    assert gradient == pytest.approx(differences(alone, f.start), rel=2e-6)
+
+
+def test_weighted_sum_and_many_designs():
+    crusher = lw.load(SIXBAR)
+    names = LENGTHS[:2]
+    both = lw.objective(crusher, {"driver.effort rms": 2.0, "reaction O5 on jaw max": -0.1}, vary=names)
+    one, other = (
+        lw.objective(crusher, t, vary=names) for t in ("driver.effort rms", "reaction O5 on jaw max")
+    )
+    table = both.start * np.linspace(0.99, 1.01, 7)[:, None]
+    values, gradients = both.many(table)
+    for row, value, gradient in zip(table, values, gradients, strict=True):
+        (a, da), (b, db) = one(row), other(row)
+        assert value == pytest.approx(2 * a - 0.1 * b, rel=1e-12)
+        assert gradient == pytest.approx(2 * da - 0.1 * db, rel=1e-9)
+
+
+def test_path_error_is_the_mean_square_distance_and_vanishes_on_its_own_path():
+    fourbar = lw.load("gallery:crank_rocker")
+    names = ["crank.length", "coupler.length", "rocker.length", "coupler.P.x", "coupler.P.y"]
+    track = lw.solve_motion(fourbar, steps=60).point("coupler.P").position
+    away = np.array([0.01, -0.02])
+    f = lw.objective(fourbar, lw.PathError("coupler.P", track + away), vary=names)
+    value, gradient = f(f.start)
+    assert value == pytest.approx(away @ away, rel=1e-12)
+
+    def alone(x):
+        moved = lw.solve_motion(fourbar.with_dimensions(dict(zip(names, x, strict=True))), steps=60)
+        return ((moved.point("coupler.P").position - track - away) ** 2).sum(axis=1).mean()
+
+    assert gradient == pytest.approx(differences(alone, f.start), rel=1e-5, abs=1e-8)
+    same = lw.objective(fourbar, lw.PathError("coupler.P", track), vary=names)
+    assert same(same.start)[0] < 1e-28
+
+
+def test_scipy_finds_the_dimensions_of_a_path():
+    from scipy.optimize import minimize
+
+    fourbar = lw.load("gallery:crank_rocker")
+    names = ["crank.length", "coupler.length", "rocker.length", "coupler.P.x", "coupler.P.y"]
+    hidden = np.array([fourbar.dimension(name) for name in names]) * [1.03, 0.98, 1.02, 1.05, 0.95]
+    target = lw.solve_motion(fourbar.with_dimensions(dict(zip(names, hidden, strict=True))), steps=36)
+    f = lw.objective(fourbar, lw.PathError("coupler.P", target.point("coupler.P").position), vary=names)
+    found = minimize(f, f.start, jac=True, method="BFGS", options={"gtol": 1e-12})
+    assert found.x == pytest.approx(hidden, rel=1e-5)
+
+
+def test_a_design_that_cannot_turn_has_no_value():
+    crusher = lw.load(SIXBAR)
+    f = lw.objective(crusher, "driver.effort rms", vary=["crank.length"])
+    value, gradient = f([2.5])
+    assert np.isnan(value)
+    assert np.isnan(gradient).all()
+
+
+@pytest.mark.parametrize(
+    ("model", "terms", "vary", "words"),
+    [
+        ("triad", "driver.effort rms", ["A.length"], "no dimension"),
+        ("jaw_crusher_sixbar", "driver.efort rms", ["crank.length"], "driver.effort"),
+        ("jaw_crusher_sixbar", "driver.effort argmax", ["crank.length"], "place"),
+        ("jaw_crusher_sixbar", "jaw.angle range", ["jaw.mass"], "no influence"),
+        ("jaw_crusher_sixbar", "jaw.angle range", ["driver.start"], "position"),
+    ],
+)
+def test_refusals_say_why(model, terms, vary, words):
+    with pytest.raises(lw.LinkwrightError, match=words):
+        lw.objective(lw.load(f"gallery:{model}"), terms, vary=vary)
