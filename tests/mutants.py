@@ -132,9 +132,10 @@ def run(given: argparse.Namespace) -> int:
     only = given.only or PACKAGES
     population = all_mutants(only)
     chosen = random.Random(given.seed).sample(population, min(given.count, len(population)))
-    Work.cover = covering(folder, given.workers, keep=given.keep)
+    Work.cover = covering(folder / "covering", given.workers, keep=given.keep)
     Work.known, Work.budget = equivalents(), given.budget
     preload()
+    _check_unchanged(Work.cover, chosen)
     print(f"{len(chosen)} of {len(population)} mutants", file=sys.stderr)
     journal = folder / f"trials-{given.seed}-{given.count}-{'-'.join(only).replace('/', '.')[:60]}.jsonl"
     trials, rest = _done_before(journal, chosen)
@@ -156,9 +157,21 @@ def run(given: argparse.Namespace) -> int:
     return code or int(share < WANTED)
 
 
+def _check_unchanged(cover: Covering, chosen: list[Mutant]) -> None:
+    """The tests must pass on the unchanged modules, else every mutant would seem to be killed."""
+    for mutant in chosen[:5]:
+        tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
+        source = (SOURCE / mutant.path).read_text("utf-8")
+        failed, said = (
+            killed(mutant.path, source, cover.by_promise(tests, 5.0), 300) if tests else (False, "")
+        )
+        if failed:
+            raise SystemExit(f"{said} fails on the unchanged package; mutants would say nothing")
+
+
 def _done_before(journal: Path, chosen: list[Mutant]) -> tuple[list[Trial], list[Mutant]]:
     """Trials of an interrupted run of the same sources, and the mutants that are left."""
-    mark = json.dumps({"sources": fingerprint()})
+    mark = json.dumps({"sources": fingerprint("tests")})
     lines = journal.read_text("utf-8").splitlines() if journal.exists() else []
     if not lines or lines[0] != mark:
         journal.write_text(mark + "\n", "utf-8")

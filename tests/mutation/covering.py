@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 from collections import OrderedDict
-from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -98,14 +98,14 @@ def forget() -> None:
                 kept.clear()
 
 
-def record(target: Path, arguments: list[str]) -> None:
-    """Run the tests under coverage and write the result; called in a process of its own."""
+def record(target: Path, file: str) -> None:
+    """Run one test file under coverage and write the result; called in a process of its own."""
     import coverage
 
     tool = coverage.Coverage(data_file=None, source=[str(SOURCE)], messages=False)
     recorder = Recorder(tool)
     tool.start()
-    pytest.main(["-q", "-p", "no:cacheprovider", *arguments], plugins=[recorder])
+    pytest.main(["-q", "-p", "no:cacheprovider", file], plugins=[recorder])
     tool.stop()
     data = tool.get_data()
     tests: dict[str, list[str]] = {}
@@ -116,52 +116,54 @@ def record(target: Path, arguments: list[str]) -> None:
     target.write_text(json.dumps({"tests": tests, "seconds": recorder.seconds}), "utf-8")
 
 
-def fingerprint() -> str:
+def fingerprint(*folders: str) -> str:
+    """Of the package's sources, and of tests where asked for."""
     digest = hashlib.sha256()
-    for path in sources():
-        digest.update(path.read_bytes())
+    for root in (SOURCE, *(ROOT / folder for folder in folders)):
+        for path in sorted(root.rglob("*.py")) if root.is_dir() else [root]:
+            digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 
-def sources() -> Iterator[Path]:
-    yield from sorted(SOURCE.rglob("*.py"))
-    yield from sorted(p for p in (ROOT / "tests").rglob("*.py") if "mutation" not in p.parts)
+def covering(folder: Path, workers: int, *, keep: bool = False) -> Covering:
+    """Records of all test files, kept in `folder`; made anew where sources or the file have changed.
 
-
-def covering(folder: Path, workers: int, *, keep: bool = False, tests: list[str] | None = None) -> Covering:
-    """The record kept in `folder`, made anew where sources have changed (in `workers` processes)."""
+    keep: take what is there as it is.
+    """
+    files = [str(p.relative_to(ROOT)) for p in sorted((ROOT / "tests").rglob("test_*.py"))]
+    parts = {
+        file: folder / file.replace("/", "-").replace(".py", ".json")
+        for file in files
+        if file not in LEFT_OUT
+    }
     folder.mkdir(parents=True, exist_ok=True)
-    mark = fingerprint()
-    kept = folder / "covering.json"
-    if kept.exists():
-        known = json.loads(kept.read_text("utf-8"))
-        if keep or known["mark"] == mark:
-            return Covering(known["tests"], known["seconds"])
-    print("recording which tests run which lines …", file=sys.stderr)
+    if not keep:
+        with ThreadPoolExecutor(workers) as pool, tempfile.TemporaryDirectory() as cache:
+            for k, _ in enumerate(pool.map(lambda item: _recorded(*item, cache), parts.items()), 1):
+                print(
+                    f"\rwhich tests run which lines: {k}/{len(parts)} ", end="", file=sys.stderr, flush=True
+                )
     found = Covering()
-    files = tests or [str(p.relative_to(ROOT)) for p in sorted((ROOT / "tests").rglob("test_*.py"))]
-    files = [name for name in files if name not in LEFT_OUT]
-    parts = [folder / f"part{k}.json" for k in range(workers)]
-    with tempfile.TemporaryDirectory() as cache:
-        running = [_start(part, files[k::workers], f"{cache}/{k}") for k, part in enumerate(parts)]
-        for process in running:
-            process.wait()
-    for part in parts:
-        values = json.loads(part.read_text("utf-8"))
-        for place, names in values["tests"].items():
-            found.tests[place] = sorted({*found.tests.get(place, ()), *names})
-        found.seconds |= values["seconds"]
-    kept.write_text(json.dumps({"mark": mark, "tests": found.tests, "seconds": found.seconds}), "utf-8")
+    for part in parts.values():
+        if part.exists():
+            values = json.loads(part.read_text("utf-8"))
+            for place, names in values["tests"].items():
+                found.tests.setdefault(place, []).extend(names)
+            found.seconds |= values["seconds"]
     return found
 
 
-def _start(part: Path, files: list[str], cache: str) -> subprocess.Popen[bytes]:
+def _recorded(file: str, part: Path, cache: str) -> None:
+    mark, known = fingerprint(file), part.with_suffix(".mark")
+    if part.exists() and known.exists() and known.read_text() == mark:
+        return
     part.unlink(missing_ok=True)
     path = os.pathsep.join([str(SOURCE.parent), *os.environ.get("PYTHONPATH", "").split(os.pathsep)])
     surroundings = {**os.environ, "LINKWRIGHT_CACHE": cache, "PYTHONPATH": path}
-    command = [sys.executable, "-m", "tests.mutation.covering", str(part), *files]
-    return subprocess.Popen(command, cwd=ROOT, env=surroundings, stdout=subprocess.DEVNULL)
+    command = [sys.executable, "-m", "tests.mutation.covering", str(part), file]
+    subprocess.run(command, cwd=ROOT, env=surroundings, stdout=subprocess.DEVNULL, check=False)
+    known.write_text(mark)
 
 
 if __name__ == "__main__":
-    record(Path(sys.argv[1]), sys.argv[2:])
+    record(Path(sys.argv[1]), sys.argv[2])

@@ -5,14 +5,13 @@ from __future__ import annotations
 import importlib
 import importlib.abc
 import importlib.util
-import io
 import os
 import signal
 import sys
 import tempfile
 import time
+import traceback
 from collections.abc import Sequence
-from contextlib import redirect_stderr, redirect_stdout
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
@@ -24,6 +23,17 @@ HEAVY = (
     "numpy", "scipy.optimize", "scipy.interpolate", "scipy.stats", "scipy.linalg", "pytest",
     "hypothesis", "llvmlite.binding", "ruamel.yaml", "mpmath", "matplotlib.figure", "pandas", "ast", "unittest.mock",
 )  # fmt: skip
+QUIETLY = (
+    "-x",
+    "-q",
+    "-p",
+    "no:cacheprovider",
+    "-p",
+    "no:xdist",
+    "-W",
+    "ignore::pytest.PytestAssertRewriteWarning",
+)
+BROKEN = 99  # exit code of a trial that says nothing about the mutant
 
 
 def preload() -> None:
@@ -65,9 +75,11 @@ def killed(path: str, text: str, tests: Sequence[str], seconds: float) -> tuple[
     process = os.fork()
     if process == 0:
         os.close(reading)
-        code = 1
+        code = BROKEN
         try:
             code = _child(path, text, tests, writing)
+        except BaseException:
+            os.write(writing, traceback.format_exc()[-1500:].encode("utf-8"))
         finally:
             os._exit(code)
     os.close(writing)
@@ -76,7 +88,9 @@ def killed(path: str, text: str, tests: Sequence[str], seconds: float) -> tuple[
         said = pipe.read()
     if code is None:
         return True, "no end in time"
-    return code != 0, said.strip() or f"exit code {code}"
+    if code == BROKEN:
+        raise RuntimeError(f"the trial itself failed: {said}")
+    return code != 0, said.strip()
 
 
 def _child(path: str, text: str, tests: Sequence[str], writing: int) -> int:
@@ -89,18 +103,17 @@ def _child(path: str, text: str, tests: Sequence[str], writing: int) -> int:
     sys.meta_path.insert(0, _Changed(SOURCE / path, text))
     with tempfile.TemporaryDirectory() as cache:
         os.environ["LINKWRIGHT_CACHE"] = cache
-        said = io.StringIO()
-        null = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(null, 1)
-        os.dup2(null, 2)
+        _silence()
         witness = _Witness()
-        with redirect_stdout(said), redirect_stderr(said):
-            code = pytest.main(
-                ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--no-header", "--tb=no", *tests],
-                plugins=[witness],
-            )
-    os.write(writing, (witness.failed or said.getvalue()[-200:] if code else "").encode("utf-8")[:4000])
-    return int(code)
+        code = pytest.main([*QUIETLY, *tests], plugins=[witness])
+    os.write(writing, witness.failed.encode("utf-8")[:4000])
+    return BROKEN if code and not witness.failed else int(code)
+
+
+def _silence() -> None:
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    os.dup2(null, 2)
 
 
 class _Witness:
