@@ -18,7 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.engine.cycle import CycleProgram, Known, Progress
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import PLACE, VALID_COUNT, Accumulation, Reduction
-from linkwright.engine.reverse_programs import along_positions, back_from_formulas, back_from_solution, bar
+from linkwright.engine.reverse_programs import (
+    along_positions,
+    back_from_formulas,
+    back_from_solution,
+    bar,
+    with_slopes,
+)
 from linkwright.engine.stage import Arrays, Backend, Run, Stage, over_designs, reduced
 from linkwright.engine.table import Tables
 
@@ -59,7 +65,7 @@ def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = 
             own = tuple(name for name in stage.parameters if name in active)
             backwards.append(Backwards(number, stage, asked, own))
             wanted |= set(own)
-    stages = list(cycle.stages)
+    stages = list(cycle.stages[: 1 + max(k for k, each in enumerate(cycle.stages) if value in each.results)])
     for step in backwards:
         stages[step.number] = step.recorded
     return CycleGradient(CycleProgram(tuple(stages), cycle.dimensions), value, names, tuple(backwards))
@@ -137,7 +143,10 @@ class Backwards:
             return replace(
                 stage, program=replace(program, outputs=(*program.outputs, *more)), reductions=reductions
             )
-        asked = [r for name, r in stage.reductions.items() if name in self.asked]
+        asked = self._asked
+        if self._fused is not None:
+            program, after = with_slopes(program, self._fused, self.active, stage.after, self._slope(""))
+            stage = replace(stage, program=program, after=after)
         for reduction in (*asked, *self._read.values()):
             place = _place(reduction)
             if place is not None:
@@ -145,6 +154,19 @@ class Backwards:
             elif reduction.kind == "rms":
                 reductions[self._name(reduction)] = reduction
         return replace(stage, reductions=reductions, count=stage.count or self._name(_COUNT))
+
+    @property
+    def _asked(self) -> list[Reduction]:
+        return [r for name, r in self.stage.reductions.items() if name in self.asked]
+
+    @cached_property
+    def _fused(self) -> Reduction | None:
+        """The only reduction over all positions, if it is the only one: its slopes are found on the way forwards."""
+        spread = {r for r in (*self._asked, *self._read.values()) if r.kind in _SPREAD}
+        return spread.pop() if len(spread) == 1 else None
+
+    def _slope(self, parameter: str) -> str:
+        return f"{self.number}:slope:{parameter}"
 
     def _name(self, reduction: Reduction) -> str:
         return f"{self.number}:{reduction.name}"
@@ -203,6 +225,11 @@ class Backwards:
 
     def _through_positions(self, known: Known, bars: Bars, spread: dict[Reduction, Floats], run: Run) -> None:
         """Adjoints summed over all valid positions."""
+        if self._fused is not None:
+            for name in self.active:
+                if self._slope(name) in known.values:
+                    _add(bars, name, spread[self._fused] * known.values[self._slope(name)])
+            return
         key = tuple(spread)
         if key not in self._sums:
             valid = self.stage.accumulation.valid

@@ -10,8 +10,8 @@ from collections.abc import Collection, Mapping, Sequence
 from linkwright.engine.adjoint import Adjoints
 from linkwright.engine.linear import inverse, product, transposed
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import Accumulation, Reduction
-from linkwright.engine.replay import Replay, depending
+from linkwright.engine.reductions import VALID_COUNT, Accumulation, Reduction
+from linkwright.engine.replay import Replay, depending, inlined
 from linkwright.engine.tangent import tangents
 from linkwright.engine.trace import Scalar, Trace
 
@@ -78,30 +78,58 @@ def along_positions(
     What a position's output weighs is a parameter, the adjoint of the reduction's name: of a sum the
     adjoint itself, of a mean divided by the count, of a root mean square divided by the count and the root.
     """
-    lines = depending(program, active)
-    crossing = boundary(program, lines)
-    replay, places = Replay(program), dict(program.outputs)
-    t = replay.trace
+    t = Trace()
+    replay = Replay(program, trace=t)
+    lines = _lines(replay, {reduction: t.parameter(bar(reduction.name)) for reduction in reductions}, active)
+    judged = {} if valid is None else {valid: replay.outputs[valid]}
+    along = Program.of(t, {**judged, **lines})
+    return Accumulation(along, (), valid, _after_positions(program, active, along))
+
+
+def with_slopes(
+    program: Program, reduction: Reduction, active: Collection[str], after: Program | None, prefix: str
+) -> tuple[Program, Program]:
+    """A program, and what follows it, that also find the slopes of one sum, mean or root mean square.
+
+    The slopes are outputs of what follows, named by the prefix and the parameter.
+    """
+    replay = Replay(program)
+    along = Program.of(replay.trace, {**replay.outputs, **_lines(replay, {reduction: 1.0}, active)})
+    t = Trace()
+    share: Scalar = 1.0
+    if reduction.kind != "sum":
+        share = 1.0 / t.parameter(VALID_COUNT)
+    if reduction.kind == "rms":
+        share = share / t.parameter(reduction.name)
+    slopes = inlined(_after_positions(program, active, along), t, {})
+    outputs: dict[str, Scalar | bool] = {} if after is None else inlined(after, t, {})
+    for name, slope in slopes.items():
+        outputs[prefix + name.removeprefix(bar(""))] = t.mul(slope, share)
+    return along, Program.of(t, outputs)
+
+
+def _lines(
+    replay: Replay, weights: Mapping[Reduction, Scalar], active: Collection[str]
+) -> dict[str, Scalar | bool]:
+    """At one position the adjoints of the active lines per design."""
+    program = replay.program
+    lines, places = depending(program, active), dict(program.outputs)
     adjoints = Adjoints(replay, lines)
-    for reduction in reductions:
-        weight, value = t.parameter(bar(reduction.name)), replay.values[places[reduction.output]]
-        adjoints.add(places[reduction.output], t.mul(weight, value) if reduction.kind == "rms" else weight)
+    for reduction, weight in weights.items():
+        place = places[reduction.output]
+        if reduction.kind == "rms":
+            weight = replay.trace.mul(weight, replay.values[place])
+        adjoints.add(place, weight)
     adjoints.sweep_back({i for i, node in enumerate(program.nodes) if node.varies})
-    outputs: dict[str, Scalar | bool] = {}
-    if valid is not None:
-        outputs[valid] = replay.values[places[valid]]
-    for index in crossing:
-        if index in adjoints.found:
-            outputs[f"line {index}"] = adjoints.found[index].value
-    along = Program.of(t, outputs)
-    return Accumulation(along, (), valid, _after_positions(program, active, lines, along))
+    found = {index: adjoints.found.get(index) for index in boundary(program, lines)}
+    return {f"line {index}": adjoint.value for index, adjoint in found.items() if adjoint is not None}
 
 
-def _after_positions(program: Program, active: Collection[str], lines: set[int], along: Program) -> Program:
+def _after_positions(program: Program, active: Collection[str], along: Program) -> Program:
     """From the sums of the adjoints of the lines per design those of the parameters."""
     fixed = [i for i, node in enumerate(program.nodes) if not node.varies]
     replay = Replay(program, fixed)
-    adjoints = Adjoints(replay, lines)
+    adjoints = Adjoints(replay, depending(program, active))
     summed = set(along.output_names)
     for index in fixed:
         if f"line {index}" in summed:
