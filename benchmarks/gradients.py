@@ -8,7 +8,8 @@ import numpy as np
 
 from benchmarks.cases import Floats, Work, fourbar_designs, sixbar_designs
 from benchmarks.timing import Candidate
-from linkwright.engine.derivative import GradientProgram, Term, value_and_gradient
+from linkwright.engine.cycle_gradient import CycleGradient
+from linkwright.engine.derivative import Term, value_and_gradient
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -29,9 +30,7 @@ class GradientWork:
         self.wrt = tuple(
             each for each in self.program.parameters if not each.startswith(("mode:", "driver."))
         )
-        self.gradient: GradientProgram = value_and_gradient(
-            self.program, [Term("objective", "mean")], self.wrt
-        )
+        self.gradient: CycleGradient = value_and_gradient(self.program, [Term("objective", "mean")], self.wrt)
         self.table = work.table(self.program, designs)
         own = [self.program.parameters.index(each) for each in self.gradient.parameters]
         self.own_table = np.ascontiguousarray(self.table[:, own])

@@ -80,6 +80,30 @@ class CycleGradient:
     wrt: tuple[str, ...]
     backwards: tuple[Backwards, ...]
 
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the columns that :meth:`evaluate` takes."""
+        return self.cycle.dimensions
+
+    def __call__(
+        self,
+        parameters: Mapping[str, ArrayLike],
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        threads: int | None = None,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """Values and gradients as :meth:`evaluate`; parameters (designs,) or a number by name."""
+        missing = [name for name in self.parameters if name not in parameters]
+        if missing:
+            raise ValueError(f"the parameters {', '.join(missing)} are not given")
+        designs = max((np.size(parameters[name]) for name in self.parameters), default=1)
+        table = np.empty((designs, len(self.parameters)))
+        for column, name in enumerate(self.parameters):
+            table[:, column] = parameters[name]
+        return self.evaluate(table, positions, fields, threads=threads, backend=backend)
+
     def evaluate(
         self,
         table: ArrayLike,

@@ -42,6 +42,9 @@ def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], 
 
     The first exception is raised, once all threads have left off; chunks not begun by then are left out.
     """
+    if count <= size:
+        work(0, count)
+        return
     waiting = deque(chunks(count, size))
 
     def drain() -> None:
