@@ -1,8 +1,8 @@
 """The motion followed in steps so small that it cannot leave its assembly: the truth about branches.
 
 On the whole-mechanism reference code: tangent predictor, Newton's method on all coordinates, and a step is taken
-only if the sign of the Jacobian's determinant stays and the correction is a small part of the step; else it is
-halved.
+only if it is short, the sign of the Jacobian's determinant stays and the correction is a small part of it; else it
+is halved.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import numpy as np
 from tests.reference.adapter import driver_values, reference_system, starting_position
 from tests.reference.multibody import Array, Multibody
 
-#: Largest step of a driver, rad or m; smallest one; largest correction as share of the step.
-STEP, LEAST, SHARE = 4e-3, 1e-11, 0.1
+#: Largest and smallest step of a driver, rad or m; largest change of a coordinate; largest correction, as its share.
+STEP, LEAST, LARGEST, SHARE = 2e-2, 1e-11, 0.05, 0.1
 #: Places between two positions at which the drivers' laws are visited.
-PARTS = 8
+PARTS = 4
 
 
 class FinePath:
@@ -27,10 +27,12 @@ class FinePath:
         self.system: Multibody = reference_system(mechanism)
         u = driver_values(mechanism, time[:1])[0][0]
         q, here = starting_position(mechanism, self.system, u)
-        self.q = self._corrected(q, here)[0]
-        assert self.q is not None
+        first = self._corrected(q, here)
+        assert first is not None
+        self.q = first
         self.sign = self._sign(self.q)
         self.positions: list[Array] = []
+        self.longest = STEP
         self.stop: Array | None = None
         between = np.concatenate([np.linspace(a, b, parts + 1)[1:] for a, b in pairwise(time)])
         places = driver_values(mechanism, np.concatenate([time[:1], between]))[0]
@@ -55,12 +57,14 @@ class FinePath:
         length = float(np.abs(way).max(initial=0.0))
         done = 0.0
         while done < 1.0 - 1e-15 and length > 0.0:
-            step = min(STEP / length, 1.0 - done)
+            step = min(self.longest / length, 1.0 - done)
             while not self._step(begin + done * way, way * step):
                 step /= 2.0
-                if step * length < LEAST:
+                self.longest = step * length
+                if self.longest < LEAST:
                     self.stop = begin + done * way
                     return False
+            self.longest = min(2.0 * self.longest, STEP)
             done += step
         return True
 
@@ -68,24 +72,25 @@ class FinePath:
         guess = self.q.copy()
         moved = self.system.solve(self.system.jacobian(self.q)[:, 3:], self.system.selection @ change)
         guess[1:] += moved.reshape(-1, 3)
-        new, first = self._corrected(guess, u + change)
-        if new is None or self._sign(new) != self.sign or first > SHARE * np.abs(moved).max() + 1e-10:
+        if np.abs(moved).max() > LARGEST * (1.0 + np.abs(self.q).max()):
+            return False
+        new = self._corrected(guess, u + change)
+        if new is None or self._sign(new) != self.sign:
+            return False
+        if np.abs(new - guess).max() > SHARE * np.abs(moved).max() + 1e-10:
             return False
         self.q = new
         return True
 
-    def _corrected(self, q: Array, u: Array) -> tuple[Array | None, float]:
-        """The root near q and the first correction; None where Newton's method does not converge."""
-        first = np.inf
-        for k in range(8):
+    def _corrected(self, q: Array, u: Array) -> Array | None:
+        """The root near q; None where Newton's method does not converge."""
+        for _ in range(8):
             step = self.system.solve(self.system.jacobian(q)[:, 3:], -self.system.residual(q, u))
             q = q.copy()
             q[1:] += step.reshape(-1, 3)
-            size = float(np.abs(step).max())
-            first = size if k == 0 else first
-            if size < 1e-12 * (1.0 + np.abs(q).max()):
-                return q, first
-        return None, first
+            if np.abs(step).max() < 1e-12 * (1.0 + np.abs(q).max()):
+                return q
+        return None
 
     def _sign(self, q: Array) -> float:
         jacobian = self.system.jacobian(q)[:, 3:]
