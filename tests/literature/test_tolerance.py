@@ -54,7 +54,7 @@ def test_linear_spread_is_that_of_the_closed_form() -> None:
     assert found.linear("rocker.angle range") == pytest.approx(math.sqrt(parts_.sum()), rel=5e-4)
     shares = {each.name: each.share for each in found.shares("rocker.angle range")}
     expected = dict(zip(FOURBAR, parts_ / parts_.sum(), strict=True))
-    assert shares == pytest.approx(expected, abs=1e-4)
+    assert shares == pytest.approx(expected, abs=1e-3)
 
 
 def test_monte_carlo_agrees_with_linear_and_with_machines_in_closed_form() -> None:

@@ -66,6 +66,8 @@ COMMANDS = {
     "statistics": "statistics",
     "program": "program",
     "tolerance": "tolerance",
+    "trajectory": "trajectory",
+    "throw": "trajectory",
 }
 
 

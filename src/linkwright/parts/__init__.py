@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from linkwright.parts.statistics.samples import Fitting as Fitting
     from linkwright.parts.statistics.samples import Limits as Limits
     from linkwright.parts.statistics.samples import Samples as Samples
+    from linkwright.parts.trajectories.conveyor import Conveyor as Conveyor
+    from linkwright.parts.trajectories.particle import Particle as Particle
     from linkwright.parts.vibration.follower import FollowerSpring as FollowerSpring
     from linkwright.parts.vibration.mounts import Mounts as Mounts
     from linkwright.parts.vibration.system import Excitation as Excitation
@@ -82,5 +84,7 @@ offer(
             "Tolerance",
             "ToleranceStudy",
         ),
+        "linkwright.parts.trajectories.conveyor": ("Conveyor",),
+        "linkwright.parts.trajectories.particle": ("Particle",),
     },
 )

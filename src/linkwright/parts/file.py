@@ -34,6 +34,8 @@ KINDS: Mapping[str, str] = {
     "statistics": "linkwright.parts.statistics.samples.Samples",
     "program": "linkwright.parts.programs.program.Program",
     "tolerance": "linkwright.tolerance.problem.ToleranceStudy",
+    "trajectory": "linkwright.parts.trajectories.particle.Particle",
+    "throw": "linkwright.parts.trajectories.conveyor.Conveyor",
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {

@@ -139,4 +139,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.optimum": "constraints and optimum",
     "kind.tolerance": "spread by tolerances",
     "machines": "machines",
+    "kind.flight": "path of the flight",
+    "kind.transport": "motion of the load on the trough",
 }

@@ -138,4 +138,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "kind.optimum": "约束与最优点",
     "kind.tolerance": "公差引起的分散",
     "machines": "机器数",
+    "kind.flight": "飞行轨迹",
+    "kind.transport": "物料在槽上的运动",
 }

@@ -1,0 +1,1 @@
+"""Trajectories: a thrown particle with drag, and the load on a swinging conveyor."""

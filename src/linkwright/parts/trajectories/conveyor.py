@@ -1,0 +1,219 @@
+"""What a swinging conveyor does to its load: rest, sliding forward and back, throw, by a mechanism's motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.errors import Finding, LinkwrightError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.model.fields import Quantity, Text
+from linkwright.model.mechanism import Mechanism
+from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.display import shown
+from linkwright.parts.fields import Whole
+from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.parts.steps import put
+from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+
+@dataclass(frozen=True)
+class Conveyor(Problem):
+    """The ``link`` of a ``mechanism`` is a trough that does not turn; its surface rises by ``incline`` rad along +x.
+
+    ``friction`` at rest, ``sliding_friction`` in motion (the same unless given).
+    """
+
+    kind: ClassVar[str] = "throw"
+    fields: ClassVar[Mapping[str, Any]] = {
+        "mechanism": MECHANISM,
+        "link": Text(required=True, doc="the link that is the trough"),
+        "friction": Quantity(
+            "dimensionless", required=True, minimum=0.0, doc="coefficient of friction at rest"
+        ),
+        "sliding_friction": Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"),
+        "incline": Quantity("angle", doc="how much the surface rises along +x, 0 unless given"),
+        "steps": Whole(36, doc="positions over the cycle, 720 unless given"),
+    }
+    mechanism: Mechanism
+    link: str
+    friction: float
+    sliding_friction: float | None = None
+    incline: float = 0.0
+    steps: int = 720
+    name: str = ""
+    source: str = ""
+
+    @classmethod
+    def of_file(cls, values: Mapping[str, Any], folder: Path) -> Conveyor:
+        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Motion over the cycle; raises LinkwrightError."""
+        return solve_motion(self.mechanism, steps=self.steps)
+
+    def findings(self) -> list[Finding]:
+        if self.link not in self.mechanism.links:
+            known = ", ".join(self.mechanism.links)
+            return [fault("trajectory.no_link", "link", link=self.link, known=known)]
+        try:
+            motion = self.motion
+        except LinkwrightError as error:
+            return [fault("trajectory.thrower", "mechanism", why=error.sentence)]
+        found = []
+        if not motion.positions.closed or np.ptp(np.diff(motion.time)) > 1e-9 * abs(float(motion.time[1])):
+            found.append(fault("trajectory.uneven", "mechanism"))
+        turning = np.abs(motion.link(self.link).angular_velocity).max()
+        if turning * abs(float(motion.time[-1])) > 1e-6:
+            found.append(fault("trajectory.turns", "link", link=self.link))
+        gravity = np.hypot(*self.mechanism.gravity)
+        if not gravity or self.gravity[1] >= 0:
+            found.append(fault("trajectory.no_gravity", "mechanism"))
+        if (self.sliding_friction or 0.0) > self.friction:
+            found.append(fault("trajectory.friction_order", "sliding_friction"))
+        return found
+
+    @property
+    def axes(self) -> tuple[Floats, Floats]:
+        """Unit vectors along the surface and away from it."""
+        c, s = math.cos(self.incline), math.sin(self.incline)
+        return np.array([c, s]), np.array([-s, c])
+
+    @property
+    def gravity(self) -> tuple[float, float]:
+        """Gravity along and across the surface, m/s²."""
+        along, across = self.axes
+        return float(along @ self.mechanism.gravity), float(across @ self.mechanism.gravity)
+
+    @property
+    def trough(self) -> Trough:
+        """The trough's motion in numbers."""
+        along, across = self.axes
+        point = next(iter(self.mechanism.links[self.link].points))
+        a = self.motion.point(f"{self.link}.{point}").acceleration
+        period = float(self.motion.time[1] - self.motion.time[0]) * len(self.motion.time)
+        sliding = self.friction if self.sliding_friction is None else self.sliding_friction
+        return Trough(a @ along, a @ across, period, self.gravity, self.friction, sliding)
+
+    def solve(self) -> Transport:
+        """The load's steady motion. Raises ModelError with all findings."""
+        self.require()
+        return Transport(self, transport(self.trough))
+
+
+@dataclass(frozen=True, repr=False)
+class Transport(Result):
+    """How a load moves over the trough, steady from cycle to cycle; relative motion, along the surface.
+
+    Per mass: normal force N = a_n − g_n, friction for rest f = a_t − g_t, rest while |f| ≤ μ N; sliding
+    s̈ = −f ∓ μ' N; throw where N would be negative; landing without bounce, its blow rubs.
+    """
+
+    area: ClassVar[str] = "trajectory"
+    conveyor: Conveyor
+    motion: Transported
+
+    @property
+    def title(self) -> str:
+        return self.conveyor.name
+
+    @property
+    def speed(self) -> float:
+        """Mean speed of transport, m/s, positive along +x."""
+        return self.motion.displacement / self.conveyor.trough.period
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Share of the cycle in each mode."""
+        period = self.conveyor.trough.period
+        return {
+            mode: sum(phase.end - phase.start for phase in self.motion.phases if phase.mode == mode) / period
+            for mode in MODES
+        }
+
+    @property
+    def needed_friction(self) -> float:
+        """Least coefficient with which the load would stay at rest; infinite where it is thrown."""
+        trough = self.conveyor.trough
+        normal = trough.across - trough.gravity[1]
+        if normal.min() <= 0:
+            return math.inf
+        return float((np.abs(trough.along - trough.gravity[0]) / normal).max())
+
+    @property
+    def throw_number(self) -> float:
+        """max(−a_n)/|g_n|: the load is thrown above 1."""
+        trough = self.conveyor.trough
+        return float((-trough.across).max()) / abs(trough.gravity[1])
+
+    def columns(self) -> dict[str, Floats]:
+        m = self.motion
+        return {
+            "time [s]": m.time,
+            "displacement [m]": m.position,
+            "velocity [m/s]": m.velocity,
+            "height [m]": m.height,
+        }
+
+    def blocks(self, say: Say) -> list[Block]:
+        rows = [
+            Row("speed", self.speed, "velocity", say("trajectory.transport_speed")),
+            Row("displacement", self.motion.displacement, "length"),
+            Row("throw_number", self.throw_number),
+        ]
+        if math.isfinite(self.needed_friction):
+            rows.append(Row("needed_friction", self.needed_friction))
+        rows += [
+            Row(mode, 100 * share, "", say(f"trajectory.{mode}"), "%") for mode, share in self.shares.items()
+        ]
+        phases = [
+            Row(f"{i}_{phase.mode}", self._input(phase.end), "", say(f"trajectory.{phase.mode}"),
+                say("trajectory.from", place=self._input(phase.start)))
+            for i, phase in enumerate(self.motion.phases)
+        ]  # fmt: skip
+        remarks = [] if self.motion.repeats else [say("trajectory.irregular")]
+        if self.throw_number <= 1 and self.needed_friction <= self.conveyor.friction:
+            remarks.append(say("trajectory.stays"))
+        found = [Block("transport", "", rows, remarks)]
+        return [*found, Block("phases", say("trajectory.phases"), phases[:24])]
+
+    def _input(self, time: float) -> str:
+        """The input at a time of the cycle."""
+        motion = self.conveyor.motion
+        turning = next(iter(motion.positions.rotary.values()))
+        period = self.conveyor.trough.period
+        ends = np.append(motion.time - motion.time[0], period)
+        last = motion.input[-1] + (motion.input[-1] - motion.input[-2])
+        place = float(np.interp(time, ends, np.append(motion.input, last)))
+        return shown(place, "angle" if turning else "length", 5)
+
+    def steps(self, say: Say) -> list[Step]:
+        trough, law, found = (
+            self.conveyor.trough,
+            Step("1", say("trajectory.law")),
+            Step("2", say("trajectory.phases")),
+        )
+        law.say("  N/m = a_n − g_n,  f = a_t − g_t")
+        law.say(f"  {say('trajectory.rest')}: |f| ≤ μ·N/m;  {say('trajectory.slide')}: s̈ = −f ∓ μ'·N/m")
+        put(law, "g_n", "", trough.gravity[1], "acceleration")
+        put(law, "Γ", "max(−a_n)/|g_n|", self.throw_number)
+        if math.isfinite(self.needed_friction):
+            put(law, "μ", "max |f|/(N/m)", self.needed_friction)
+        for phase in self.motion.phases[:24]:
+            word = say(f"trajectory.{phase.mode}")
+            found.say(f"  {self._input(phase.start)} … {self._input(phase.end)}: {word}")
+        put(found, "Δs", "", self.motion.displacement, "length")
+        put(found, "v", "Δs/T", self.speed, "velocity")
+        if any(phase.mode == FLIGHT for phase in self.motion.phases):
+            found.say(say("trajectory.blow"))
+        return [law, found]
