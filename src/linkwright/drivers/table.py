@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.drivers.base import LAWS, Law
 from linkwright.errors import LinkwrightError
@@ -12,6 +13,7 @@ from linkwright.model.fields import Field, TimeTable, TimeTableValues
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.core.spline import Spline
     from linkwright.drivers.base import Array
 
 
@@ -45,22 +47,24 @@ class TableLaw(Law):
         inside = np.clip(t, first, last)
         return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)
 
-    def _spline(self, t: Array) -> tuple[Array, Array, Array]:
-        from scipy.interpolate import CubicSpline
+    @cached_property
+    def _spline(self) -> Spline:
+        from linkwright.core.spline import Spline
 
-        spline: Any = CubicSpline(self.times, self.positions)
-        return spline(t), spline(t, 1), spline(t, 2)
+        if self.interpolation != "periodic":
+            return Spline.not_a_knot(self.times, self.positions)
+        return Spline.periodic(
+            self.times, [q - self._drift * t for t, q in zip(self.times, self.positions, strict=True)]
+        )
+
+    @property
+    def _drift(self) -> float:
+        """What the position gains in a period, over its time."""
+        return (self.positions[-1] - self.positions[0]) / (self.times[-1] - self.times[0])
 
     def _periodic(self, t: Array) -> tuple[Array, Array, Array]:
-        import numpy as np
-        from scipy.interpolate import CubicSpline
-
-        times = np.asarray(self.times)
-        drift = (self.positions[-1] - self.positions[0]) / (times[-1] - times[0])
-        rest = np.asarray(self.positions) - drift * (times - times[0])
-        rest[-1] = rest[0]
-        spline: Any = CubicSpline(times, rest, bc_type="periodic")
-        return spline(t) + drift * (t - times[0]), spline(t, 1) + drift, spline(t, 2)
+        position, rate, second = self._spline(t)
+        return position + self._drift * t, rate + self._drift, second
 
     def _linear(self, t: Array) -> tuple[Array, Array, Array]:
         import numpy as np
