@@ -179,7 +179,7 @@ def _repeats(drivers: Iterable[Driver], known: Sequence[float]) -> bool:
         return False
     for law, duration in zip(laws, known, strict=True):
         ends = law.coordinate(np.array([0.0, longest]))
-        wrap = 2 * np.pi if isinstance(law, ConstantSpeed) else np.inf
+        wrap = 2 * np.pi if law.rotary and law.span()[1] == np.inf else np.inf
         gap = abs(ends[0][1] - ends[0][0])
         gap = min(gap % wrap, wrap - gap % wrap) if np.isfinite(wrap) else gap
         if gap > 1e-9 * (1 + abs(ends[0][0])) or not _multiple(longest, duration):
