@@ -31,6 +31,7 @@ SECTIONS = (
     "purpose",
     "source",
     "expected",
+    "synthesis",
     "parameters",
     "frame",
     "links",
@@ -50,6 +51,7 @@ HEADER: Mapping[str, Field] = {
     "purpose": Text(doc="what it is for, one sentence"),
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
+    "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
 
@@ -101,6 +103,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         kinds={name: reader.kinds[name] for name in parameters},
         expressions=reader.expressions,
         expected=header.get("expected") or {},
+        synthesis=header.get("synthesis") or {},
     )
     check_whole(reader, root, mechanism)
     return mechanism

@@ -62,6 +62,7 @@ def to_data(mechanism: Mechanism) -> Plain:
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
     data["expected"] = dict(mechanism.expected)
+    data["synthesis"] = dict(mechanism.synthesis)
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 

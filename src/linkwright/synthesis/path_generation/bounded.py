@@ -24,7 +24,8 @@ Linear = tuple[Complexes, Complexes, Complexes]
 #: Starts are moved this far inside the bounds, so that no sine begins at its turning point.
 INSIDE = 0.97
 #: Steps of the iteration and solutions carried to the end (timed, untimed); ratios that differ less are one solution.
-STEPS, FINISHED, ALIKE = (80, 160), (3, 6), 0.02
+STEPS, FINISHED, ALIKE = (80, 140), (3, 8), 0.02
+ROUGH, EXACT = (150, 1e-14), (300, 1e-16)
 
 
 class BoundedPaths:
@@ -48,11 +49,16 @@ class BoundedPaths:
 
         start = self.start(np.concatenate([free, nearer]), rows)
         q, _, chosen = minimise(
-            with_differences(residual), start, keep=16, steps=STEPS[free_timing], halve=16
+            with_differences(residual), start, keep=24, steps=STEPS[free_timing], halve=16
         )
         found = self.measures(q, rows[chosen])
-        for i in _different(found[:, :3])[: FINISHED[free_timing]]:
-            found[i] = self.finish(found[i], int(rows[chosen[i]]))
+        measured = np.column_stack([found[:, :3], found[:, self.inner :]])
+        chosen_ones = _different(measured)[: FINISHED[free_timing]]
+        for i in chosen_ones:
+            found[i] = self.finish(found[i], int(rows[chosen[i]]), *ROUGH)
+        squares = (self.residual(found, rows[chosen]) ** 2).sum(1)
+        for i in sorted(chosen_ones, key=lambda j: float(squares[j]))[:2]:
+            found[i] = self.finish(found[i], int(rows[chosen[i]]), *EXACT)
         return found[:, : self.inner], rows[chosen], self.linear(found, rows[chosen])
 
     def start(self, free: Floats, who: Whole) -> Floats:
@@ -91,7 +97,7 @@ class BoundedPaths:
         off = self.paths.target(who) - (z[:, None] + alpha[:, None] * a + beta[:, None] * u)
         return np.concatenate([off.real, off.imag], 1)
 
-    def finish(self, measures: Floats, who: int) -> Floats:
+    def finish(self, measures: Floats, who: int, steps: int, tolerance: float) -> Floats:
         """One solution carried to the end along its active bounds."""
         from scipy.optimize import minimize
 
@@ -105,10 +111,16 @@ class BoundedPaths:
         def room(x: Floats) -> Floats:
             return np.asarray(1.0 - self.paths.family.chosen(number).lengths(x[None])[:, 0] * x[self.inner])
 
+        def room_slope(x: Floats) -> Floats:
+            slope = np.zeros((3, m))
+            slope[:, :3] = -self.paths.family.chosen(number).rates(x[None])[:, 0] * x[self.inner]
+            slope[:, self.inner] = -self.paths.family.chosen(number).lengths(x[None])[:, 0]
+            return slope
+
         boxes: list[tuple[float | None, float | None]] = [(None, None)] * self.inner + [(1e-6, 1.0)]
         boxes += [(-1.0, 1.0)] * (m - self.inner - 1 - int(self.turned)) + [(None, None)] * int(self.turned)
-        limits = {"type": "ineq", "fun": room}
-        options = {"maxiter": 300, "ftol": 1e-16}
+        limits = {"type": "ineq", "fun": room, "jac": room_slope}
+        options = {"maxiter": steps, "ftol": tolerance}
         done = minimize(
             value, measures, jac=True, method="SLSQP", bounds=boxes, constraints=limits, options=options
         )

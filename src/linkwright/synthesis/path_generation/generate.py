@@ -18,7 +18,7 @@ Complexes = NDArray[np.complex128]
 Whole = NDArray[np.int64]
 
 #: Starts tried, and those that are iterated: timed and untimed.
-TIMED, UNTIMED = (3000, 64), (12000, 128)
+TIMED, UNTIMED = (3000, 64), (16000, 256)
 #: Solutions whose lengths agree so far (relative) are one.
 ALIKE = 1e-4
 

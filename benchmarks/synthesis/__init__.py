@@ -1,0 +1,1 @@
+"""Synthesis against optimisers: error, time, transmission angle and defects of the same demands."""

@@ -1,0 +1,139 @@
+"""``python -m benchmarks.synthesis``: what Linkwright and general optimisers make of the same demands."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+import linkwright as lw
+from benchmarks.synthesis.cases import Case, hidden, published
+from benchmarks.synthesis.others import OTHERS, Best, Enough
+
+GOAL = 1e-3
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Prints the tables."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.synthesis", description=__doc__)
+    parser.add_argument("--seeds", type=int, default=10, help="seeds of every published path")
+    parser.add_argument("--hidden", type=int, default=50, help="hidden four-bars")
+    parser.add_argument(
+        "--others", type=int, default=5, help="hidden four-bars given to the other optimisers"
+    )
+    parser.add_argument("--limit", type=float, default=30.0, help="seconds for each of them")
+    parser.add_argument("--nine", type=int, default=0, help="hidden four-bars of nine points")
+    options = parser.parse_args(arguments)
+    warnings.simplefilter("ignore")
+    for case in published():
+        print(_published(case, options.seeds), flush=True)
+    print(_poses(1000), flush=True)
+    times = [_ours(hidden(seed)) for seed in range(options.hidden)]
+    reached = sum(error <= GOAL for error, _ in times)
+    seconds = [each for _, each in times]
+    print(f"hidden four-bars, 36 timed points: {reached} of {len(times)} within 0.1 %, "
+          f"median {np.median(seconds):.3f} CPU s, slowest {max(seconds):.3f} CPU s", flush=True)  # fmt: skip
+    for name in OTHERS:
+        print(_other(name, options.others, options.limit), flush=True)
+    if options.nine:
+        print(_nine(options.nine), flush=True)
+    return 0
+
+
+def _published(case: Case, seeds: int) -> str:
+    errors, seconds, found = [], [], None
+    for seed in range(seeds):
+        begin = time.process_time()
+        found = lw.path_generation(case.points, seed=seed, **case.demands)
+        seconds.append(time.process_time() - begin)
+        errors.append(found.best.error)
+    assert found is not None
+    best, reached = found.best, sum(error <= case.best * (1 + 1e-6) for error in errors)
+    return (
+        f"{case.name}: best {min(errors):.8g}, worst {max(errors):.8g}; published {case.best:.8g} reached by "
+        f"{reached} of {seeds} seeds; median {np.median(seconds):.2f} CPU s; μ "
+        f"{math.degrees(best.transmission_angle):.1f}°; "
+        f"defects {', '.join(best.defects) or 'none'}"
+    )
+
+
+def _ours(case: Case) -> tuple[float, float]:
+    """Error relative to the path's size, and seconds."""
+    begin = time.process_time()
+    best = lw.path_generation(case.points, **case.demands).best
+    seconds = time.process_time() - begin
+    size = np.sqrt(np.mean(np.abs(case.points - case.points.mean()) ** 2))
+    return math.sqrt(best.error / len(case.points)) / float(size), seconds
+
+
+def _other(name: str, count: int, limit: float) -> str:
+    seconds, errors = [], []
+    for seed in range(count):
+        best = Best(GOAL, limit)
+        try:
+            OTHERS[name](hidden(seed), best, seed)
+        except Enough:
+            seconds.append(best.seconds)
+            errors.append(best.error)
+        except ImportError as error:
+            return f"{name}: {error}"
+    reached = sum(math.isfinite(each) for each in seconds)
+    return (
+        f"{name}: {reached} of {count} within 0.1 % in {limit:g} s each, median "
+        f"{np.median(seconds):.2f} s; worst error {max(errors):.2g}"
+    )
+
+
+def _poses(count: int) -> str:
+    """Five poses of hidden four-bars: is the hidden pair among the solutions?"""
+    from linkwright.synthesis.motion_generation.burmester import five_poses
+
+    rng = np.random.default_rng(1)
+    p, phi, pins = [], [], []
+    while len(p) < count:
+        a, b, c = rng.uniform(0.3, 2.0, 3)
+        pin = a * np.exp(1j * np.sort(rng.uniform(0, 2 * np.pi, 5)))
+        reach = np.abs(1 - pin)
+        cosine = (reach**2 + b * b - c * c) / (2 * reach * b)
+        if np.abs(cosine).max() > 0.99:
+            continue
+        turn = (1 - pin) / reach * np.exp(1j * np.arccos(cosine))
+        p.append(pin + complex(*rng.normal(0, 1, 2)) * turn)
+        phi.append(np.angle(turn))
+        pins.append((pin[0], pin[0] + b * turn[0]))
+    places, angles = np.array(p), np.array(phi)
+    begin = time.perf_counter()
+    z, _, real, _ = five_poses(places, angles)
+    seconds = time.perf_counter() - begin
+    off = np.abs(z[:, None] - (np.array(pins) - places[:, :1])[:, :, None])
+    nearest = np.where(real[:, None], off, np.inf).min(2).max(1)
+    each, hits = 1e3 * seconds / count, int((nearest < 1e-6).sum())
+    return f"five poses: {hits} of {count} hidden ones found, {each:.3f} ms each"
+
+
+def _nine(count: int) -> str:
+    """Nine points of hidden crank-rockers: are all classes found, and the hidden one among them?"""
+    from linkwright.synthesis.nine_points.classes import is_real
+    from linkwright.synthesis.nine_points.query import nine_points
+
+    complete = found = 0
+    seconds = []
+    for seed in range(count):
+        points = hidden(seed, 9).points
+        begin = time.process_time()
+        result = nine_points(points)
+        seconds.append(time.process_time() - begin)
+        complete += result.complete
+        found += bool(is_real(result.solutions).any())
+    return (
+        f"nine points: all 1442 classes in {complete} of {count}, real ones in {found}, "
+        f"median {np.median(seconds):.2f} CPU s"
+    )
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
