@@ -34,6 +34,12 @@ if TYPE_CHECKING:
     from linkwright.model.file import read_document as read_document
     from linkwright.model.mechanism import Mechanism as Mechanism
     from linkwright.model.schema import json_schema as json_schema
+    from linkwright.plot.animation import Animation as Animation
+    from linkwright.plot.animation import animate as animate
+    from linkwright.plot.diagrams.diagram_by_name import plot as plot
+    from linkwright.plot.diagrams.picture import Diagram as Diagram
+    from linkwright.plot.drawing.draw import draw as draw
+    from linkwright.plot.drawing.picture import Drawing as Drawing
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure
@@ -79,6 +85,11 @@ PUBLIC = {
     "linkwright.model.file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
     "linkwright.model.mechanism": ("Mechanism",),
     "linkwright.model.schema": ("json_schema",),
+    "linkwright.plot.animation": ("Animation", "animate"),
+    "linkwright.plot.diagrams.diagram_by_name": ("plot",),
+    "linkwright.plot.diagrams.picture": ("Diagram",),
+    "linkwright.plot.drawing.draw": ("draw",),
+    "linkwright.plot.drawing.picture": ("Drawing",),
     "linkwright.structure": ("Structure", "StructureError", "structure"),
     "linkwright.study.compare": ("Comparison", "compare"),
     "linkwright.study.designs": ("Sweep", "sweep"),

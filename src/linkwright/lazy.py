@@ -5,15 +5,21 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from inspect import Signature
 
 
 def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
     """Makes the names of other modules attributes of a package.
 
-    ``public``: the names by the module that has them. A subpackage of the same name as one of them
-    (``linkwright.structure``) stays importable; the attribute is the public name.
+    ``public``: the names by the module that has them. Where a function has the name of a subpackage
+    (``linkwright.structure``), the attribute is the subpackage, and calling it calls the function: both
+    ``linkwright.structure(mechanism)`` and ``linkwright.structure.Group`` work, however either was imported.
+    A plain module of the same name stays importable; the attribute is the public name.
     """
     home = {name: module for module, names in public.items() for name in names}
 
@@ -21,12 +27,19 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
         """The package with its offered names."""
 
         def __setattr__(self, name: str, value: object) -> None:
-            if not (isinstance(value, ModuleType) and name in home):
-                super().__setattr__(name, value)
+            if isinstance(value, ModuleType) and name in home:
+                if not hasattr(value, "__path__"):
+                    return
+                _make_callable(value, home[name], name)
+            super().__setattr__(name, value)
 
         def __getattr__(self, name: str) -> Any:
+            if name == "__all__":
+                return sorted(home)
             if name not in home:
                 raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+            if _is_package(f"{package}.{name}"):
+                return import_module(f"{package}.{name}")
             value = getattr(import_module(home[name]), name)
             setattr(self, name, value)
             return value
@@ -35,3 +48,26 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
             return sorted({*super().__dir__(), *home})
 
     sys.modules[package].__class__ = Offering
+
+
+def _is_package(name: str) -> bool:
+    found = find_spec(name)
+    return found is not None and found.submodule_search_locations is not None
+
+
+def _make_callable(module: ModuleType, home: str, name: str) -> None:
+    """Lets a subpackage be called as the function of its name."""
+
+    class Callable(type(module)):  # type: ignore[misc]
+        """A package that is called as its function."""
+
+        def __call__(self, *arguments: Any, **options: Any) -> Any:
+            return getattr(import_module(home), name)(*arguments, **options)
+
+        @property
+        def __signature__(self) -> Signature:
+            from inspect import signature
+
+            return signature(getattr(import_module(home), name))
+
+    module.__class__ = Callable

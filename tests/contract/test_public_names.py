@@ -1,6 +1,8 @@
 """The public names: each is there, documented, and seen by type checkers as well."""
 
 import ast
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -27,3 +29,43 @@ def test_type_checkers_see_the_same_names() -> None:
 def test_a_name_that_is_not_there() -> None:
     with pytest.raises(AttributeError, match="no attribute 'solve_everything'"):
         linkwright.solve_everything  # noqa: B018
+
+
+PACKAGES = ("structure", "metrics", "export", "study", "loads", "plot", "worked")
+
+
+def test_everything_public_comes_with_a_star() -> None:
+    names: dict[str, object] = {}
+    exec("from linkwright import *", names)
+    for _, name in NAMES:
+        assert names[name] is getattr(linkwright, name)
+
+
+@pytest.mark.parametrize(
+    "first", ["", "import linkwright.{0}", "from linkwright.{0} import *", "linkwright.{0}"]
+)
+@pytest.mark.parametrize("name", PACKAGES)
+def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: str, first: str) -> None:
+    """In a process of its own: the package's modules, the function's parameters and a call through the package."""
+    program = (
+        f"import linkwright\n{first.format(name)}\nimport inspect, linkwright.{name}\n"
+        f"found = linkwright.{name}\n"
+        f"assert inspect.ismodule(found) and callable(found), found\n"
+        f"print(*inspect.signature(found).parameters)\n"
+        f"try: found(no_such_option=1)\nexcept TypeError as error: print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    parameters, refusal = done.stdout.splitlines()
+    assert parameters.split()[0] in {"mechanism", "result", "source", "text", "results", "motion"}
+    assert "unexpected keyword argument" in refusal or "missing" in refusal
+
+
+def test_packages_and_functions_work_side_by_side() -> None:
+    import linkwright.metrics
+    import linkwright.structure
+
+    mechanism = linkwright.load("gallery:crank_rocker")
+    assert isinstance(linkwright.structure(mechanism), linkwright.structure.Structure)
+    assert "transmission_angle" in linkwright.metrics.METRICS
+    assert linkwright.metrics(linkwright.solve_motion(mechanism, steps=36)).rows
+    assert linkwright.loads(linkwright.dump(mechanism)) == mechanism

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.frozen import FrozenDict, locked
 from linkwright.errors import RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
@@ -86,7 +87,7 @@ class LinkMotion:
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         good = np.isfinite(raw)
         raw[good] = np.unwrap(raw[good])
-        return raw
+        return locked(raw)
 
     @property
     def angular_velocity(self) -> Floats:
@@ -140,12 +141,12 @@ class Motion:
     @property
     def time(self) -> Floats:
         """Times of the positions, (n,) s."""
-        return self.positions.time
+        return locked(self.positions.time)
 
     @cached_property
     def inputs(self) -> dict[str, Floats]:
         """Coordinates of the drivers by name, (n,) rad or m."""
-        return {name: rows[0] for name, rows in self.positions.coordinates.items()}
+        return FrozenDict({name: locked(rows[0]) for name, rows in self.positions.coordinates.items()})
 
     @property
     def input(self) -> Floats:
@@ -163,7 +164,7 @@ class Motion:
     def ok(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
         """Which positions are solved, (n,)."""
         good: np.ndarray[Any, np.dtype[np.bool_]] = self.outcome_codes == 0
-        return good if self.barred is None else good & (self.barred == 0)
+        return locked(good if self.barred is None else good & (self.barred == 0))
 
     @cached_property
     def outcomes(self) -> list[Outcome]:
@@ -191,9 +192,9 @@ class Motion:
             a, b = (self.link(link) for link in joint.links[:2])
             return JointMotion(
                 name,
-                b.angle - a.angle,
-                b.angular_velocity - a.angular_velocity,
-                b.angular_acceleration - a.angular_acceleration,
+                locked(b.angle - a.angle),
+                locked(b.angular_velocity - a.angular_velocity),
+                locked(b.angular_acceleration - a.angular_acceleration),
             )
         hint = offered(name, self.mechanism.joints)
         raise RequestError(Sentence("motion.no_coordinate", name=name, hint=hint))
@@ -246,10 +247,10 @@ class Motion:
         return columns(self)
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """All results as a tidy table; needs pandas."""
-        from linkwright.kinematics.table import dataframe
+        """All results as a table over the first driver's coordinate, its index; needs pandas."""
+        from linkwright.kinematics.table import dataframe, input_column
 
-        return dataframe(self.columns())
+        return dataframe(self.columns(), index=input_column(self))
 
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""

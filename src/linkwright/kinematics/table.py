@@ -44,8 +44,14 @@ def columns(motion: Motion) -> dict[str, Floats]:
     return found
 
 
-def dataframe(named: Mapping[str, Floats]) -> pandas.DataFrame:
-    """A pandas table of named columns.
+def input_column(motion: Motion) -> str | None:
+    """The column of the first driver's coordinate; None without a driver."""
+    name = next(iter(motion.inputs), None)
+    return None if name is None else f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"
+
+
+def dataframe(named: Mapping[str, Floats], *, index: str | None = None) -> pandas.DataFrame:
+    """A pandas table of named columns, one of them its index where asked.
 
     Raises:
         LinkwrightError: pandas is not installed.
@@ -54,4 +60,5 @@ def dataframe(named: Mapping[str, Floats]) -> pandas.DataFrame:
         import pandas
     except ImportError as error:
         raise LinkwrightError(Sentence("motion.needs_pandas")) from error
-    return pandas.DataFrame(dict(named))
+    table = pandas.DataFrame(dict(named))
+    return table if index is None else table.set_index(index)

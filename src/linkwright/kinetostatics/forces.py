@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.frozen import locked
 from linkwright.errors import RequestError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
@@ -79,7 +80,9 @@ class Forces:
         if axes == "frame":
             return force
         e = self.motion.link(axes if axes in self.mechanism.links else self._unknown_link(axes)).direction
-        return np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1)
+        return locked(
+            np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1)
+        )
 
     def couple(self, joint: str, *, on: str | None = None) -> Floats:
         """Couple (n,), N·m, that a guide (about the block's point) or a weld exerts on a link; zero for a pin."""
@@ -89,7 +92,7 @@ class Forces:
             return np.zeros(self.steps)
         other = self.mechanism.joints[joint].joined[1]
         row = self.fetch((f"c:{joint}|{other}",))[0]
-        return -row if link == first else row
+        return locked(-row) if link == first else row
 
     def resultant_offset(self, joint: str) -> Floats:
         """Where along the guide the resultant acts, (n,) m from the block's point, positive along the guide."""
@@ -98,7 +101,7 @@ class Forces:
         force = self._reaction(joint, joined[1])
         normal = n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0]
         with np.errstate(all="ignore"):
-            return self.couple(joint, on=joined[1]) / normal
+            return locked(self.couple(joint, on=joined[1]) / normal)
 
     def driver_effort(self, name: str) -> Floats:
         """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
@@ -119,7 +122,7 @@ class Forces:
             raise RequestError(Sentence("forces.one_sum"))
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
-            return np.where(rate == 0.0, np.nan, self.power / rate)
+            return locked(np.where(rate == 0.0, np.nan, self.power / rate))
 
     @cached_property
     def power(self) -> Floats:
@@ -131,17 +134,17 @@ class Forces:
         """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""
         if not self.mechanism.drivers:
             return np.zeros(self.steps)
-        return self.fetch(("driver_power",))[0] - self.power
+        return locked(self.fetch(("driver_power",))[0] - self.power)
 
     @cached_property
     def balance_residual(self) -> Floats:
         """Largest gap in the balance of any link, (n,) N, put together from the results; see ``link_balance``."""
-        return balance_residual(self)
+        return locked(balance_residual(self))
 
     @cached_property
     def shaking_force(self) -> Floats:
         """Resultant of the inertia forces on the frame, (n, 2) N."""
-        return np.stack(self.fetch(("shake.x", "shake.y")), axis=1)
+        return locked(np.stack(self.fetch(("shake.x", "shake.y")), axis=1))
 
     @cached_property
     def shaking_moment(self) -> Floats:
@@ -154,7 +157,7 @@ class Forces:
             raise RequestError(no_such("load", name, self.mechanism.loads))
         names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
         fx, fy, moment, px, py = self.fetch(names)
-        return LoadForce(name, np.stack([fx, fy], axis=1), moment, np.stack([px, py], axis=1))
+        return LoadForce(name, locked(np.stack([fx, fy], axis=1)), moment, locked(np.stack([px, py], axis=1)))
 
     def columns(self) -> dict[str, Floats]:
         """All results as named columns (n,), names with units."""
@@ -163,10 +166,10 @@ class Forces:
         return columns(self)
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """All results as a tidy table; needs pandas."""
-        from linkwright.kinematics.table import dataframe
+        """All results as a table over the first driver's coordinate, its index; needs pandas."""
+        from linkwright.kinematics.table import dataframe, input_column
 
-        return dataframe(self.columns())
+        return dataframe(self.columns(), index=input_column(self.motion))
 
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
         """A diagram, by default the driver's torque; kinds and options: ``linkwright.plot.plot``."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.html import html_table
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
@@ -119,6 +120,13 @@ class MetricsTable(Sequence[MetricValue]):
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
+
+    def _repr_html_(self) -> str:
+        """The table as notebooks show it."""
+        keys = ("metric", "subject", "value", "unit", "at")
+        head = [say(f"metrics.column.{key}") for key in keys]
+        rows = [self._cells(row, "en") for row in self.rows]
+        return html_table(self.title, head, rows, [f"! {warning}" for warning in self.warnings])
 
     def __repr__(self) -> str:
         return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"

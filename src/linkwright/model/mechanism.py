@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkwright.core.frozen import Frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
@@ -120,7 +121,7 @@ class Cycle:
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Frozen):
     """A planar mechanism as the file or the code gave it: links, joints, drivers, loads; SI units, radians.
 
     ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the

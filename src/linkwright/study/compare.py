@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.html import html_table
 from linkwright.errors import RequestError, with_remedy
 from linkwright.metrics.quantities import si_unit
 from linkwright.model.mechanism import Mechanism
@@ -14,6 +15,7 @@ from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, alternatives
 from linkwright.study.criteria import USUAL, Criterion, Measured, criteria
 from linkwright.study.overlay import Overlay, overlays
+from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -201,6 +203,13 @@ class Comparison:
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
+
+    def _repr_html_(self) -> str:
+        """The table as notebooks show it; * marks the best."""
+        from linkwright.study.evaluation import table_rows
+
+        head, *rows = table_rows(self, speaker("en"))
+        return html_table("", head, rows, self.notes)
 
     def __repr__(self) -> str:
         order = " > ".join(f"{rank.label} ({rank.score:.2f})" for rank in self.ranking)

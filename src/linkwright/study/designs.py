@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.core.frozen import Frozen
+from linkwright.core.html import columns_html
 from linkwright.engine.sweep import Backend, Progress
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -30,7 +32,7 @@ Counts = NDArray[np.int64]
 
 
 @dataclass(eq=False)
-class Sweep:
+class Sweep(Frozen):
     """Summaries of many designs; arrays are (designs,), SI.
 
     ``varied``: values of the varied dimensions; ``assembled``: number of positions that each design reaches, of
@@ -103,6 +105,10 @@ class Sweep:
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
+
+    def _repr_html_(self) -> str:
+        """The first designs as notebooks show them, SI."""
+        return columns_html(self.mechanism.name, self.columns())
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())

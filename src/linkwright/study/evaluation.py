@@ -40,6 +40,11 @@ def report(comparison: Comparison, language: str) -> list[str]:
 
 def table(comparison: Comparison, say: Say) -> list[str]:
     """Criteria in rows, alternatives in columns."""
+    return aligned(table_rows(comparison, say), "<" + ">" * len(comparison.labels))
+
+
+def table_rows(comparison: Comparison, say: Say) -> list[list[str]]:
+    """The cells of the table, its head first."""
     language = say("compare.language")
     head = [say("compare.metric"), *comparison.labels]
     rows = [head]
@@ -49,7 +54,7 @@ def table(comparison: Comparison, say: Say) -> list[str]:
             mark = f" {MARK}" if index in row.best else "  "
             cells.append("—  " if each is None else shown(each.value, each.dimension, 5) + mark)
         rows.append(cells)
-    return aligned(rows, "<" + ">" * len(comparison.labels))
+    return rows
 
 
 def ranking(comparison: Comparison, say: Say) -> list[str]:

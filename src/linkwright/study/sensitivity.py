@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.frozen import Frozen, locked
+from linkwright.core.html import html_table
 from linkwright.engine.sweep import Backend
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -34,7 +36,7 @@ REVERSE_PAYS = 6
 
 
 @dataclass(eq=False)
-class Sensitivity:
+class Sensitivity(Frozen):
     """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
 
     ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked
@@ -66,18 +68,22 @@ class Sensitivity:
         """A summary over the cycle."""
         return self.values[self._summary(output, kind)]
 
-    def gradient(self, output: str, kind: str | None = None) -> dict[str, float]:
-        """Derivatives of a summary by dimension."""
-        row = self.gradients[self._summary(output, kind)]
-        return dict(zip(self.by, row.tolist(), strict=True))
+    def gradient(self, output: str, kind: str | None = None) -> Floats:
+        """Derivatives of a summary, (dimensions,) in the order of ``by``."""
+        return self.gradients[self._summary(output, kind)]
 
-    def relative(self, output: str, kind: str | None = None) -> dict[str, float]:
-        """Change in percent of a summary per percent of each dimension: (p/y)·dy/dp; NaN where y is zero."""
-        summary = self._summary(output, kind)
-        value, nominal = self.values[summary], self.mechanism.dimensions()
-        if value == 0.0:
-            return dict.fromkeys(self.by, float("nan"))
-        return {by: nominal[by] * slope / value for by, slope in self.gradient(output, kind).items()}
+    def by_name(self, output: str, kind: str | None = None) -> dict[str, float]:
+        """The same by the dimensions' addresses."""
+        return dict(zip(self.by, self.gradient(output, kind).tolist(), strict=True))
+
+    def relative(self, output: str, kind: str | None = None) -> Floats:
+        """Percent by which a summary changes per percent of each dimension: (p/y)·dy/dp, in the order of ``by``.
+
+        NaN where y is zero.
+        """
+        value = self.values[self._summary(output, kind)]
+        nominal = np.array([self.mechanism.dimension(by) for by in self.by])
+        return locked(nominal * self.gradient(output, kind) / (value or np.nan))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Summaries in rows, dimensions in columns; needs pandas."""
@@ -105,6 +111,14 @@ class Sensitivity:
         if self.curves:
             lines.append(f"  curves: {', '.join(self.curves)}; by {', '.join(self.by)}")
         return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        """Summaries and their derivatives as notebooks show them, SI."""
+        rows = [
+            [summary.name, *(f"{each:.6g}" for each in (self.values[summary], *row))]
+            for summary, row in self.gradients.items()
+        ]
+        return html_table(self.mechanism.name, ["", "", *self.by], rows)
 
     def __repr__(self) -> str:
         return self.text()

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.core.frozen import Frozen
+from linkwright.core.html import columns_html
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.machine import flywheel_inertia
 from linkwright.metrics.outputs import mechanism_outputs
@@ -39,7 +41,7 @@ USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque"
 
 
 @dataclass(eq=False)
-class Study:
+class Study(Frozen):
     """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
 
     ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of
@@ -155,6 +157,10 @@ class Study:
         from linkwright.plot import plot
 
         return plot(self, kind, **options)
+
+    def _repr_html_(self) -> str:
+        """The first designs as notebooks show them, SI."""
+        return columns_html(self.mechanism.name, self.columns())
 
     def __repr__(self) -> str:
         return (

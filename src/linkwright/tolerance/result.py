@@ -104,7 +104,7 @@ class Spread(Result):
 
     def shares(self, text: str) -> list[Share]:
         """What contributes to the linear spread of a summary, the largest first."""
-        gradient = self.derivatives.gradient(self.summaries[text].output, self.summaries[text].kind)
+        gradient = self.derivatives.by_name(self.summaries[text].output, self.summaries[text].kind)
         parts = {
             self.study.written(address): (gradient[address], tolerance.deviation)
             for address, tolerance in self.study.deviating.items()
@@ -125,7 +125,7 @@ class Spread(Result):
 
     def worst_case(self, text: str) -> float:
         """Σ |∂y/∂p|·t: the largest deviation if all tolerances are used up at once."""
-        gradient = self.derivatives.gradient(self.summaries[text].output, self.summaries[text].kind)
+        gradient = self.derivatives.by_name(self.summaries[text].output, self.summaries[text].kind)
         total = sum(abs(gradient[a]) * t.tolerance for a, t in self.study.deviating.items())
         for pin, pair in self.study.holes("free").items():
             total += math.hypot(*(gradient[a] for a in pair)) * self.study.clearances[pin].clearance
@@ -253,12 +253,12 @@ class Spread(Result):
     def bend(self, text: str) -> tuple[str, float]:
         """The largest contributor, and how much the summary bends over ±2σ of it: |y₊ + y₋ − 2y₀|/|y₊ − y₋|."""
         summary = self.summaries[text]
-        deviations = {a: (t.deviation, abs(self.derivatives.gradient(summary.output, summary.kind)[a]) * t.deviation)
+        deviations = {a: (t.deviation, abs(self.derivatives.by_name(summary.output, summary.kind)[a]) * t.deviation)
                       for a, t in self.study.deviating.items()}  # fmt: skip
         for pair in self.study.holes("free").values():
             for a in pair:
                 size = self.study.clearances[a.split(".")[-2]].clearance / math.sqrt(2)
-                deviations[a] = size, abs(self.derivatives.gradient(summary.output, summary.kind)[a]) * size
+                deviations[a] = size, abs(self.derivatives.by_name(summary.output, summary.kind)[a]) * size
         address = max(deviations, key=lambda a: deviations[a][1])
         at = self.study.prepared.dimension(address) + deviations[address][0] * np.array([-2.0, 0.0, 2.0])
         found = sweep(

@@ -45,7 +45,7 @@ class RelativeSensitivity(ResultKind):
         known = {summary.name: summary for summary in result.values}
         names = chosen(request.of, known)
         table = {name: result.relative(known[name].output, known[name].kind) for name in names}
-        if not any(np.isfinite(list(row.values())).any() for row in table.values()):
+        if not any(np.isfinite(row).any() for row in table.values()):
             raise RequestError(
                 "all of these summaries are zero, so they have no relative sensitivity to draw"
             )
@@ -54,8 +54,7 @@ class RelativeSensitivity(ResultKind):
         places, thick = np.arange(len(result.by)), 0.8 / len(names)
         for number, (name, row) in enumerate(table.items()):
             at = places + (number - 0.5 * (len(names) - 1)) * thick
-            lengths = np.array([row[by] for by in result.by])
-            bars = axes.barh(at, lengths, 0.92 * thick, color=COLOURS[number % len(COLOURS)])
+            bars = axes.barh(at, row, 0.92 * thick, color=COLOURS[number % len(COLOURS)])
             legend.add(name, bars[0])
         axes.axvline(0.0, color="#9aa0a6", linewidth=0.8)
         axes.set_yticks(places, list(result.by))

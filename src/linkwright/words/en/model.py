@@ -250,6 +250,7 @@ WORDS = {
     "beyond": "{shown} is more than any machine has",
     "check_size": "check the number and its unit; at most {limit}",
     "set_beyond": "{address} is set to {value:g}, which is more than any machine has; check the number",
-    "no_inertia": 'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts as zero',
+    "no_inertia": 'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts '
+    "as zero",
     "add_inertia": "add inertia: 2.5 kg·m² (about the mass centre), or inertia: 0 if that is meant",
 }

@@ -21,8 +21,8 @@ linkwright program gallery:gear_pair --json""",
     "at_upper": "at its upper bound",
     "linear": "Linear program (simplex method): the optimum of all.",
     "integer": "Mixed-integer linear program (branch and cut): the optimum of all.",
-    "nonlinear": "Nonlinear program (sequential quadratic programming): {agreed} of {starts} starts came to this "
-    "optimum; it is a local one, the best that was found.",
+    "nonlinear": "Nonlinear program (sequential quadratic programming): {agreed} of {starts} starts came to "
+    "this optimum; it is a local one, the best that was found.",
     "enumerated": "All {count} combinations of the discrete values were tried: the optimum of all.",
     "branched": "Mixed nonlinear program (branch and bound over local optima): the best that was found.",
     "price": "One more {unit} on the right side of {name} changes the objective by {price}.",

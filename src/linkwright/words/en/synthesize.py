@@ -68,13 +68,14 @@ linkwright synthesize press.yaml --json""",
     "points": "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
     "not_positive": "{name} is {given}; it must be positive and finite",
     "negative": "{name} is {given}; it must not be negative",
-    "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 and less "
-    "than 90 deg",
-    "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 or more",
+    "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 "
+    "and less than 90 deg",
+    "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 "
+    "or more",
     "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least "
     "is {least}",
-    "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = {least} "
-    "(the nearest solution has that)",
+    "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = "
+    "{least} (the nearest solution has that)",
     "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; "
     "give offset 0 "
     "with a rod ratio or a transmission angle, or a larger K",
@@ -82,8 +83,8 @@ linkwright synthesize press.yaml --json""",
     "(the nearest solution has that)",
     "slider_crank.demands": "a slider-crank needs stroke and one of: rod_ratio (and offset_ratio); "
     "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
-    "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be below "
-    "180 deg and K below 3",
+    "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be "
+    "below 180 deg and K below 3",
     "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; lower "
     "K or change "
     "the swing",
@@ -95,8 +96,8 @@ linkwright synthesize press.yaml --json""",
     "link_ratio",
     "toggle.stroke": "the stroke {stroke} m is shorter than the distance {distance} m at which the force "
     "ratio is wanted",
-    "toggle.too_long": "the force ratio at that distance gives links for a stroke of at most {most} m; the nearest "
-    "solution has a stroke just below it",
+    "toggle.too_long": "the force ratio at that distance gives links for a stroke of at most {most} m; the "
+    "nearest solution has a stroke just below it",
     "straight_line.kind": 'there is no straight-line linkage "{kind}"; known: {known}',
     "straight_line.none": "{kind} has no stretch that stays within {given} m; allow a larger deviation",
     "dwell.range": "the rest can last up to 180 deg of the crank, and the swing be up to 149 deg",
@@ -106,14 +107,14 @@ linkwright synthesize press.yaml --json""",
     "path.angles": "{angles} crank angles do not fit {points} points; give one for each point",
     "path.one_place": "all points of the path lie in one place; give different points",
     "path.none": "no four-bar was found for the path; check the points",
-    "path.ordered": "no candidate passes the points in the given order on one branch: the best one has the defects "
-    "shown; leave out points or allow larger lengths",
+    "path.ordered": "no candidate passes the points in the given order on one branch: the best one has the "
+    "defects shown; leave out points or allow larger lengths",
     "path.nine": "{classes} of 1442 classes of four-bars were found for the points; {real} of them are real, "
     "{sound} without defects",
-    "path.exact_few": "exact path generation takes 3 to 9 points, given: {count}; leave angles out and use least "
-    "squares for more",
-    "path.no_real": "no real four-bar passes exactly through the {count} points in every class that was found; the "
-    "nearest solution is that of least squares, with a sum of squared distances of {error} m²",
+    "path.exact_few": "exact path generation takes 3 to 9 points, given: {count}; leave angles out and use "
+    "least squares for more",
+    "path.no_real": "no real four-bar passes exactly through the {count} points in every class that was "
+    "found; the nearest solution is that of least squares, with a sum of squared distances of {error} m²",
     "path.no_movable": "{real} real four-bars pass exactly through the points, none in order on one branch; "
     "the best one "
     "shows: {why}",
@@ -133,15 +134,16 @@ linkwright synthesize press.yaml --json""",
     "by the error "
     "shown",
     "function.few": "{count} pairs of values are too few for a function; give 3 or more",
-    "function.values": "inputs and outputs must be lists of the same number of finite values; given: {inputs} and "
-    "{outputs}",
+    "function.values": "inputs and outputs must be lists of the same number of finite values; given: "
+    "{inputs} and {outputs}",
     "function.linkage": 'there is no function generator "{linkage}"; known: {known}',
-    "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or change the "
-    "function",
+    "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or "
+    "change the function",
     "function.exact": "no real {linkage} has the given zero angles and meets all {count} positions exactly; "
     "the nearest "
     "solution has a greatest error of {error}",
-    "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: {why}",
+    "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
+    "{why}",
     "function.free": "zero angles: input {input} deg, output {output}",
     "task": 'there is no task "{task}"; known: {known}',
     "task.missing": 'the task "{task}" needs "{demand}": {form}',

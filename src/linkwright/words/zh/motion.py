@@ -29,5 +29,6 @@ WORDS = {
     "several_points": "几个构件各有名为“{name}”的点；请指明：{choices}",
     "no_rank": "位置 {index} 没有解，其雅可比矩阵没有秩；请另选位置",
     "needs_pandas": "没有安装 pandas；安装命令：pip install pandas",
-    "law_beyond": "驱动 {name!r} 在 {time:g} s 时给出{kind} {value}，超出任何机器可能的数值；请改变其规律或循环",
+    "law_beyond": "驱动 {name!r} 在 {time:g} s 时给出{kind} {value}，超出任何机器可能的数值；"
+    "请改变其规律或循环",
 }

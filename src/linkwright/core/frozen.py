@@ -1,0 +1,53 @@
+"""Results that nobody can change by accident: arrays and mappings that are read-only, yet copied and pickled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, NoReturn, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+K = TypeVar("K")
+V = TypeVar("V")
+S = TypeVar("S", bound=np.generic)
+
+
+class FrozenDict(dict[K, V]):
+    """A dictionary that cannot be changed; ``dict(mapping)`` is one that can."""
+
+    def _refuse(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError("this mapping belongs to a result and cannot be changed; take dict(…) of it")
+
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[type[FrozenDict[K, V]], tuple[dict[K, V]]]:
+        return FrozenDict, (dict(self),)
+
+    def __copy__(self) -> FrozenDict[K, V]:
+        return self
+
+
+def locked(array: NDArray[S]) -> NDArray[S]:
+    """A view of an array that cannot be written."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def frozen(value: Any) -> Any:
+    """The same array or mapping, arrays within mappings too, read-only; everything else as it is."""
+    if isinstance(value, np.ndarray):
+        return locked(value)
+    if isinstance(value, Mapping) and not isinstance(value, FrozenDict):
+        return FrozenDict({key: frozen(each) for key, each in value.items()})
+    return value
+
+
+class Frozen:
+    """For dataclasses of results: arrays and mappings among their fields become read-only."""
+
+    def __post_init__(self) -> None:
+        for each in fields(self):  # type: ignore[arg-type]
+            object.__setattr__(self, each.name, frozen(getattr(self, each.name)))
