@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
     from linkwright.export.export import export as export
+    from linkwright.gears.gear import Gear as Gear
+    from linkwright.gears.pair import GearPair as GearPair
+    from linkwright.gears.pair import gear_pair as gear_pair
+    from linkwright.gears.rack import Rack as Rack
     from linkwright.kinematics import Motion as Motion
     from linkwright.kinematics import Outcome as Outcome
     from linkwright.kinematics import PositionError as PositionError
@@ -74,6 +78,9 @@ __version__ = "0.1.0"
 PUBLIC = {
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
     "linkwright.export.export": ("export",),
+    "linkwright.gears.gear": ("Gear",),
+    "linkwright.gears.pair": ("GearPair", "gear_pair"),
+    "linkwright.gears.rack": ("Rack",),
     "linkwright.kinematics": ("Motion", "Outcome", "PositionError", "solve_motion"),
     "linkwright.kinematics.input_range": ("input_range",),
     "linkwright.kinematics.limits": ("LimitPosition", "limit_positions"),

@@ -30,7 +30,7 @@ STAGES = (
     ("kinematics",),
     ("kinetostatics",),
     ("metrics", "machine", "worked"),
-    ("study", "synthesis", "cams", "parts", "tolerance"),
+    ("study", "synthesis", "cams", "gears", "parts", "tolerance"),
     ("report", "plot", "export"),
     ("cli", "server", "__main__"),
 )
@@ -47,6 +47,7 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "machine/torque_curve.py": {PLOT},
     "metrics/coupler_curve.py": {PLOT},
     "metrics/table.py": {PLOT},
+    "gears/pair.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
     "parts/base.py": {PLOT},
     "study/compare.py": {PLOT},
     "study/designs.py": {PLOT},

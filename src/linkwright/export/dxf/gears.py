@@ -1,0 +1,45 @@
+"""Gears in mesh as DXF, at true scale in millimetres."""
+
+from __future__ import annotations
+
+import io
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.export.base import package
+from linkwright.plot.gears import contact_line
+from linkwright.whole_files import refuse_target, write_whole
+
+if TYPE_CHECKING:
+    from linkwright.gears.pair import GearPair
+
+#: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
+LAYERS = {"outline": 7, "rolling": 8, "base": 150, "contact": 1}
+_MM = 1e3
+
+
+def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, force: bool) -> Path:
+    """Outlines as closed polylines whose corners lie on the exact curves; circles; the path of contact.
+
+    Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
+    """
+    refuse_target(path, force=force, remedy="force=True")
+    ezdxf = package("ezdxf", "dxf_drawings")
+    document = ezdxf.new("R2010", setup=["linetypes"])
+    document.units = 4
+    for name, colour in LAYERS.items():
+        document.layers.add(name, color=colour)
+    space = document.modelspace()
+    for outline in pair.outlines(pinion_angle, points):
+        space.add_lwpolyline((_MM * outline).tolist(), close=True, dxfattribs={"layer": "outline"})
+    for gear, x in ((pair.pinion, 0.0), (pair.wheel, pair.centre_sign)):
+        rolling = 0.5 * gear.base_diameter / math.cos(pair.working_pressure_angle)
+        attributes = {"layer": "rolling", "linetype": "DASHDOT"}
+        space.add_circle((_MM * x, 0.0), _MM * rolling, dxfattribs=attributes)
+        space.add_circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter, dxfattribs={"layer": "base"})
+    start, end = (_MM * contact_line(pair)).tolist()
+    space.add_line(start, end, dxfattribs={"layer": "contact"})
+    stream = io.StringIO()
+    document.write(stream)
+    return write_whole(path, bytes(document.encode(stream.getvalue())))

@@ -1,0 +1,1 @@
+"""Involute gears: numbers of a gear and of a pair, exact outlines of the teeth."""

@@ -1,0 +1,110 @@
+"""Gears in mesh, drawn with their circles and the path of contact."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
+from linkwright.plot.svg.element import Element, Floats, circle, element, path, path_data
+from linkwright.plot.svg.text import text_element, width
+from linkwright.plot.symbols.base import points, ring
+from linkwright.words import LANGUAGES, say
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.gears.gear import Gear
+    from linkwright.gears.pair import GearPair
+
+DIAGONAL, SIZE = 760.0, 13.0
+#: Thickness of a ring outside its roots, modules.
+RIM = 2.5
+
+
+def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -> Drawing:
+    """Outlines of both gears; rolling circles as chain lines, base circles thin, the path of contact thick."""
+    if language not in LANGUAGES:
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    outlines = pair.outlines(pinion_angle)
+    centres = (np.zeros(2), np.array([pair.centre_sign, 0.0]))
+    extent = [_extent(gear, at) for gear, at in zip((pair.pinion, pair.wheel), centres, strict=True)]
+    scale = DIAGONAL / float(np.hypot(*np.ptp(np.concatenate(extent), axis=0)))
+
+    def paper(places: Floats) -> Floats:
+        return np.asarray(places) * (scale, -scale)
+
+    content: list[Element] = []
+    gears = ((pair.wheel, outlines[1], centres[1]), (pair.pinion, outlines[0], centres[0]))
+    for gear, outline, at in gears:
+        content.append(_body(gear, paper(outline), paper(at), scale))
+    for gear, _, at in gears:
+        content += _circles(pair, gear, _vec(paper(at)), scale)
+    content.append(path(paper(contact_line(pair)), "lw-input-line"))
+    box = bounds([paper(each) for each in extent])
+    lines = _lines(pair, language)
+    content += [
+        text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)
+        for number, line in enumerate(lines)
+    ]
+    wide = max(width(line, SIZE) for line in lines)
+    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
+    title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
+    return Drawing(document(content, whole, title, None), tuple(map(str, pair.findings)))
+
+
+def contact_line(pair: GearPair) -> Floats:
+    """The path of contact, (2, 2) m: on the common tangent of the base circles through the pitch point."""
+    alpha, base = pair.working_pressure_angle, 0.5 * pair.pinion.base_diameter
+    foot = base * np.array([math.cos(alpha), math.sin(alpha)])
+    along = np.array([math.sin(alpha), -math.cos(alpha)])
+    return np.array([foot + length * along for length in pair.path_of_contact])
+
+
+def _body(gear: Gear, outline: Floats, at: Floats, scale: float) -> Element:
+    if not gear.internal:
+        return path(outline, "lw-gear", closed=True)
+    rim = ring(_vec(at), scale * _outer_radius(gear), 180)
+    data = path_data(outline, closed=True) + path_data(rim, closed=True)
+    return element("path", {"class": "lw-gear", "fill-rule": "evenodd", "d": data})
+
+
+def _circles(pair: GearPair, gear: Gear, at: tuple[float, float], scale: float) -> list[Element]:
+    rolling = 0.5 * gear.base_diameter / math.cos(pair.working_pressure_angle)
+    arm = 6.0
+    return [
+        circle(at, scale * rolling, "lw-pitch"),
+        circle(at, 0.5 * scale * gear.base_diameter, "lw-hatch"),
+        path(points([(at[0] - arm, at[1]), (at[0] + arm, at[1])]), "lw-hatch"),
+        path(points([(at[0], at[1] - arm), (at[0], at[1] + arm)]), "lw-hatch"),
+    ]
+
+
+def _lines(pair: GearPair, language: str) -> list[str]:
+    numbers = say(
+        "gears.pair",
+        language,
+        first=pair.pinion.teeth,
+        second=pair.wheel.teeth,
+        module=f"{1e3 * pair.pinion.module:.6g}",
+        distance=f"{1e3 * pair.centre_distance:.7g}",
+        angle=f"{math.degrees(pair.working_pressure_angle):.6g}",
+        ratio=f"{pair.contact_ratio:.4g}",
+    )
+    said = [each.say(language) if isinstance(each, Sentence) else each for each in pair.findings]
+    return [numbers, *said]
+
+
+def _outer_radius(gear: Gear) -> float:
+    return 0.5 * gear.root_diameter + RIM * gear.module
+
+
+def _extent(gear: Gear, at: Floats) -> Floats:
+    radius = _outer_radius(gear) if gear.internal else 0.5 * gear.tip_diameter
+    return np.array([at - radius, at + radius])
+
+
+def _vec(row: Floats) -> tuple[float, float]:
+    return float(row[0]), float(row[1])

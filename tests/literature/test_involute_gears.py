@@ -1,0 +1,63 @@
+"""Numbers of involute gear pairs against published ones (KHK, Calculation of gear dimensions)."""
+
+import math
+
+import pytest
+
+import linkwright as lw
+from linkwright.gears.involute import angle_of_involute, involute
+
+
+def test_pair_of_shifted_gears() -> None:
+    """m 3 mm, α 20°, z 12 and 24, x 0.6 and 0.36."""
+    pair = lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36))
+    assert math.degrees(pair.working_pressure_angle) == pytest.approx(26.0885634, abs=5e-8)
+    assert 1e3 * pair.centre_distance == pytest.approx(56.4998697, abs=5e-8)
+    assert 1e3 * pair.pinion.tip_diameter == pytest.approx(44.8397394, abs=5e-8)
+    assert 1e3 * pair.wheel.tip_diameter == pytest.approx(79.3997394, abs=5e-8)
+    assert pair.contact_ratio == pytest.approx(1.20210, abs=5e-6)
+    assert 1e3 * pair.pinion.base_diameter == pytest.approx(36 * math.cos(math.radians(20)), rel=1e-15)
+    assert pair.tip_clearances == pytest.approx((0.25 * 3e-3, 0.25 * 3e-3), abs=1e-12)
+    assert pair.findings == () and pair.ratio == -2.0
+
+
+def test_ring_and_pinion() -> None:
+    """m 3 mm, α 20°, z 16 and 24, x 0 and 0.5."""
+    pair = lw.gear_pair((16, 24), 3e-3, profile_shift=(0.0, 0.5), internal=True)
+    assert 1e3 * pair.centre_distance == pytest.approx(13.1682677, abs=5e-8)
+    assert pair.ratio == 1.5
+
+
+def test_standard_pair() -> None:
+    """z 20 and 30 without shift: 20°, a = m (z1 + z2) / 2, and the contact ratio of the textbook formula."""
+    pair = lw.gear_pair((20, 30), 2e-3)
+    assert pair.centre_distance == pytest.approx(0.05, rel=1e-14)
+    assert pair.working_pressure_angle == pytest.approx(math.radians(20), rel=1e-12)
+    outer, base = (22e-3, 32e-3), [each * math.cos(math.radians(20)) for each in (20e-3, 30e-3)]
+    length = sum(math.sqrt(a * a - b * b) for a, b in zip(outer, base, strict=True))
+    pitch = math.pi * 2e-3 * math.cos(math.radians(20))
+    assert pair.contact_ratio == pytest.approx((length - 0.05 * math.sin(math.radians(20))) / pitch)
+
+
+def test_seventeen_teeth_are_the_fewest_without_undercut() -> None:
+    """The well-known limit 2 / sin² 20° = 17.097; with 17 teeth a shift of 0.006 is wanted (Litvin, chapter 6)."""
+    assert lw.Gear(18, 1e-3).undercut is False and lw.Gear(17, 1e-3).undercut is True
+    limit = 1 - 17 / 2 * math.sin(math.radians(20)) ** 2
+    assert lw.Gear(17, 1e-3).least_profile_shift == pytest.approx(limit, abs=5e-5)
+    assert lw.Gear(10, 1e-3, 0.42).undercut is False
+
+
+@pytest.mark.parametrize(
+    ("degrees", "value"), [(14.5, 0.0055448), (20.0, 0.014904), (25.0, 0.029975), (26.0886, 0.034316)]
+)
+def test_involute_function(degrees: float, value: float) -> None:
+    """Table of involute functions (Machinery's Handbook); the last one belongs to the pair above."""
+    assert involute(math.radians(degrees)) == pytest.approx(value, abs=6e-7)
+    assert angle_of_involute(involute(math.radians(degrees))) == pytest.approx(
+        math.radians(degrees), rel=1e-13
+    )
+
+
+def test_inverse_of_small_and_large_involutes() -> None:
+    for angle in (1e-9, 1e-5, 0.019, 0.021, 0.3, 1.0, 1.5, 1.57):
+        assert angle_of_involute(involute(angle)) == pytest.approx(angle, rel=1e-11)
