@@ -98,3 +98,14 @@ def test_sweeps_keep_the_assembly(name: str, mass: str, steps: int) -> None:
         scale = 1e-9 * (1.0 + np.abs(speed).max())
         assert swept[f"{link}.angular_velocity", "max"] == pytest.approx(np.full(2, speed.max()), abs=scale)
         assert swept[f"{link}.angular_velocity", "min"] == pytest.approx(np.full(2, speed.min()), abs=scale)
+
+
+@pytest.mark.parametrize("steps", [9, 36])
+def test_the_two_ends_of_a_cycle_do_not_meet_over_a_limit(steps: int) -> None:
+    """The group can be followed backwards nearly all round, up to the limit; a dyad behind it bars most of it."""
+    mechanism = fault("both_sides_of_a_limit")
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    ahead, behind = FinePath(mechanism, motion.time), FinePath(mechanism, -motion.time)
+    count, back = ahead.reached, behind.reached
+    assert motion.ok.tolist() == [k < count or steps - k < back for k in range(steps)]
+    assert worst(motion, ahead, 1) < 1e-9

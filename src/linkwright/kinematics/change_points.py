@@ -9,7 +9,7 @@ Erdman & Sandor, Mechanism Design, ch. 3).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -378,10 +378,13 @@ def closes(passing: Sequence[Passage]) -> bool:
     return all(groups.count(group) % 2 == 0 for group in groups)
 
 
-def cut_off(codes: Floats, passing: Sequence[Passage], positions: Positions) -> Floats:
+def cut_off(
+    codes: Floats, passing: Sequence[Passage], positions: Positions, breaks: Set[int] = frozenset()
+) -> Floats:
     """1 for solved positions that cannot be reached from the first solved one, because a gap or positions out of
     reach lie in between, else 0; (n,). ``codes`` are the outcomes of the positions.
 
+    ``breaks``: positions after which a group without closed form cannot be followed to the next one.
     A closed cycle is followed backwards from its first position as well where positions fail visibly; beyond a
     gap between two positions nothing counts as reached, since the driver cannot pass it.
     """
@@ -390,7 +393,7 @@ def cut_off(codes: Floats, passing: Sequence[Passage], positions: Positions) -> 
         return np.zeros(n)
     open_way = codes <= 0
     bars = {p.before for p in passing if p.barred}
-    if open_way.all() and not bars:
+    if open_way.all() and not bars and not breaks:
         return np.zeros(n)
     first = int(np.flatnonzero(good)[0])
     reached = np.zeros(n, dtype=bool)
@@ -403,7 +406,7 @@ def cut_off(codes: Floats, passing: Sequence[Passage], positions: Positions) -> 
             if not positions.closed and not 0 <= there < n:
                 break
             here = there % n
-            if edge % n in bars:
+            if edge % n in bars or edge % n in breaks:
                 break
     return np.where(good & ~reached, 1.0, 0.0)
 

@@ -46,7 +46,8 @@ class Followed:
     is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops; ``certified`` (n,): whether it
     is proved that the assembly is the one of the drawing; ``margin`` (n,): no other assembly lies nearer (rad, or
     share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the way to a position ends, -1 for none;
-    ``returns``: whether a closed cycle comes back to its first assembly (None: not closed or not passed).
+    ``breaks``: positions after which it ends before the next one; ``closed``: whether the first position follows the
+    last one; ``returns``: whether such a cycle comes back to its first assembly (None: it was not passed).
     """
 
     follower: Follower
@@ -57,6 +58,7 @@ class Followed:
     margin: Floats
     stops: tuple[Stop, ...]
     stop_of: NDArray[np.intp]
+    breaks: frozenset[int]
     closed: bool
     returns: bool | None
 
@@ -74,6 +76,7 @@ class Followed:
             np.isfinite(self.coordinates[a]).all(axis=1)
             & np.isfinite(self.coordinates[b]).all(axis=1)
             & ((a != b) | (places == a))
+            & ((places == a) | ~np.isin(a, list(self.breaks)))
         )
         if len(known):
             found[known], sure = self._read(a[known], b[known], (places - a)[known], inputs[known])
@@ -280,6 +283,7 @@ class _Journey:
         self.stops: list[Stop] = []
         self.stop_of = np.full(n, -1)
         self.returns: bool | None = None
+        self.breaks: list[int] = []
 
     def followed(self) -> Followed:
         self._all()
@@ -299,6 +303,7 @@ class _Journey:
             margin,
             stops,
             self.stop_of,
+            frozenset(self.breaks),
             self.positions.closed,
             self.returns,
         )
@@ -410,6 +415,7 @@ class _Journey:
             return
         rest = np.arange(reached, n)
         self._stopped(branch, rest)
+        self.breaks.append(reached - 1)
         if self.apart:
             self._apart((self.coordinates[reached - 1], bool(self.certified[reached - 1])), reached)
         elif around and len(rest):

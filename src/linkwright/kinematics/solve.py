@@ -90,7 +90,8 @@ class MotionRun:
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
         if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
-        motion = self._evaluate(states, modes, found)
+        breaks = frozenset() if followed is None else followed.breaks
+        motion = self._evaluate(states, modes, found, breaks)
         motion.followed = followed
         motion.notes += said + branch_notes(motion)
         if failures == "raise" and not motion.ok.all():
@@ -98,13 +99,17 @@ class MotionRun:
         return motion
 
     def _evaluate(
-        self, states: Mapping[str, Floats], modes: Mapping[str, Floats], found: list[Passage]
+        self,
+        states: Mapping[str, Floats],
+        modes: Mapping[str, Floats],
+        found: list[Passage],
+        breaks: frozenset[int],
     ) -> Motion:
         names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
         mark_singular(codes, found, self.solver.structure)
-        barred = cut_off(codes, found, self.positions)
+        barred = cut_off(codes, found, self.positions, breaks)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
         values[:-1, (codes != 0) | (barred != 0)] = np.nan
