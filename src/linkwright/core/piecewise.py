@@ -64,15 +64,20 @@ class Piecewise:
     """Polynomials between ``edges`` (m + 1,) through ``values`` (m, POINTS) at the Gauss points of the pieces.
 
     ``function``: the function itself, asked where pieces are not met, or do not meet each other at other edges than
-    the ``knots``; without it they stay as they are.
+    the ``knots``; without it they stay as they are. ``tolerance``: share of the function's size that is its noise.
     """
 
     def __init__(
-        self, edges: Floats, values: Floats, function: Function | None = None, knots: Floats = _NONE
+        self,
+        edges: Floats,
+        values: Floats,
+        function: Function | None = None,
+        knots: Floats = _NONE,
+        tolerance: float = SMOOTH,
     ) -> None:
-        self.edges, self.values = edges, values
+        self.edges, self.values, self.tolerance = edges, values, tolerance
         if function is not None:
-            self.edges, self.values = _halved(edges, values, function, knots)
+            self.edges, self.values = _halved(edges, values, function, knots, tolerance)
 
     @classmethod
     def of(
@@ -96,7 +101,7 @@ class Piecewise:
     @cached_property
     def smooth(self) -> NDArray[np.bool_]:
         """Which pieces are met by their polynomials, (m,)."""
-        return np.asarray(tails(self.values) <= SMOOTH * np.abs(self.values).max(initial=0.0))
+        return np.asarray(tails(self.values) <= self.tolerance * np.abs(self.values).max(initial=0.0))
 
     def __call__(self, x: Floats) -> Floats:
         """The function at places between the outer edges, (n,)."""
@@ -113,7 +118,7 @@ class Piecewise:
         edges = np.unique(
             np.concatenate([[low], self.edges[(self.edges > low) & (self.edges < high)], [high]])
         )
-        return Piecewise(edges, self(nodes(edges).ravel()).reshape(-1, POINTS))
+        return Piecewise(edges, self(nodes(edges).ravel()).reshape(-1, POINTS), tolerance=self.tolerance)
 
     # integral -----------------------------------------------------------------------------
     @property
@@ -211,7 +216,9 @@ def _zeros(values: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
     return np.where(crossing, x, start)
 
 
-def _halved(edges: Floats, values: Floats, function: Function, knots: Floats) -> tuple[Floats, Floats]:
+def _halved(
+    edges: Floats, values: Floats, function: Function, knots: Floats, tolerance: float
+) -> tuple[Floats, Floats]:
     """Pieces halved where they are not met, or where neighbours do not meet away from the knots, until that no longer
     changes the integral."""
     size = float(np.abs(values).max(initial=0.0))
@@ -220,7 +227,7 @@ def _halved(edges: Floats, values: Floats, function: Function, knots: Floats) ->
         gap = np.abs(values[1:] @ _TO_PLACES[:, 0] - values[:-1] @ _TO_PLACES[:, -1])
         gap[np.isin(edges[1:-1], knots)] = 0.0
         off = np.maximum(tails(values), np.maximum(np.append(0.0, gap), np.append(gap, 0.0)))
-        rough = (off > SMOOTH * size) & (np.diff(edges) * off > _FINE * scale)
+        rough = (off > tolerance * size) & (np.diff(edges) * off > _FINE * scale)
         if not 0 < rough.sum() <= _NOISE:
             break
         low, middle, high = edges[:-1][rough], (0.5 * (edges[:-1] + edges[1:]))[rough], edges[1:][rough]

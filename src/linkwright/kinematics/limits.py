@@ -143,12 +143,24 @@ class Between:
     def _states(self, positions: Positions, before: Indices) -> dict[str, Floats]:
         if not self.motion.states:
             return {}
-        found = {name: np.empty(positions.count) for name in self.motion.states}
-        for k, index in enumerate(before):
-            moved = self._moved(int(index), float(positions.time[k]))
+        followed = self.motion.followed
+        assert followed is not None
+        inputs = [positions.coordinates[name][0] for name in followed.follower.loops.drivers]
+        found = followed.between(self._place(positions.time), np.stack(inputs, axis=1))
+        lost = ~np.isfinite(next(iter(found.values())))
+        for k in np.flatnonzero(lost):
+            moved = self._moved(int(before[k]), float(positions.time[k]))
             for name, row in found.items():
                 row[k] = moved[name]
         return found
+
+    def _place(self, time: Floats) -> Floats:
+        """The same for times of any turn of a closed cycle."""
+        start, period = float(self.motion.time[0]), self.motion.positions.period
+        if not self.motion.positions.closed or not period:
+            return self.place(time)
+        sense = 1.0 if self.motion.time[-1] >= start else -1.0
+        return self.place(start + sense * ((sense * (time - start)) % period))
 
     def _moved(self, index: int, time: float) -> dict[str, float]:
         """States of groups without closed form, from a position to a time near it."""

@@ -23,6 +23,13 @@ from linkwright.model.signal_fields import Phase
 PIECES = 24
 #: Halvings of pieces that polynomials do not meet.
 HALVINGS = 24
+#: Stored outputs whose sizes are compared: places, rates, second derivatives, forces and moments.
+_ALIKE = {
+    **dict.fromkeys(("p", "e", "s"), "place"),
+    **dict.fromkeys(("v", "w", "sv"), "rate"),
+    **dict.fromkeys(("a", "g", "sa"), "second"),
+    **dict.fromkeys(("r", "c", "effort"), "force"),
+}
 #: More rough pieces than this are noise.
 _NOISE = 96
 
@@ -60,11 +67,11 @@ class CycleGrid:
     def curve(self, signal: Callable[[Any], Floats], of: str, *, halve: bool = False) -> Piecewise:
         """A signal of the motion, or of the forces, over the time; ``halve``: where it kinks of itself, too."""
         values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
-        found = Piecewise(self.edges, values.reshape(-1, POINTS))
+        pieces, tolerance = values.reshape(-1, POINTS), max(SMOOTH, 8.0 * self._solved[2])
+        found = Piecewise(self.edges, pieces, tolerance=tolerance)
         if not halve or found.smooth.all():
             return found
-        function = self._function(signal, of)
-        return Piecewise(self.edges, values.reshape(-1, POINTS), function, self.edges)
+        return Piecewise(self.edges, pieces, self._function(signal, of), self.edges, tolerance)
 
     def extreme_between(self, curve: Piecewise, kind: str, low: float, high: float) -> Extreme:
         """The largest or smallest value of a curve between two times, the second perhaps in the next cycle."""
@@ -78,32 +85,42 @@ class CycleGrid:
         return lambda time: np.asarray(signal(self.resolver.at(time, of)), dtype=float)
 
     @cached_property
-    def _solved(self) -> tuple[Floats, Motion | Forces]:
-        """Edges, and the result at all Gauss points between them."""
+    def _solved(self) -> tuple[Floats, Motion | Forces, float]:
+        """Edges, the result at all Gauss points between them, and the noise in it.
+
+        What halving does not make smoother is noise: as share of the size of an output, that of positions which are
+        found by iteration, or near a singular one.
+        """
         of = "motion" if self._forces is None else "forces"
         edges = edges_between(self.start, self.end, PIECES, self._switches())
         solved = self.resolver.at(nodes(edges).ravel(), of)
+        before = np.inf
         for _ in range(HALVINGS):
-            rough = self._rough(solved, edges)
-            if not 0 < rough.sum() <= _NOISE:
+            tail = self._tails(solved, len(edges) - 1)
+            rough = (tail > SMOOTH) & (np.diff(edges) > 1e-12 * (self.end - self.start))
+            level = float(np.median(tail[rough])) if rough.any() else 0.0
+            if not 0 < rough.sum() <= _NOISE or level > 0.25 * before:
                 break
+            before = level
             edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
             solved = self.resolver.at(nodes(edges).ravel(), of)
-        return edges, solved
+        noisy = len(edges) > 2 and bool((tail > SMOOTH).mean() > 0.5)
+        return edges, solved, float(np.quantile(tail, 0.9)) if noisy else 0.0
 
-    def _rough(self, solved: Any, edges: Floats) -> np.ndarray[Any, np.dtype[np.bool_]]:
-        """Pieces in which some stored output is not met by its polynomial."""
-        rough = np.zeros(len(edges) - 1, dtype=bool)
+    def _tails(self, solved: Any, pieces: int) -> Floats:
+        """How far polynomials are from meeting any stored output, (pieces,), as share of the outputs alike."""
+        found = np.zeros(pieces)
         for rows in (solved.rows, *([solved.motion.rows] if self._forces else [])):
             kinds: dict[str, list[int]] = {}
             for name, place in rows.index.items():
-                kinds.setdefault(name.partition(":")[0], []).append(place)
-            kinds.pop("outcome", None)
+                kind = name.partition(":")[0]
+                if kind in _ALIKE:
+                    kinds.setdefault(_ALIKE[kind], []).append(place)
             for places in kinds.values():
                 values = rows.values[places]
-                size = np.abs(values).max()
-                rough |= (tails(values.reshape(len(places), -1, POINTS)) > SMOOTH * size).any(axis=0)
-        return rough & (np.diff(edges) > 1e-12 * (self.end - self.start))
+                size = float(np.abs(values).max()) or 1.0
+                found = np.maximum(found, tails(values.reshape(len(places), -1, POINTS)).max(axis=0) / size)
+        return found
 
     # places where loads jump ------------------------------------------------------------------------
     def _switches(self) -> Floats:
