@@ -48,10 +48,15 @@ class Inputs:
         length: int | None = None,
         tables: list[Table] | None = None,
     ) -> None:
+        self._given = [(name, positions[name]) for name in program.positions if name in positions]
+        self._given_fields = [(name, fields[name]) for name in program.fields if name in fields]
         self.positions = _taken("position", program.positions, positions)
         self.fields = _taken("field", program.fields, fields)
-        self._tables = [table.numbers for table in tables or []]
-        lengths = {array.shape[-1] for array in (*self.positions, *self.fields)}
+        given, used = (*self._given, *self._given_fields), (*self.positions, *self.fields)
+        self._kept = bool(given) and all(own is each for own, (_, each) in zip(used, given, strict=True))
+        self._tables = list(tables or [])
+        self._numbers = [table.numbers for table in self._tables]
+        lengths = {array.shape[-1] for array in used}
         if length is not None:
             lengths.add(length)
         if not lengths:
@@ -60,32 +65,51 @@ class Inputs:
             raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
         self.length = lengths.pop()
         self.width = width
-        self._inputs = len(self.positions) + len(self.fields) + len(self._tables)
         self.stride = self.length
         if 0 < self.length < width and not program.next_states:
             self.stride = width
             self.positions = [_padded(array, width) for array in self.positions]
             self.fields = [_padded(array, width) for array in self.fields]
+        self._template = self._unaddressed()
 
-    def block(
-        self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0
-    ) -> NDArray[np.int64]:
-        """The call block for some designs from number ``first`` on; addresses as numbers."""
+    def fits(self, positions: Arrays, fields: Arrays, length: int | None, tables: list[Table]) -> bool:
+        """Whether these are the same arrays and tables, read where they lie."""
+        return (
+            self._kept
+            and (length is None or length == self.length)
+            and all(positions.get(name) is array for name, array in self._given)
+            and all(fields.get(name) is array for name, array in self._given_fields)
+            and all(own is each for own, each in zip(self._tables, tables, strict=True))
+        )
+
+    def _unaddressed(self) -> NDArray[np.int64]:
+        """What all call blocks have in common."""
         full, rest = divmod(self.length, self.width)
         if full:
             tail = (self.length - self.width, self.width - rest, self.width) if rest else (-1, 0, 0)
         else:
             tail = (0, 0, rest)
-        block = np.zeros(Block.INPUTS + self._inputs, dtype=np.int64)
-        block[Block.DESIGNS], block[Block.LENGTH] = designs, self.stride
-        block[Block.FULL_END] = full * self.width
+        sources = [address_of(array) for array in (*self.positions, *self.fields, *self._numbers)]
+        block = np.zeros(Block.INPUTS + len(sources), dtype=np.int64)
+        block[Block.LENGTH], block[Block.COUNT], block[Block.FULL_END] = (
+            self.stride,
+            self.length,
+            full * self.width,
+        )
         block[Block.TAIL_START], block[Block.TAIL_LOW], block[Block.TAIL_HIGH] = tail
-        block[Block.COUNT] = self.length
-        block[Block.PARAMETERS], block[Block.OUT], block[Block.STARTS] = parameters, out, starts
-        sources = [address_of(a) for a in self.positions]
-        sources += [address_of(a) + 8 * first * self.stride for a in self.fields]
-        sources += [address_of(numbers) for numbers in self._tables]
         block[Block.INPUTS :] = sources
+        return block
+
+    def block(
+        self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0
+    ) -> NDArray[np.int64]:
+        """The call block for some designs from number ``first`` on; addresses as numbers."""
+        block = self._template.copy()
+        block[Block.DESIGNS], block[Block.PARAMETERS] = designs, parameters
+        block[Block.OUT], block[Block.STARTS] = out, starts
+        if first and self.fields:
+            place = Block.INPUTS + len(self.positions)
+            block[place : place + len(self.fields)] += 8 * first * self.stride
         return block
 
 
@@ -123,16 +147,13 @@ class SingleCall:
         length: int | None = None,
         tables: Tables | None = None,
     ) -> None:
-        self._names, self._tables = program.tables, given_tables(program.tables, tables)
-        self.inputs = Inputs(program, width, positions, fields, length=length, tables=self._tables)
+        self._names = program.tables
+        self.inputs = Inputs(
+            program, width, positions, fields, length=length, tables=given_tables(program.tables, tables)
+        )
         self._own: Floats = np.empty(len(program.parameters))
         self._seen: object = None
         self._bound: object = None
-        self._positions = [(name, positions[name]) for name in program.positions]
-        self._fields = [(name, fields[name]) for name in program.fields]
-        given = [array for _, array in (*self._positions, *self._fields)]
-        used = [*self.inputs.positions, *self.inputs.fields]
-        self._kept = bool(given) and all(own is array for own, array in zip(used, given, strict=True))
         self._out: Floats | None = None
         self._block = self.inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
@@ -142,16 +163,7 @@ class SingleCall:
         self, positions: Arrays, fields: Arrays, length: int | None = None, tables: Tables | None = None
     ) -> bool:
         """Whether the same arrays and tables are given again."""
-        if not self._kept or (length is not None and length != self.inputs.length):
-            return False
-        if self._tables and any(
-            (tables or {}).get(name) is not own for name, own in zip(self._names, self._tables, strict=True)
-        ):
-            return False
-        for name, array in self._positions:
-            if positions.get(name) is not array:
-                return False
-        return not self._fields or all(fields.get(name) is array for name, array in self._fields)
+        return self.inputs.fits(positions, fields, length, given_tables(self._names, tables))
 
     def set_parameters(self, parameters: ArrayLike) -> None:
         """The design: copied, or read where it lies if the same array is given again and again."""

@@ -161,9 +161,7 @@ class CompiledProgram:
         (designs, states), the states before the first position; ``length``: n where no input
         is an array; ``tables``: those that the program looks up.
         """
-        names = self.program.tables if self.accumulation is None else self.accumulation.tables
-        found = given_tables(names, tables)
-        inputs = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
+        inputs = self._inputs(positions, fields, length, tables)
         table, starts = self._tables(parameters, start)
         out = aligned((len(table), len(self.program.outputs), inputs.stride))
         self._call(inputs, table, starts, out, threads)
@@ -187,13 +185,21 @@ class CompiledProgram:
         """
         if self.accumulation is None:
             raise ValueError("this program was compiled without reductions: compile it with them to sweep")
-        names = self.program.tables if self.accumulation is None else self.accumulation.tables
-        found = given_tables(names, tables)
-        inputs = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
+        inputs = self._inputs(positions, fields, length, tables)
         table, starts = self._tables(parameters, start)
         sums = np.empty((len(table), self.accumulation.width))
         self._call(inputs, table, starts, sums, threads)
         return self.accumulation.finish(sums, inputs.length)
+
+    def _inputs(self, positions: Arrays, fields: Arrays, length: int | None, tables: Tables | None) -> Inputs:
+        """The inputs of a call; those of the call before, where the same arrays are given again."""
+        names = self.program.tables if self.accumulation is None else self.accumulation.tables
+        found = given_tables(names, tables)
+        kept: Inputs | None = getattr(self._own, "inputs", None)
+        if kept is None or not kept.fits(positions, fields, length, found):
+            kept = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
+            self._own.inputs = kept if not kept.fields else None
+        return kept
 
     def _tables(self, parameters: ArrayLike, start: ArrayLike | None) -> tuple[Floats, Floats]:
         table = np.ascontiguousarray(parameters, dtype=np.float64)

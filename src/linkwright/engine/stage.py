@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import VALID_COUNT, Accumulation, Reduction, Results, accumulate
 from linkwright.engine.replay import across_designs
+from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import spread_over
 
@@ -29,6 +31,8 @@ Arrays = Mapping[str, ArrayLike]
 _WORTH_COMPILING = 20_000
 #: From this number of designs on, what is the same for all of them is found beforehand.
 _WORTH_PARTING = 4
+#: Lines of a program that Python has evaluated before NumPy or a compiled one is called.
+_SHORT = 120
 _NUMPY_CHUNK = 1 << 18
 
 
@@ -164,12 +168,26 @@ _OF_ONE = ("first", "last", "sum", "mean", "min", "max")
 
 def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run) -> Floats:
     """Outputs (outputs, designs) of a program whose positions are designs; ``columns``: (designs,) each."""
-    one = Run(columns, count, run.tables, 1, run.backend)
-    compiled = _compiled(program, None, one, 1)
+    if count == 1 and len(program.nodes) <= _SHORT:
+        return _one_design(program, columns, run)
+    compiled = _compiled(program, None, Run(columns, count, run.tables, 1, run.backend), 1)
     if compiled is None:
         return numpy_program(program).run((), columns, length=count, tables=run.tables)
     stored: Floats = compiled.store(np.empty((1, 0)), columns, length=count, tables=run.tables)[0]
     return stored
+
+
+def _one_design(program: Program, columns: Mapping[str, ArrayLike], run: Run) -> Floats:
+    scalar = (
+        ScalarProgram(program, run.tables)
+        if program.tables
+        else _short.get(program, None, lambda: ScalarProgram(program))
+    )
+    outputs, _ = scalar.step((), [float(np.asarray(columns[name])[0]) for name in program.positions])
+    return np.array(outputs)[:, None]
+
+
+_short: Recent[Program, ScalarProgram] = Recent(64)
 
 
 def blank(results: Results, failed: NDArray[np.bool_]) -> None:

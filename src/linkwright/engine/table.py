@@ -121,6 +121,8 @@ Tables = Mapping[str, Table]
 
 def given_tables(names: tuple[str, ...], tables: Tables | None) -> list[Table]:
     """The tables that a program looks up, in its order. Raises ValueError for one that is missing."""
+    if not names:
+        return []
     missing = [name for name in names if name not in (tables or {})]
     if missing:
         raise ValueError(f"the program looks up the tables {', '.join(missing)}: give them")
