@@ -134,6 +134,36 @@ def gradients(size: Size) -> Section:
     return Section("Value and reverse gradient, one thread", header, rows, goals, notes)
 
 
+def objectives(size: Size) -> Section:
+    """Objectives through the public API."""
+    from benchmarks import objectives as public_objectives
+
+    path = public_objectives.PathWork()
+    torque = public_objectives.TorqueWork(size.gradients, size.steps)
+    rows, header = [], [""]
+    ratios = []
+    for what, work, slow, fast in (
+        ("path error", path, public_objectives.OURS, public_objectives.HAND),
+        ("torque", torque, public_objectives.BOTH, public_objectives.ALONE),
+    ):
+        rounds = in_turns(work.candidates(), size.rounds, size.slice_s)
+        header, part = timings(rounds, fast, "ms")
+        rows += [[f"{what}: {row[0]}", *row[1:]] for row in part]
+        ratios.append(rounds.ratio(slow, fast))
+    header[3] = "time ÷ reference"
+    goals = [
+        Goal("path error, 60 points: value and gradient ÷ complex step by hand, time", ratios[0], 0.8, False),
+        Goal("six-bar's torque RMS with its load: value and gradient ÷ value, time", ratios[1], 5.0, False),
+    ]
+    notes = [
+        f"path error: one design, {len(public_objectives.PATH)} derivatives; "
+        f"largest difference from the complex step {path.disagreement():.1e}",
+        f"torque: {size.gradients} designs, {len(public_objectives.VARIED)} derivatives; "
+        f"largest difference of the values {torque.disagreement():.1e}",
+    ]
+    return Section("Objectives through the public API", header, rows, goals, notes)
+
+
 def growing(size: Size) -> Section:
     """Every step from the model to the numbers, for chains of more and more dyads."""
     from benchmarks import growth
@@ -210,6 +240,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "w4-fourbar": lambda size: sweeps("fourbar", size),
     "w4-sixbar": lambda size: sweeps("sixbar", size),
     "gradient": gradients,
+    "objective": objectives,
     "growth": growing,
     "cold": cold_start,
     "accuracy": accuracy,

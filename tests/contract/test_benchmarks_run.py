@@ -57,6 +57,13 @@ def test_gradients_agree_with_differences(name: str) -> None:
     assert GradientWork(name, _work(name), 8).disagreement() < 1e-6
 
 
+def test_objectives_agree_with_the_complex_step_and_with_sweeps() -> None:
+    from benchmarks.objectives import PathWork, TorqueWork
+
+    assert PathWork().disagreement() < ROUNDING
+    assert TorqueWork(8, 24).disagreement() < 1e-9
+
+
 @pytest.mark.parametrize("name", ["fourbar", "sixbar"])
 def test_peers_agree_where_installed(name: str) -> None:
     from benchmarks import by_numpy, peers

@@ -53,29 +53,47 @@ def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = 
         raise ValueError(f"the cycle program has no dimension {', '.join(unknown)}")
     if value not in cycle.results:
         raise ValueError(f"the cycle program has no result '{value}'")
+    stages, value = _up_to(cycle.stages, value)
     active, wanted = set(names), {value}
-    for stage in cycle.stages:
+    for stage in stages:
         if any(name in active for name in stage.parameters):
             active |= set(stage.results)
     backwards: list[Backwards] = []
-    for number in reversed(range(len(cycle.stages))):
-        stage = cycle.stages[number]
+    for number in reversed(range(len(stages))):
+        stage = stages[number]
         asked = tuple(name for name in stage.results if name in wanted and name in active)
         if asked:
             own = tuple(name for name in stage.parameters if name in active)
             backwards.append(Backwards(number, stage, asked, own))
             wanted |= set(own)
-    stages = list(cycle.stages[: 1 + max(k for k, each in enumerate(cycle.stages) if value in each.results)])
+    recorded = list(stages)
     for step in backwards:
-        stages[step.number] = step.recorded
-    return CycleGradient(CycleProgram(tuple(stages), cycle.dimensions), value, names, tuple(backwards))
+        recorded[step.number] = step.recorded
+    forwards, plain = (CycleProgram(tuple(each), cycle.dimensions) for each in (recorded, stages))
+    return CycleGradient(forwards, plain, value, names, tuple(backwards))
+
+
+def _up_to(stages: tuple[Stage, ...], value: str) -> tuple[tuple[Stage, ...], str]:
+    """The stages that lead to a result, and its first name: formulas that only hand it on are left out."""
+    last = next(k for k, stage in enumerate(stages) if value in stage.results)
+    formulas, earlier = stages[last].formulas, {name for stage in stages[:last] for name in stage.results}
+    if formulas is not None:
+        output = stages[last].reductions[value].output
+        node = formulas.nodes[dict(formulas.outputs)[output]]
+        if node.name in earlier:
+            return _up_to(stages[:last], node.name)
+    return stages[: last + 1], value
 
 
 @dataclass(frozen=True, eq=False)
 class CycleGradient:
-    """Value and gradient of a result: the cycle program forwards, then some of its stages backwards."""
+    """Value and gradient of a result: the cycle program forwards, then some of its stages backwards.
+
+    ``plain``: the stages for the value alone, whose name among their results is ``value``.
+    """
 
     cycle: CycleProgram
+    plain: CycleProgram
     value: str
     wrt: tuple[str, ...]
     backwards: tuple[Backwards, ...]
