@@ -1,14 +1,17 @@
 """Polygons: printed velocities, directions of the parts, closed forces, and a true scale on the paper."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
-from linkwright.plot.diagrams.link_forces import link_forces
-from linkwright.plot.diagrams.motion_vectors import acceleration_polygon, velocity_polygon
-from linkwright.plot.diagrams.paper import Cell, page
+from linkwright.plot.diagrams.force_polygon import link_forces
+from linkwright.plot.diagrams.motion_polygons import image_names
+from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plot.diagrams.position import place_of
+from linkwright.plot.diagrams.scaled_page import BAR, Cell, page, scale_of_picture, side_by_side
 
 INCH = 25.4
 
@@ -93,3 +96,77 @@ def test_a_polygon_of_several_results_is_refused() -> None:
     for kind in ("velocity_polygon", "acceleration_polygon", "force_polygon"):
         with pytest.raises(LinkwrightError, match="give one result"):
             plot({"a": motion, "b": motion}, kind)
+
+
+@pytest.mark.parametrize(
+    ("points", "pole", "names"),
+    [
+        (["A", "B1"], "p", ["a", "b₁"]),
+        (["A", "P"], "π", ["a", "p"]),
+        (["P", "Π"], "o", ["p", "π"]),
+        (["A", "a"], "p", ["A", "a"]),
+        (["jaw.D", "ram.D", "C"], "p", ["jaw.d", "ram.d", "c"]),
+        (["p", "Π", "O"], "p*", ["p", "π", "o"]),
+    ],
+)
+def test_pole_and_points_never_share_a_letter(points: list[str], pole: str, names: list[str]) -> None:
+    assert image_names(points) == (pole, dict(zip(points, names, strict=True)))
+    pole, images = image_names(points, "′")
+    assert len({pole, *images.values()}) == len(points) + 1 and all(n.endswith("′") for n in images.values())
+
+
+def test_every_mechanism_of_the_gallery_has_distinct_letters() -> None:
+    for name in lw.gallery_names():
+        motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=7, failures="mark")
+        if motion.mechanism.drivers:
+            index = int(motion.ok.argmax())
+            pole, images = image_names(velocity_polygon(motion, index).images)
+            assert len({pole, *images.values()}) == len(images) + 1, name
+
+
+@pytest.mark.parametrize("make", [velocity_polygon, acceleration_polygon])
+def test_every_image_is_reached_by_vectors_that_close(make: Callable[..., MotionPolygon]) -> None:
+    motion = at("shaper_quick_return", 70.0)
+    polygon = make(motion, 0)
+    ends = [np.zeros(2), *polygon.images.values()]
+    largest = max(np.hypot(*end) for end in ends)
+    for step in polygon.steps:
+        for place in (step.start, step.end):
+            if step.role not in ("normal", "tangential", "coriolis", "sliding"):
+                assert min(np.hypot(*(place - end)) for end in ends) < 1e-9 * largest
+    groups = [f"{g.signature}: {', '.join(g.links)}" for g in motion.structure.groups]
+    assert list(dict.fromkeys(step.group for step in polygon.steps)) == groups
+
+
+def test_a_flat_polygon_is_drawn_longer_and_one_without_height_in_lines_side_by_side() -> None:
+    thin = np.array([[0.0, 0.0], [100.0, 4.0]])
+    assert np.ptp(thin / scale_of_picture(thin, 60.0), axis=0)[0] == pytest.approx(100.0 / 1.0, rel=0.6)
+    assert np.ptp(thin / scale_of_picture(thin, 60.0), axis=0)[0] > 60.0
+    line = np.array([[0.0, 0.0], [100.0, 0.0]])
+    assert np.ptp(line / scale_of_picture(line, 60.0), axis=0)[0] <= 60.0
+    pairs = [(np.array([0.0, 0.0]), np.array([40.0, 0.0])), (np.array([40.0, 0.0]), np.array([0.0, 0.0]))]
+    (a, b), (c, d) = side_by_side(pairs)
+    assert (b - a).tolist() == [40.0, 0.0] and (d - c).tolist() == [-40.0, 0.0]
+    assert abs(a[1] - c[1]) == pytest.approx(3.0) and a[1] == b[1] and c[1] == d[1]
+    wide = [(np.zeros(2), np.array([40.0, 0.0])), (np.array([40.0, 0.0]), np.array([0.0, 30.0]))]
+    assert side_by_side(wide) is wide
+
+
+def test_the_drawn_scale_is_that_of_the_arrows() -> None:
+    from linkwright.plot import plot
+
+    forces = lw.solve_forces(at("jaw_crusher_sixbar", -40.0))
+    figure = plot(forces, "force_polygon", at=float(np.radians(-40.0)), of="jaw").figure
+    _, axes = figure.axes
+    (text,) = [t for t in axes.texts if t.get_text().endswith("N") and t.get_text()[0].isdigit()]
+    number, unit = text.get_text().split()
+    per_mm = float(number) * {"kN": 1e3, "N": 1.0}[unit] / BAR
+    bar = max((np.ptp(line.get_xdata()) for line in axes.lines), default=0.0)
+    assert bar == pytest.approx(BAR)
+    ends = [(np.array(t.xy), np.array(t.get_position())) for t in axes.texts if not t.get_text()]
+    drawn = sorted(float(np.hypot(*(end - foot))) * per_mm for end, foot in ends)
+    known = link_forces(forces, "jaw", 0)
+    assert drawn == pytest.approx(sorted(each.size for each in known), rel=1e-9)
+    names = {each.name: each for each in known if each.role == "reaction"}
+    assert names["F05"].force == pytest.approx(forces.reaction("O5", on="jaw")[0])
+    assert names["F45"].force == pytest.approx(forces.reaction("C", on="jaw")[0])

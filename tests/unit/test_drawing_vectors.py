@@ -266,3 +266,9 @@ def test_a_load_of_another_package_has_the_general_symbol_or_a_sentence() -> Non
     assert {"pull", "gust"} <= set(texts(drawing, "lw-load-name"))
     assert drawing.notes == ("not drawn, as they name neither a point nor a link: haze",)
     assert drawing.notes[0] in " ".join(each.strip() for each in texts(drawing))
+
+
+def test_rounding_errors_are_no_torques() -> None:
+    """A coupler on a circle at constant speed: its inertia force lies along the cranks, so there is no torque."""
+    drawing = draw(lw.load("gallery:parallelogram"), forces=True, position=0)
+    assert not [t for t in texts(drawing) if t.startswith("T =")]

@@ -1,41 +1,47 @@
-"""Force polygons of links to scale for one position."""
+"""Force polygons of links to scale for one position, beside the mechanism, group by group as statics takes them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
-from linkwright.plot.diagrams.labels import Labels
-from linkwright.plot.diagrams.link_forces import LinkForce, link_forces
 from linkwright.plot.diagrams.outputs import known_link
-from linkwright.plot.diagrams.paper import (
+from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
+from linkwright.plot.diagrams.reactions import require_forces
+from linkwright.plot.diagrams.scaled_page import (
+    BAR,
     INCH,
     LEAST,
     Cell,
+    Labels,
     arrow,
     colour_key,
     headed,
     page,
-    scale_for,
+    scale_of_picture,
+    side_by_side,
     symbol,
-)  # fmt: skip
-from linkwright.plot.diagrams.picture import COLOURS
-from linkwright.plot.diagrams.reactions import require_forces
+)
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import significant, unit_of
+from linkwright.plot.force_names import link_numbers, reaction_index
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Longest extent of a polygon on the paper, mm, and how many stand in a row.
+#: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3
 LOOKS = {
     "load": COLOURS[1],
@@ -46,11 +52,79 @@ LOOKS = {
 }
 
 
+@dataclass(frozen=True)
+class LinkForce:
+    """A force on a link, N in frame axes; ``role``: ``load``, ``weight``, ``inertia``, ``driver``, ``reaction``.
+
+    ``letter`` and ``index`` make its symbol: F with 12 is what link 1 exerts on link 2.
+    """
+
+    letter: str
+    role: str
+    force: Floats
+    index: str = ""
+
+    @property
+    def name(self) -> str:
+        """Letter and index on one line."""
+        return self.letter + self.index
+
+    @property
+    def symbol(self) -> str:
+        """Letter and index as mathematics; other names as they are."""
+        return symbol(self.letter, self.index) if self.index else self.letter.replace("$", r"\$")
+
+    @property
+    def size(self) -> float:
+        """Its size, N."""
+        return float(np.hypot(*self.force))
+
+
+def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
+    """Loads, weight, inertia force -m a, drivers and joint forces on a link; their sum is zero but for rounding.
+
+    Forces of less than 1e-9 of the largest are left out.
+    """
+    mechanism = forces.mechanism
+    part, number = mechanism.links[link], str(link_numbers(mechanism)[link])
+    applied = np.array([row[index] for row in forces.fetch((f"on:{link}.x", f"on:{link}.y"))])
+    found = [LinkForce(_load_name(forces, link), "load", applied)]
+    found.append(LinkForce("G", "weight", part.mass * np.asarray(mechanism.gravity), number))
+    if not forces.static:
+        inertia = -part.mass * forces.motion.link(link).centre.acceleration[index]
+        found.append(LinkForce("−m·a", "inertia", inertia))
+    found += _drivers(forces, link, index)
+    for name, joint in mechanism.joints.items():
+        if link in joint.joined:
+            force = forces.reaction(name, on=link)[index]
+            found.append(LinkForce("F", "reaction", force, reaction_index(mechanism, name, link)))
+    largest = max(each.size for each in found)
+    return [each for each in found if each.size > 1e-9 * largest]
+
+
+def _load_name(forces: Forces, link: str) -> str:
+    names = [name for name, load in forces.mechanism.loads.items() if getattr(load, "on", None) == link]
+    return names[0] if len(names) == 1 else "ΣP"
+
+
+def _drivers(forces: Forces, link: str, index: int) -> list[LinkForce]:
+    found = []
+    for name, driver in forces.mechanism.drivers.items():
+        if link not in (driver.link, driver.relative_to):
+            continue
+        if isinstance(forces.mechanism.joints[driver.joint], PrismaticJoint):
+            sign = 1.0 if link == driver.link else -1.0
+            along = forces.guide_direction(driver.joint)[index]
+            found.append(LinkForce(name, "driver", sign * forces.driver_effort(name)[index] * along))
+    return found
+
+
 @DIAGRAMS.register("force_polygon")
 class ForcePolygon(Kind):
     """Forces on every link set end to end: loads, weight, inertia force -m a, joint forces; they close.
 
-    Links that carry two forces only are left out unless they are named by ``of``.
+    Groups come in the order of statics, the last of the motion first. Links that carry two forces only are left
+    out unless they are named by ``of``.
     """
 
     name = "force_polygon"
@@ -63,33 +137,49 @@ class ForcePolygon(Kind):
         forces = source.forces_at(request.at)
         require_forces(forces)
         parts = _links(forces, request)
-        scales = [scale_for(float(np.ptp(_corners(each), axis=0).max()), EXTENT) for each in parts.values()]
-        cells = [
-            Cell(_corners(each) / scale, f"{link}: {symbol('μ', 'F')} = {_per_mm(scale)}", _notes(each))
-            for (link, each), scale in zip(parts.items(), scales, strict=True)
-        ]
+        scales = [scale_of_picture(_corners(each), EXTENT) for each in parts.values()]
+        ink, millimetre, cell = position_cell(forces.motion, say)
+        cells = [cell]
+        for (link, each), scale in zip(parts.items(), scales, strict=True):
+            title = f"{_title(forces, link)}\n{symbol('μ', 'F')} = {_per_mm(scale)}"
+            unit = unit_of("force", [np.array([BAR * scale])])
+            cells.append(Cell(_drawn(each, scale), title, _notes(each), unit.text(BAR * scale)))
         title = f"{source.label}: {say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells[:IN_ROW]))
         heading = wrapped(title if request.title is None else request.title, wide / INCH)
         head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0
-        figure, axes = page(cells, IN_ROW, foot=9.0, head=head)
+        figure, (first, *axes) = page(cells, IN_ROW, foot=13.0, head=head)
+        draw_position(first, forces.motion, 0, factor=1 / millimetre)
+        name_position(first, ink)
         for one, each, scale in zip(axes, parts.values(), scales, strict=True):
             _draw(one, each, scale)
         roles = {force.role for each in parts.values() for force in each}
-        colour_key(
-            figure, [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles], 2.5
-        )
+        entries = [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles]
+        colour_key(figure, entries, 7.0)
+        colour_key(figure, [(_numbered(forces, request), "#222222")], 2.5, mark="")
         headed(figure, heading)
         return figure
 
 
+def _numbered(forces: Forces, request: Request) -> str:
+    numbers = {**link_numbers(forces.mechanism)}
+    frame = f"{numbers.pop('frame')} {request.say('frame')}"
+    return ", ".join([frame, *(f"{number} {name}" for name, number in numbers.items())])
+
+
+def _title(forces: Forces, link: str) -> str:
+    """The group and the link, by its number."""
+    group = next(each for each in forces.motion.structure.groups if link in each.links)
+    return f"{group.signature}: {link_numbers(forces.mechanism)[link]} {link}"
+
+
 def _links(forces: Forces, request: Request) -> dict[str, list[LinkForce]]:
-    """Forces by link: of the links that are named, else of those with three forces or more."""
+    """Forces by link, the last group first: of the links that are named, else of those with three forces or more."""
     if request.of:
-        return {
-            known_link(forces.mechanism, name): _ordered(link_forces(forces, name, 0)) for name in request.of
-        }
-    every = {link: _ordered(link_forces(forces, link, 0)) for link in forces.mechanism.links}
+        names = [known_link(forces.mechanism, name) for name in request.of]
+        return {name: _ordered(link_forces(forces, name, 0)) for name in names}
+    order = [link for group in reversed(forces.motion.structure.groups) for link in reversed(group.links)]
+    every = {link: _ordered(link_forces(forces, link, 0)) for link in order}
     return {link: found for link, found in every.items() if len(found) > 2} or {
         link: found for link, found in every.items() if found
     }
@@ -106,27 +196,40 @@ def _corners(found: list[LinkForce]) -> Floats:
     return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
 
 
-def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:
+def _pairs(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
     corners = _corners(found) / scale
-    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    return side_by_side(list(pairwise(corners)))
+
+
+def _drawn(found: list[LinkForce], scale: float) -> Floats:
+    return np.array([place for pair in _pairs(found, scale) for place in pair])
+
+
+def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:
+    pairs = _pairs(found, scale)
+    places = np.array([place for pair in pairs for place in pair])
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
     labels = Labels(axes)
-    pairs = list(zip(found, corners[:-1], corners[1:], strict=True))
-    for each, start, end in pairs:
+    for each, (start, end) in zip(found, pairs, strict=True):
         arrow(axes, start, end, LOOKS[each.role])
         labels.line(start, end)
-    for each, start, end in pairs:
+    for each, (start, end) in zip(found, pairs, strict=True):
         if np.hypot(*(end - start)) > 1.5:
-            places = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
-            labels.put(each.name, places, away=places[0] - middle, colour=LOOKS[each.role], size=7.5)
+            spots = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
+            labels.put(
+                each.name,
+                spots,
+                away=spots[0] - middle,
+                colour=LOOKS[each.role],
+                size=7.5,
+                written=each.symbol if each.index else None,
+            )
 
 
 def _notes(found: list[LinkForce]) -> tuple[tuple[str, str], ...]:
     """Sizes of the forces in the colours of their roles."""
     unit = unit_of("force", [each.force for each in found])
-    return tuple(
-        (f"{each.name.replace('$', chr(92) + '$')} = {unit.text(each.size)}", LOOKS[each.role])
-        for each in found
-    )
+    return tuple((f"{each.symbol} = {unit.text(each.size)}", LOOKS[each.role]) for each in found)
 
 
 def _per_mm(scale: float) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -13,22 +14,25 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
-from linkwright.plot.diagrams.labels import Labels
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
-from linkwright.plot.diagrams.paper import (
+from linkwright.plot.diagrams.picture import COLOURS, INK
+from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
+from linkwright.plot.diagrams.scaled_page import (
+    BAR,
     INCH,
     LEAST,
     LINE,
     Cell,
+    Labels,
     arrow,
     colour_key,
     headed,
     page,
-    scale_for,
+    scale_of_picture,
+    side_by_side,
     symbol,
-)  # fmt: skip
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
-from linkwright.plot.diagrams.position import Ink, draw_position
+    with_index,
+)
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import significant
 from linkwright.words import Say
@@ -37,9 +41,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Longest extent of the position and of the polygon on the paper, mm.
-POSITION, POLYGON = 75.0, 110.0
-RIGHT = np.array([1.0, 0.0])
+#: Longest extent of the polygon on the paper, mm.
+POLYGON = 110.0
+#: Letters of the pole, the first one that no point has.
+POLES = ("p", "π", "o", "p*")
 #: Letters above the symbols of parts of an acceleration.
 ABOVE = {"normal": "n", "tangential": "t", "coriolis": "k", "sliding": "r"}
 LOOKS = {
@@ -69,40 +74,30 @@ class MotionPolygons(Kind):
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
-        largest = float(np.ptp(images, axis=0).max())
-        if largest <= 0:
+        if float(np.ptp(images, axis=0).max()) <= 0:
             raise LinkwrightError(
                 "nothing moves at this position, so there is no polygon; choose another input: at=…"
             )
-        scale = scale_for(largest, POLYGON)
-        return self._sheet(sources[0], motion, polygon, scale, request)
+        return self._sheet(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
 
     def _sheet(
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Figure:
         say = request.say
-        places = _places(motion)
-        length = scale_for(float(np.ptp(places, axis=0).max()), POSITION)
-        images = (
-            np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)]) / scale
-        )
+        ink, millimetre, position = position_cell(motion, say)
+        places = np.array([np.zeros(2), *(place for pair in _arrows(polygon, scale) for place in pair)])
+        title = f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"
+        cells = [position, Cell(places, title, bar=f"{significant(BAR * scale)} {self.unit}")]
+        heading = f"{source.label}: {say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
         texts = _table(polygon, self.unit)
-        title = f"{source.label}: {say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
-        cells = [
-            Cell(
-                places / length, f"{say('position')}: {symbol('μ', 'l')} = {significant(length * 1e3)} mm/mm"
-            ),
-            Cell(
-                images, f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"
-            ),
-        ]
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells))
         columns = int(wide // 42)
         rows = -(-len(texts) // columns)
-        heading = wrapped(title if request.title is None else request.title, wide / INCH)
+        heading = wrapped(heading if request.title is None else request.title, wide / INCH)
         head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0
         figure, (left, right) = page(cells, 2, foot=LINE * rows + 9, head=head)
-        _name_position(left, draw_position(left, motion, 0, factor=1 / length))
+        draw_position(left, motion, 0, factor=1 / millimetre)
+        name_position(left, ink)
         draw_polygon(right, polygon, scale, self.prime)
         colour_key(figure, _used(polygon, say), LINE * rows + 4)
         _write(figure, texts, columns)
@@ -135,57 +130,69 @@ class AccelerationPolygon(MotionPolygons):
 
 
 def draw_polygon(axes: Axes, polygon: MotionPolygon, scale: float, prime: str) -> None:
-    """Vectors and names, in paper mm from the pole."""
+    """Vectors and names, in paper mm from the pole; those of a flat polygon stand side by side."""
     labels = Labels(axes)
-    for step in polygon.steps:
+    for step, (start, end) in zip(polygon.steps, _arrows(polygon, scale), strict=True):
         colour, dash, width = LOOKS[step.role]
-        arrow(axes, step.start / scale, step.end / scale, colour, dash=dash, width=width)
-        labels.line(step.start / scale, step.end / scale)
+        arrow(axes, start, end, colour, dash=dash, width=width)
+        labels.line(start, end)
     middle = np.mean([np.zeros(2), *polygon.images.values()], axis=0) / scale
     for names, image in _gathered(polygon, scale, prime):
         axes.plot([image[0]], [image[1]], "o", color=INK, markersize=2.4, zorder=4)
         labels.put(", ".join(names), [image], away=image - middle)
 
 
-def _name_position(axes: Axes, ink: Ink) -> None:
-    labels = Labels(axes)
-    for line in ink.lines:
-        labels.line(line[0], line[1])
-    for _, place in ink.names:
-        labels.line(place - RIGHT, place + RIGHT)
-    for text, place in ink.names:
-        labels.put(text, [place])
+def _arrows(polygon: MotionPolygon, scale: float) -> list[tuple[Floats, Floats]]:
+    return side_by_side([(step.start / scale, step.end / scale) for step in polygon.steps])
+
+
+def image_names(points: Iterable[str], prime: str = "") -> tuple[str, dict[str, str]]:
+    """Names of the pole and of the images of points: small letters, of which no two are the same.
+
+    The pole is p, or where a point's image is p: π, then o. Points whose small letters are the same keep their links'
+    names, or their capitals.
+    """
+    given = list(points)
+    ways: tuple[Callable[[str], str], ...] = (lambda point: point.rpartition(".")[2].lower(), str.lower, str)
+    names: dict[str, str] = {}
+    for way in ways:
+        tried = {point: with_index(way(point)) for point in given if point not in names}
+        count = Counter([*tried.values(), *names.values()])
+        names |= {point: name for point, name in tried.items() if count[name] == 1 or way is str}
+    pole = next(each for each in POLES if each not in names.values())
+    return pole + prime, {point: names[point] + prime for point in given}
 
 
 def _gathered(polygon: MotionPolygon, scale: float, prime: str) -> list[tuple[list[str], Floats]]:
     """Images with their names; those at one place share a label. The pole comes first."""
-    found: list[tuple[list[str], Floats]] = [([f"p{prime}"], np.zeros(2))]
+    pole, letters = image_names(polygon.images, prime)
+    found: list[tuple[list[str], Floats]] = [([pole], np.zeros(2))]
     for key, image in polygon.images.items():
         place = image / scale
-        name = f"{key.lower()}{prime}"
         near = next((names for names, other in found if np.hypot(*(other - place)) < 0.6), None)
         if near is None:
-            found.append(([name], place))
+            found.append(([letters[key]], place))
         else:
-            near.append(name)
+            near.append(letters[key])
     return found
 
 
-def _places(motion: Motion) -> Floats:
-    return draw_position(new_figure((1, 1)).subplots(), motion, 0, factor=1.0).cloud
-
-
 def _table(polygon: MotionPolygon, unit: str) -> list[tuple[str, str]]:
-    """Sizes of the vectors with the colour of their role, those of zero size left out."""
+    """Group by group the sizes of the vectors with the colour of their role, those of zero size left out."""
     largest = max(step.size for step in polygon.steps)
-    return [
-        (
-            f"{symbol(step.letter, step.name, ABOVE.get(step.role, ''))} = {significant(step.size)} {unit}",
-            LOOKS[step.role][0],
-        )
-        for step in sorted(polygon.steps, key=lambda each: list(LOOKS).index(each.role))
-        if step.size > 1e-9 * largest
-    ]
+    found: list[tuple[str, str]] = []
+    for group in dict.fromkeys(step.group for step in polygon.steps):
+        sizes = [
+            (
+                f"{symbol(step.letter, step.name, ABOVE.get(step.role, ''))} = {significant(step.size)} {unit}",
+                LOOKS[step.role][0],
+            )
+            for step in polygon.steps
+            if step.group == group and step.size > 1e-9 * largest
+        ]
+        if sizes:
+            found += [(group.replace("$", r"\$"), INK), *sizes]
+    return found
 
 
 def _used(polygon: MotionPolygon, say: Say) -> list[tuple[str, str]]:

@@ -21,7 +21,7 @@ from linkwright.plot.diagrams.position import place_of
 
 @dataclass(frozen=True)
 class Step:
-    """A vector of the polygon: from ``start`` to ``end`` (2,), its ``letter``, ``name`` of points, and ``role``.
+    """A vector of the polygon from ``start`` to ``end`` (2,): ``letter``, ``name`` of points, ``role``, ``group``.
 
     Roles: ``absolute``, ``relative``, ``normal``, ``tangential``, ``coriolis``, ``sliding``.
     """
@@ -31,6 +31,7 @@ class Step:
     role: str
     start: Floats
     end: Floats
+    group: str = ""
 
     @property
     def size(self) -> float:
@@ -44,10 +45,11 @@ class MotionPolygon:
 
     images: dict[str, Floats] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
+    group: str = ""
 
     def put(self, letter: str, name: str, role: str, start: Floats, end: Floats) -> None:
         """A vector from start to end."""
-        self.steps.append(Step(letter, name, role, np.asarray(start), np.asarray(end)))
+        self.steps.append(Step(letter, name, role, np.asarray(start), np.asarray(end), self.group))
 
 
 def velocity_polygon(motion: Motion, index: int) -> MotionPolygon:
@@ -66,14 +68,27 @@ class _Polygon:
         self.found = MotionPolygon()
 
     def made(self) -> MotionPolygon:
-        """Group by group, in solving order."""
+        """Group by group, in solving order; in each the absolute vectors of its points first."""
+        guides = [
+            joint
+            for joint in self.motion.mechanism.joints.values()
+            if isinstance(joint, PrismaticJoint) and joint.guide != "frame"
+        ]
+        solved: set[str] = set()
         for group in self.motion.structure.groups:
+            self.found.group = f"{group.signature}: {', '.join(group.links)}"
+            known, place = set(self.found.images), len(self.found.steps)
             for link in group.links:
                 self._link(link)
-        for joint in self.motion.mechanism.joints.values():
-            if isinstance(joint, PrismaticJoint) and joint.guide != "frame":
+            solved |= set(group.links)
+            for joint in [each for each in guides if solved >= {each.guide, each.block}]:
+                guides.remove(joint)
                 self._guide(joint)
-        self._absolute()
+            relative = self.found.steps[place:]
+            del self.found.steps[place:]
+            for key in [each for each in self.found.images if each not in known]:
+                self.found.put(self.letter, key, "absolute", np.zeros(2), self.found.images[key])
+            self.found.steps += relative
         return self.found
 
     def _link(self, link: str) -> None:
@@ -127,10 +142,6 @@ class _Polygon:
         self.found.images[under] = acceleration
         self.found.put("a", joint.at, "coriolis", acceleration, corner)
         self.found.put("a", joint.at, "sliding", corner, own)
-
-    def _absolute(self) -> None:
-        for key, image in self.found.images.items():
-            self.found.put(self.letter, key, "absolute", np.zeros(2), image)
 
     def _key(self, link: str, point: str) -> str:
         key = canonical(self.motion.mechanism, link, point)

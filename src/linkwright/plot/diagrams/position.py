@@ -11,12 +11,17 @@ from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
-from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.picture import INK, new_figure
+from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
+from linkwright.plot.diagrams.units import significant
+from linkwright.words import Say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 LINK, PIN = "#7a828c", 4.2
+#: Longest extent of a position beside a polygon, mm.
+POSITION = 75.0
 
 
 def place_of(motion: Motion, link: str, point: str, index: int) -> Floats:
@@ -53,6 +58,27 @@ def draw_position(axes: Axes, motion: Motion, index: int, *, factor: float) -> I
     ink.lines += _guides(axes, motion, index, factor)
     ink.names = _pins(axes, motion, index, factor)
     return ink
+
+
+def position_cell(motion: Motion, say: Say) -> tuple[Ink, float, Cell]:
+    """The picture of a motion's first position for a page to scale: what it holds in mm, metres per mm, the cell."""
+    plain = draw_position(new_figure((1, 1)).subplots(), motion, 0, factor=1.0)
+    scale = scale_for(float(np.ptp(plain.cloud, axis=0).max()), POSITION)
+    ink = Ink([line / scale for line in plain.lines], [(name, at / scale) for name, at in plain.names])
+    title = f"{say('position')}: {symbol('μ', 'l')} = {significant(scale * 1e3)} mm/mm"
+    return ink, scale, Cell(ink.cloud, title, bar=f"{significant(scale * BAR * 1e3)} mm")
+
+
+def name_position(axes: Axes, ink: Ink) -> None:
+    """The names of the points, clear of the links."""
+    labels = Labels(axes)
+    right = np.array([1.0, 0.0])
+    for line in ink.lines:
+        labels.line(line[0], line[1])
+    for _, place in ink.names:
+        labels.line(place - right, place + right)
+    for text, place in ink.names:
+        labels.put(with_index(text), [place])
 
 
 def _outline(cloud: Floats) -> Floats:

@@ -22,7 +22,7 @@ SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
 LEAST = 300.0
 #: Where a line may break: after blanks and Chinese characters.
-_WORDS = re.compile(r"[\u2e80-\uffef]|[^\s\u2e80-\uffef]+\s*")
+_WORDS = re.compile(r"[\u2e80-\uffef]\s*|[^\s\u2e80-\uffef]+\s*")
 
 
 class Legend:
@@ -68,8 +68,10 @@ class Legend:
 
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
-        links = ", ".join(f"{number} {name}" for name, number in link_numbers(mechanism).items())
-        self.text(say("drawing.reaction", language, links=links))
+        named = {**link_numbers(mechanism)}
+        links = [f"{named.pop('frame')} {say('drawing.frame', language)}"]
+        links += [f"{number} {name}" for name, number in named.items()]
+        self.text(say("drawing.reaction", language, links=", ".join(links)))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.text(say("drawing.pin", language))
 

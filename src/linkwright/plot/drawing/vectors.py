@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,7 +37,8 @@ _PREFIXES = (("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6))
 class Vectors:
     """Vectors of one kind at all positions: feet (n, 2) m, values (n, 2) and symbols by name.
 
-    ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link).
+    ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link); ``floor``: what is
+    smaller is a rounding error.
     """
 
     kind: str
@@ -46,6 +47,7 @@ class Vectors:
     values: Mapping[str, Floats]
     symbols: Mapping[str, Symbol]
     toward: bool = False
+    floor: float = 0.0
 
     @property
     def style(self) -> str:
@@ -74,7 +76,7 @@ class Vectors:
 
     def seen(self, name: str, run: Sequence[int]) -> bool:
         """Whether a vector is more than zero at some positions."""
-        least = NOTHING * self.largest(run)
+        least = max(NOTHING * self.largest(run), self.floor)
         return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
@@ -103,7 +105,10 @@ class Vectors:
 
 @dataclass(frozen=True)
 class Torques:
-    """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name."""
+    """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name.
+
+    ``floor``: what is smaller is a rounding error.
+    """
 
     kind: str
     places: Mapping[str, Floats]
@@ -111,6 +116,7 @@ class Torques:
     symbols: Mapping[str, Symbol]
     radius: float = COUPLE_RADIUS
     unit: str = "N·m"
+    floor: float = 0.0
 
     @property
     def style(self) -> str:
@@ -132,7 +138,7 @@ class Torques:
 
     def seen(self, name: str, run: Sequence[int]) -> bool:
         """Whether a torque is more than rounding at some positions."""
-        least = NOTHING * self.largest(run)
+        least = max(NOTHING * self.largest(run), self.floor)
         return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
@@ -248,7 +254,21 @@ def force_vectors(forces: Forces, names: Sequence[str] | None) -> Arrows:
     reactions, couples = _reactions(forces, names)
     loads, moments = _loads(forces)
     pushes, torques = _drivers(forces)
-    return Arrows("force", (reactions, loads, pushes), (couples, moments, torques))
+    return _above_rounding((reactions, loads, pushes), (couples, moments, torques))
+
+
+def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...]) -> Arrows:
+    """The same, where a force counts from a billionth of the largest on, a torque from that at the machine's size."""
+    feet = np.concatenate([np.zeros((1, 2)), *(foot for each in vectors for foot in each.feet.values())])
+    feet = feet[np.isfinite(feet).all(axis=1)]
+    everywhere = range(len(next(iter(vectors[0].values.values()), feet)))
+    force = NOTHING * max(each.largest(everywhere) for each in vectors)
+    torque = force * float(np.ptp(feet, axis=0).max())
+    return Arrows(
+        "force",
+        tuple(replace(each, floor=force) for each in vectors),
+        tuple(replace(each, floor=torque) for each in torques),
+    )
 
 
 def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, Torques]:

@@ -141,4 +141,5 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "machines": "machines",
     "kind.flight": "path of the flight",
     "kind.transport": "motion of the load on the trough",
+    "frame": "frame",
 }

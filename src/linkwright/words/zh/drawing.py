@@ -15,4 +15,5 @@ WORDS = {
     "zero_velocity": "此位置各点速度均为零",
     "zero_acceleration": "此位置各点加速度均为零",
     "unmarked": "未画出（未指明作用点或构件）的载荷：{loads}",
+    "frame": "机架",
 }

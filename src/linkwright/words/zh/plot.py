@@ -140,4 +140,5 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5""",
     "machines": "机器数",
     "kind.flight": "飞行轨迹",
     "kind.transport": "物料在槽上的运动",
+    "frame": "机架",
 }
