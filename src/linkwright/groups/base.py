@@ -3,7 +3,8 @@
 A group is cut at one pin; chain ``a`` and chain ``b`` run from links solved before to that pin. A chain
 that begins with a pin has an ``anchor`` (the pin) and an ``arm`` (from the pin to the cut, in the axes of
 its first link, slides at zero); a chain of slides has the cut's place at zero slide as ``anchor``.
-``directions`` are unit vectors along which the cut moves with each slide.
+``directions`` are unit vectors along which the cut moves with each slide; ``senses`` are -1 for slides whose guide
+points the other way, because the group's own link carries it.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ class Chain:
     anchor: Vec
     arm: Vec | None = None
     directions: tuple[Vec, ...] = ()
+    senses: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ class RRP:
     """Outer pin P, link of length r to the inner pin B, which the slider carries along the direction n.
 
     With f = P - B(0), h = n × f (distance of P from the pin's path): s = f·n + mode √(r² - h²).
-    Modes: B ahead of or behind the foot of the perpendicular from P, seen along n. Out of reach if
-    |h| > r (rrpk of the teaching texts).
+    Modes: B ahead of or behind the foot of the perpendicular from P, seen along the guide's direction: along n, and
+    against n if the slider carries the guide. Out of reach if |h| > r (rrpk of the teaching texts).
     """
 
     signature = "RRP"
@@ -31,6 +31,8 @@ class RRP:
         rr = a.arm.square
         square = rr - h * h
         root = mode * sqrt(square)
+        if b.senses[0] < 0.0:
+            root = -root
         u = n * root - n.perp * h
         return Solved(
             coordinates=(Rotor(u, a.arm), f.dot(n) + root),

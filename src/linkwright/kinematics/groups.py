@@ -126,16 +126,14 @@ class GroupTracer:
         turning = steps[0] if steps[0].kind == "revolute" else None
         trial = self._trial(group, turning, end)
         anchor = trial[end].point(cut.point(end))
-        directions = []
-        for step in steps:
-            pair = pair_of(step, self.dimensions)
-            if isinstance(pair, Guide):
-                directions.append(pair.normal(trial[step.parent]))
+        guides = [(step, pair) for step in steps if isinstance(pair := pair_of(step, self.dimensions), Guide)]
+        directions = [pair.normal(trial[step.parent]) for step, pair in guides]
+        senses = tuple(pair.sign for _, pair in guides)
         if turning is None:
-            return Chain(anchor, None, tuple(directions))
+            return Chain(anchor, None, tuple(directions), senses)
         parent = self._trial(group, None, turning.parent)[turning.parent]
         pivot = pair_of(turning, self.dimensions).place(parent, UNTURNED).place
-        return Chain(pivot, anchor, tuple(directions))
+        return Chain(pivot, anchor, tuple(directions), senses)
 
     # Newton -------------------------------------------------------------------------------
     def _newton(self, placed: Placed) -> None:
