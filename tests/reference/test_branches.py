@@ -12,7 +12,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.reference.adapter import driver_values, reference_system
 from tests.reference.fine_path import FinePath
+from tests.reference.general_case import general_case
+from tests.reference.multibody import FRAME, Array, Multibody
 
 import linkwright as lw
 
@@ -109,3 +112,47 @@ def test_the_two_ends_of_a_cycle_do_not_meet_over_a_limit(steps: int) -> None:
     count, back = ahead.reached, behind.reached
     assert motion.ok.tolist() == [k < count or steps - k < back for k in range(steps)]
     assert worst(motion, ahead, 1) < 1e-9
+
+
+def poses(motion: Any, system: Multibody, index: int) -> Array:
+    """The reference system's coordinates (bodies, 3) of a position of the package."""
+    q = np.zeros((len(system.index), 3))
+    for name, body in system.index.items():
+        if name == FRAME:
+            continue
+        (point, local), *_ = motion.mechanism.links[name].points.items()
+        c, s = motion.link(name).direction[index]
+        x, y = motion.point(f"{name}.{point}").position[index]
+        q[body] = x - c * local[0] + s * local[1], y - s * local[0] - c * local[1], np.arctan2(s, c)
+    return q
+
+
+def random_texts(count: int) -> list[str]:
+    """Random models with groups without closed form."""
+    texts: list[str] = []
+    seed = 300_000
+    while len(texts) < count:
+        text = general_case(seed).text
+        groups = lw.structure(lw.loads(text)).groups
+        if any(len(group.unknowns) > 2 for group in groups):
+            texts.append(text)
+        seed += 1
+    return texts
+
+
+@pytest.mark.parametrize("text", random_texts(10))
+@pytest.mark.parametrize("steps", [5, 24])
+def test_the_determinant_keeps_its_sign_from_position_to_position(text: str, steps: int) -> None:
+    """Of the whole mechanism's independent Jacobian, and the positions fulfil its constraints."""
+    mechanism = lw.loads(text)
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    system = reference_system(mechanism)
+    u = driver_values(mechanism, motion.time)[0]
+    signs = set()
+    for index in np.flatnonzero(motion.ok):
+        q = poses(motion, system, int(index))
+        gap = system.residual(q, u[index])
+        gap[system.row_angle] = np.angle(np.exp(1j * gap[system.row_angle]))
+        assert np.abs(gap).max() < 1e-9 * (1.0 + np.abs(q).max())
+        signs.add(float(np.linalg.slogdet(system.jacobian(q)[:, 3:])[0]))
+    assert len(signs) == int(motion.ok.any())
