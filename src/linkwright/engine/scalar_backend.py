@@ -125,7 +125,8 @@ class ScalarProgram:
     """A program for one design and one position at a time, as an iteration needs it.
 
     The lines that differ from design to design only are evaluated again only when the
-    parameters change. ``tables``: those that the program looks up. Raises ValueError for missing ones.
+    parameters change. May be used from several threads. ``tables``: those that the program looks up.
+    Raises ValueError for missing ones.
     """
 
     def __init__(self, program: Program, tables: Tables | None = None) -> None:
@@ -139,8 +140,7 @@ class ScalarProgram:
             op: [i for i, line in enumerate(lines) if line.op == op]
             for op in ("parameter", "position", "field", "state")
         }
-        self._parameters: tuple[float, ...] | None = None
-        self._prepared: list[Any] = []
+        self._prepared: tuple[tuple[float, ...] | None, list[Any]] = (None, [])
 
     def step(
         self,
@@ -167,12 +167,13 @@ class ScalarProgram:
 
     def _design_values(self, parameters: Sequence[float]) -> list[Any]:
         given = tuple(float(p) for p in parameters)
-        if given != self._parameters:
+        known, values = self._prepared
+        if given != known:
             values = list(self._start)
             self._put(values, "parameter", given)
             self._design.run(values)
-            self._parameters, self._prepared = given, values
-        return list(self._prepared)
+            self._prepared = given, values
+        return list(values)
 
     def _put(self, values: list[Any], op: str, given: Sequence[float]) -> None:
         places = self._inputs[op]
