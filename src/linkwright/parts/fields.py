@@ -12,7 +12,9 @@ from linkwright.model import expressions
 from linkwright.model.expressions import Expression
 from linkwright.model.fields import Field, Schema, table_schema
 from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, Sequence
+from linkwright.model.nodes import Node, Scalar
+from linkwright.registry import nearest
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.plain_reader import Place
@@ -133,13 +135,8 @@ class Whole(Field):
             return None
         if text.strip().lstrip("+-").isdigit() and int(text) >= self.least:
             return int(text)
-        reader.error(
-            node,
-            place,
-            f'"{text}" is not a whole number of {self.least} or more',
-            "write digits only",
-            "range",
-        )
+        message = Sentence("part.no_whole", text=text, least=self.least)
+        reader.error(node, place, message, Sentence("part.no_whole_remedy"), "range")
         return None
 
     def shape(self) -> Schema:
@@ -173,9 +170,8 @@ class Sample(Field):
                     reader.quantity_error(error, named, place.child("unit"), unit)
                     return None
             if node_values is None:
-                reader.error(
-                    node, place.child("values"), 'the key "values" is missing', "add it", "missing-key"
-                )
+                missing = Sentence("part.no_values"), Sentence("part.no_values_remedy")
+                reader.error(node, place.child("values"), *missing, "missing-key")
                 return None
             node, place = node_values, place.child("values")
         items = reader.items(node, place, None, "[20.1 mm, 19.9 mm]")
@@ -186,8 +182,9 @@ class Sample(Field):
             return None
         kinds = {each[1] for each in read if each is not None}
         if len(kinds) > 1:
-            names = " and ".join(units.name_of(each) for each in sorted(kinds)[:2])
-            reader.error(node, place, f"the values differ in kind: {names}", "give all of one kind", "unit")
+            first, second = (units.name_of(each) for each in sorted(kinds)[:2])
+            message = Sentence("part.kinds_differ", first=first, second=second)
+            reader.error(node, place, message, Sentence("part.kinds_differ_remedy"), "unit")
             return None
         shared = kinds.pop() if kinds else units.NONE
         return Numbers(tuple(each[0] for each in read if each), shared, unit, factor)
@@ -213,6 +210,18 @@ def _any(
         reader.quantity_error(error, node, place, text)
         return None
     return (value * factor, kind) if kind is not None and own == units.NONE else (value, own)
+
+
+def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str, known: list[str]) -> None:
+    """The finding for a name that a table does not have, with the nearest that it has."""
+    offer = nearest(name, known)
+    listed = ", ".join(known)
+    remedy = (
+        Sentence("part.known", known=listed)
+        if offer is None
+        else Sentence("part.nearest", offer=offer, known=listed)
+    )
+    reader.error(node, place, Sentence(code, name=name), remedy, "unknown-name")
 
 
 @dataclass(frozen=True)
@@ -241,10 +250,3 @@ class FormulaOf(Field):
 
     def shape(self) -> Schema:
         return {"type": "string", "x-dimension": self.dimension, "x-variables": [self.variable]}
-
-
-def plain_items(node: Node) -> list[str]:
-    """Texts of the items of a list; nothing for anything else."""
-    return (
-        [item.text for item in node.items if isinstance(item, Scalar)] if isinstance(node, Sequence) else []
-    )

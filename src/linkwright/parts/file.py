@@ -19,6 +19,7 @@ from linkwright.model.read_model import FORMAT, read_parameters
 from linkwright.model.reader import Reader
 from linkwright.model.source import read_source
 from linkwright.parts.base import Problem
+from linkwright.words.sentence import Sentence
 
 #: Kinds of calculations: the class that holds the problem.
 KINDS: Mapping[str, str] = {
@@ -134,10 +135,8 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     node = root.get("kind")
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
-    known = ", ".join(KINDS)
-    reader.error(
-        root, "kind", "the file does not say what is calculated", f"add kind: (one of {known})", "kind"
-    )
+    remedy = Sentence("part.no_kind_remedy", known=", ".join(KINDS))
+    reader.error(root, "kind", Sentence("part.no_kind"), remedy, "kind")
     return None
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from linkwright.model.fields import Field, Quantity, Text
-from linkwright.parts.fields import Either, Table
-from linkwright.registry import nearest
+from linkwright.parts.fields import Either, Table, unknown_name
 
 if TYPE_CHECKING:
     from linkwright.model.nodes import Node
@@ -59,15 +58,7 @@ class MaterialField(Either):
             return found
         if found in TABLE:
             return TABLE[found]
-        offer = nearest(found, list(TABLE))
-        remedy = f'did you mean "{offer}"? ' if offer else ""
-        reader.error(
-            node,
-            place,
-            f'there is no material "{found}"',
-            f"{remedy}(known: {', '.join(TABLE)})",
-            "unknown-name",
-        )
+        unknown_name(reader, node, place, "beam.no_material", found, list(TABLE))
         return None
 
     def shape(self) -> dict[str, Any]:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from linkwright.errors import Finding
 from linkwright.model.fields import Field, Quantities, Quantity, Text
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Either, Table
-from linkwright.registry import nearest
+from linkwright.parts.fields import Either, Table, unknown_name
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.model.nodes import Node
@@ -108,15 +108,7 @@ class SectionField(Either):
         if isinstance(found, str):
             if found in IPE:
                 return profile(found)
-            offer = nearest(found, list(IPE))
-            remedy = f'did you mean "{offer}"? ' if offer else ""
-            reader.error(
-                node,
-                place,
-                f'there is no profile "{found}"',
-                f"{remedy}(known: {', '.join(IPE)})",
-                "unknown-name",
-            )
+            unknown_name(reader, node, place, "beam.no_profile", found, list(IPE))
             return None
         return None if found is None else _shaped(reader, node, place, found)
 
@@ -134,18 +126,15 @@ def section_field(*, required: bool = False, doc: str = "cross section") -> Sect
 def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> Section | None:
     shapes = [name for name in SHAPES if name in found]
     if len(shapes) + ("second_moment" in found) != 1:
-        reader.error(
-            node, place, f"{len(shapes)} shapes of the section are given", f"give one of {', '.join(SHAPES)}, or "
-            "second_moment", "choice",
-        )  # fmt: skip
+        message = Sentence("beam.one_shape", count=len(shapes))
+        remedy = Sentence("beam.one_shape_remedy", shapes=", ".join(SHAPES))
+        reader.error(node, place, message, remedy, "choice")
         return None
     if not shapes:
         return Section(found["second_moment"], found.get("area"), found.get("modulus"))
     made = SHAPES[shapes[0]][0](*found[shapes[0]])
     if min(found[shapes[0]]) <= 0 or made.second_moment <= 0 or (made.area or 0.0) <= 0:
-        reader.error(
-            node, place, "these dimensions make no section", "give lengths above zero that fit", "range"
-        )
+        reader.error(node, place, Sentence("beam.no_section"), Sentence("beam.no_section_remedy"), "range")
         return None
     return made
 

@@ -14,6 +14,7 @@ from linkwright.errors import QuantityError
 from linkwright.model import expressions
 from linkwright.model.expressions import Expression, array_functions
 from linkwright.parts.base import Floats
+from linkwright.words.sentence import Sentence
 
 SENSES = {"<=": "<=", "≤": "<=", ">=": ">=", "≥": ">=", "=": "=", "==": "="}
 _SENSE = re.compile(r"(<=|>=|==|≤|≥|=)")
@@ -97,7 +98,7 @@ def constraint(
     parts = [part.strip() for part in _SENSE.split(text)]
     if len(parts) not in (3, 5) or (len(parts) == 5 and "=" in (SENSES[parts[1]], SENSES[parts[3]])):
         raise QuantityError(
-            f'"{text}" is no constraint', "write left <= right, left >= right or left = right"
+            Sentence("program.no_constraint", text=text), Sentence("program.no_constraint_remedy")
         )
     sides = [formula(part, kinds, constants) for part in parts[::2]]
     for side in sides[1:]:
@@ -108,7 +109,8 @@ def constraint(
         if side.dimension != sides[0].dimension and not zero:
             one, other = units.name_of(sides[0].dimension), units.name_of(side.dimension)
             raise QuantityError(
-                f"the left side is {one}, the right side {other}", "compare values of one kind"
+                Sentence("program.sides_differ", left=one, right=other),
+                Sentence("program.sides_differ_remedy"),
             )
     if len(parts) == 3:
         return [Constraint(name, sides[0], SENSES[parts[1]], sides[1])]

@@ -41,4 +41,8 @@ linkwright program gallery:gear_pair --json""",
     "infeasible_remedy": "loosen one of them; any one is enough for these",
     "unbounded": "no limit: the objective improves without end along {variables}",
     "unbounded_remedy": "give these variables bounds, or a constraint that stops them",
+    "no_constraint": '"{text}" is no constraint',
+    "no_constraint_remedy": "write left <= right, left >= right or left = right",
+    "sides_differ": "the left side is {left}, the right side {right}",
+    "sides_differ_remedy": "compare values of one kind",
 }

@@ -40,4 +40,8 @@ linkwright program gallery:gear_pair --json""",
     "infeasible_remedy": "请放宽其中之一；对这一组任意放宽一个即可",
     "unbounded": "无界：目标沿 {variables} 无限改善",
     "unbounded_remedy": "请给这些变量界限，或加一个限制它们的约束",
+    "no_constraint": "“{text}”不是约束",
+    "no_constraint_remedy": "请写 左边 <= 右边、左边 >= 右边 或 左边 = 右边",
+    "sides_differ": "左边是{left}，右边是{right}",
+    "sides_differ_remedy": "请比较同一种量",
 }
