@@ -1,25 +1,36 @@
-"""Model files that ship with the package, each with purpose, source and expected numbers."""
+"""Files that ship with the package, each with purpose and source: models of mechanisms, and calculations."""
 
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-__all__ = ["file", "names"]
+__all__ = ["calculations", "file", "names"]
 
 _SUFFIX = ".yaml"
 
 
 def names() -> tuple[str, ...]:
-    """Names of all gallery models in alphabetical order, without the file suffix."""
-    entries = (entry.name for entry in files(__name__).iterdir())
-    return tuple(sorted(entry.removesuffix(_SUFFIX) for entry in entries if entry.endswith(_SUFFIX)))
+    """Names of all models of mechanisms in alphabetical order, without the file suffix."""
+    return _within(files(__name__))
+
+
+def calculations() -> tuple[str, ...]:
+    """Names of all calculations of machine parts in alphabetical order, without the file suffix."""
+    return _within(files(__name__) / "parts")
 
 
 def file(name: str) -> Traversable:
     """The gallery file called ``name``.
 
     Raises:
-        KeyError: there is no gallery model of that name; ``names()`` lists those that exist.
+        KeyError: there is no file of that name; ``names()`` and ``calculations()`` list those that exist.
     """
-    if name not in names():
-        raise KeyError(name)
-    return files(__name__) / f"{name}{_SUFFIX}"
+    if name in names():
+        return files(__name__) / f"{name}{_SUFFIX}"
+    if name in calculations():
+        return files(__name__) / "parts" / f"{name}{_SUFFIX}"
+    raise KeyError(name)
+
+
+def _within(folder: Traversable) -> tuple[str, ...]:
+    entries = (entry.name for entry in folder.iterdir())
+    return tuple(sorted(entry.removesuffix(_SUFFIX) for entry in entries if entry.endswith(_SUFFIX)))

@@ -15,7 +15,7 @@ from linkwright.model import expressions
 from linkwright.model.fields import Count, Field, Free, Quantities, Text
 from linkwright.model.mechanism import Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
+from linkwright.model.nodes import Node, Scalar
 from linkwright.model.plain_reader import Place, TooManyFindings
 from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
 from linkwright.model.read_joints import read_joints, scan_joints
@@ -61,6 +61,11 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
     reader = Reader(source, si=si)
     mapping = reader.mapping(root, "")
     if mapping is None:
+        return None, reader.findings
+    kind = mapping.get("kind")
+    if isinstance(kind, Scalar) and mapping.get("links") is None:
+        message = Sentence("model.no_mechanism", kind=kind.text)
+        reader.error(kind, "kind", message, Sentence("model.calculations"), "kind")
         return None, reader.findings
     try:
         mechanism = _sections(reader, mapping, source)

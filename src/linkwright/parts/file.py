@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from importlib import import_module, resources
+from importlib import import_module
 from pathlib import Path
 from typing import Any, cast
 
+from linkwright import gallery
 from linkwright.errors import Finding, ModelError
 from linkwright.model.fields import Count, Field, Free, Text, Word, table_schema
 from linkwright.model.file import read_root
@@ -78,9 +79,7 @@ def check(source: str | Path) -> list[Finding]:
 
 def gallery_names() -> tuple[str, ...]:
     """Names of the calculations that ship with the package."""
-    folder = resources.files("linkwright") / "gallery" / "parts"
-    names = (entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml"))
-    return tuple(sorted(name.removesuffix(".yaml") for name in names))
+    return gallery.calculations()
 
 
 def kind_of(source: str | Path) -> str | None:
@@ -108,8 +107,7 @@ def _text(source: str | Path) -> tuple[str, str, Path]:
     if isinstance(source, str) and source.startswith(GALLERY):
         name = source.removeprefix(GALLERY)
         if name in gallery_names():
-            path = resources.files("linkwright") / "gallery" / "parts" / f"{name}.yaml"
-            return path.read_text(encoding="utf-8"), f"{name}.yaml", Path()
+            return gallery.file(name).read_text(encoding="utf-8"), f"{name}.yaml", Path()
     text, name = read_source(source)
     return text, name, Path(source).parent
 

@@ -39,8 +39,13 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     from linkwright.kinematics.rank import analysed
     from linkwright.model.file import read_text
     from linkwright.model.source import read_source
+    from linkwright.parts.file import check as check_calculation
+    from linkwright.parts.file import kind_of
 
     try:
+        kind = kind_of(name)
+        if kind is not None:
+            return check_calculation(name), {"kind": kind}
         mechanism, found = read_text(*read_source(name))
     except ModelError as error:
         return list(error.findings), {}
@@ -70,6 +75,8 @@ def _show(name: str, found: list[Finding], fact: dict[str, object], session: Ses
     errors = sum(finding.severity == "error" for finding in found)
     if errors:
         session.show(session.strong(session.say("check.faulty", name=name, count=errors)))
+    elif "kind" in fact:
+        session.show(session.say("check.fine_kind", name=name, kind=fact["kind"]))
     else:
         session.show(session.say("check.fine", name=name, links=fact["links"], mobility=fact["mobility"]))
 

@@ -36,7 +36,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _list(options: argparse.Namespace, session: Session) -> int:
     from linkwright import gallery
 
-    entries = [_heading(name) for name in gallery.names() if options.name is None or options.name in name]
+    models = [_heading(name) for name in gallery.names() if options.name is None or options.name in name]
+    parts = [
+        _heading(name) for name in gallery.calculations() if options.name is None or options.name in name
+    ]
+    entries = [*models, *parts]
     if session.json:
         from linkwright.cli.data import json_text
 
@@ -44,6 +48,8 @@ def _list(options: argparse.Namespace, session: Session) -> int:
         return 0
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:
+        if parts and entry is parts[0]:
+            session.show(f"\n{session.say('gallery.calculations')}")
         session.show(f"{session.strong(entry['name'])}{' ' * (wide - len(entry['name']))}  {entry['title']}")
     session.show()
     session.show(session.say("gallery.hint"))
@@ -81,7 +87,7 @@ def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
     if options.name is None:
         raise UsageError(say("gallery.which", action=options.action))
     name = options.name.removeprefix("gallery:").removesuffix(".yaml")
-    known = gallery.names()
+    known = (*gallery.names(), *gallery.calculations())
     if name not in known:
         offer = nearest_of(name, known)
         hint = (

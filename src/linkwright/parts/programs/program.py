@@ -201,7 +201,9 @@ class Program(Problem):
         else:
             found, way = solve_nonlinear(model), "nonlinear"
         if found is None:
-            raise self._no_solution(lambda m: solve_nonlinear(_aimless(m), 6) is not None)
+            raise self._no_solution(
+                lambda m: solve_nonlinear(_aimless(m), 6) is not None, "program.not_found"
+            )
         if (np.abs(found.x) > AWAY * model.sizes).any():
             far = tuple(
                 n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s
@@ -210,7 +212,7 @@ class Program(Problem):
         prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
         return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
 
-    def _no_solution(self, possible: Any) -> ModelError:
+    def _no_solution(self, possible: Any, code: str = "program.infeasible") -> ModelError:
         names, bounds = conflict(self.model, possible)
         texts = tuple(f"{c.name} ({c.text})" for c in self.subject_to if c.name in names)
         for name, side in bounds:
@@ -219,7 +221,7 @@ class Program(Problem):
         if not texts:
             texts = (Sentence("program.whole_numbers"),)
         key = f"subject_to.{names[0]}" if names else "variables"
-        return ModelError([fault("program.infeasible", key, set=texts)])
+        return ModelError([fault(code, key, set=texts)])
 
 
 def _aimless(model: Model) -> Model:

@@ -14,5 +14,6 @@ linkwright check crusher.yaml --json  findings for an editor or a script""",
     "files_help": "model files, or gallery:NAME",
     "strict_help": "warnings count as errors",
     "fine": "{name}: fine ({links} moving links, mobility {mobility})",
+    "fine_kind": "{name}: fine (kind {kind})",
     "faulty": "{name}: errors: {count}",
 }

@@ -253,4 +253,6 @@ WORDS = {
     "no_inertia": 'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts '
     "as zero",
     "add_inertia": "add inertia: 2.5 kg·m² (about the mass centre), or inertia: 0 if that is meant",
+    "no_mechanism": 'this is a calculation of kind "{kind}", not a mechanism',
+    "calculations": "call linkwright beam, statics, vibration, statistics, program, trajectory, tolerance",
 }

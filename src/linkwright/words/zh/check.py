@@ -13,5 +13,6 @@ linkwright check crusher.yaml --json  供编辑器或脚本使用的结果""",
     "files_help": "模型文件，或 gallery:NAME",
     "strict_help": "警告按错误处理",
     "fine": "{name}：没有错误（{links} 个活动构件，自由度 {mobility}）",
+    "fine_kind": "{name}：正确（类型 {kind}）",
     "faulty": "{name}：错误 {count} 处",
 }

@@ -15,6 +15,7 @@ linkwright gallery copy jaw_crusher_sixbar .     复制一份供自己修改""",
     "name_help": "机构名称；用于 list 时为名称的一部分",
     "folder_help": "复制到的文件夹（默认当前文件夹）",
     "hint": "linkwright gallery show NAME 显示文件；linkwright solve gallery:NAME 求解。",
+    "calculations": "机械零件计算（linkwright beam、statics、vibration……）：",
     "which": "gallery {action}：请给出机构名称；linkwright gallery list 列出全部",
     "unknown": "机构库中没有“{name}”",
 }

@@ -1,0 +1,65 @@
+"""The commands for machine parts: text, worked text, data, files, slips."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from linkwright.cli import main
+
+
+def test_numbers_and_worked_text_in_both_languages(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["beam", "gallery:cantilever"]) == 0
+    assert "-0.84375  mm" in capsys.readouterr().out
+    assert main(["beam", "gallery:cantilever", "--worked", "--lang", "zh"]) == 0
+    shown = capsys.readouterr().out
+    assert "静定" in shown and "M(ξ) = −3000 + 2000·ξ N·m" in shown
+
+
+def test_curves_data_and_picture_in_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table, data, picture = (tmp_path / name for name in ("c.csv", "c.json", "c.svg"))
+    assert main(["beam", "gallery:cantilever", "--output", str(table), "--plot", str(picture)]) == 0
+    rows = table.read_text(encoding="utf-8").splitlines()
+    assert rows[0] == "x [m],shear [N],moment [N·m],slope [rad],deflection [m]"
+    assert float(rows[-1].split(",")[-1]) == pytest.approx(-0.84375e-3, rel=1e-12)
+    assert picture.read_text(encoding="utf-8").rstrip().endswith("</svg>")
+    assert main(["beam", "gallery:cantilever", "--output", str(data)]) == 0
+    assert json.loads(data.read_text(encoding="utf-8"))["reactions"]["A F"]["value"] == pytest.approx(2000)
+    capsys.readouterr()
+    assert main(["beam", "gallery:cantilever", "--output", str(data)]) == 2
+    assert "--force" in capsys.readouterr().err
+
+
+def test_a_file_of_another_kind_names_its_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["beam", "gallery:gear_pair"]) == 2
+    assert "call: linkwright program gallery:gear_pair" in capsys.readouterr().err
+    assert main(["program", "gallery:nothing"]) == 2
+
+
+def test_a_mechanism_command_names_the_calculation(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "b.yaml"
+    path.write_text("format: 1\nkind: beam\nlength: 1 m\n", encoding="utf-8")
+    assert main(["solve", str(path)]) == 1
+    assert 'a calculation of kind "beam", not a mechanism' in capsys.readouterr().err
+
+
+def test_check_reads_calculations(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "gallery:cantilever"]) == 0
+    assert "fine (kind beam)" in capsys.readouterr().out
+    path = tmp_path / "b.yaml"
+    path.write_text(
+        "format: 1\nkind: beam\nlength: 1 m\nmaterial: S235\nsection: IPE 80\nsupports: {}\n",
+        encoding="utf-8",
+    )
+    assert main(["check", str(path)]) == 1
+    assert "too few supports: the beam can turn about" in capsys.readouterr().out
+
+
+def test_structures_of_model_files(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["statics", "gallery:truss", "--json"]) == 0
+    reactions = json.loads(capsys.readouterr().out)["reactions"]
+    assert reactions["support on roller Fy"]["value"] == pytest.approx(1500)
+    assert main(["statics", "gallery:two_bars_equilibrium", "--worked"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) > 20
