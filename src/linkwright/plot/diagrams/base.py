@@ -83,7 +83,7 @@ class ResultKind(ABC):
 
 
 DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams")
-RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("diagram", "linkwright.plot.diagrams")
+RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("diagram", "linkwright.plot.result_diagrams")
 
 
 def _word(key: str, *, language: str, **values: object) -> str:

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 from linkwright.errors import RequestError
+from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
+from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
@@ -147,12 +149,10 @@ def require_kind(name: str) -> None:
 
 def require_options(name: str, given: Sequence[str]) -> None:
     """Raises LinkwrightError where a kind has no use for an option, with the kinds that have."""
-    kinds: dict[str, tuple[str, ...]] = {
-        each: family[each].options for family in (DIAGRAMS, RESULT_DIAGRAMS) for each in family
-    }
+    known = DIAGRAMS[name].options if name in DIAGRAMS else RESULT_DIAGRAMS[name].options
     for option in given:
-        if option not in kinds[name]:
-            users = ", ".join(each for each in DIAGRAMS if option in kinds[each])
+        if option not in known:
+            users = ", ".join(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
             raise RequestError(
                 f'a diagram of the kind {name} has no use for "{option}"; leave it out, or draw one of {users}'
             )
@@ -160,6 +160,8 @@ def require_options(name: str, given: Sequence[str]) -> None:
 
 def _own_kind(result: object, kind: str | None) -> str | None:
     """The kind for a result that is no motion, forces or running; None for those."""
+    if isinstance(result, Mechanism | Motion | Forces | SteadyRunning | dict | list | tuple):
+        return None
     own = [name for name in RESULT_DIAGRAMS if RESULT_DIAGRAMS[name]().suits(result)]
     if not own:
         return None

@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.part_axes import Line, Pane, panes
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.part_axes import unit_for
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
+from linkwright.plot.result_diagrams.part_axes import unit_for
 from linkwright.tolerance.result import Spread
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.part_axes import Line, Pane, panes, plane
 from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.design_space import draw_designs
-from linkwright.plot.diagrams.design_table import DesignTable, chosen, measure, varied
+from linkwright.plot.result_diagrams.design_space import draw_designs
+from linkwright.plot.result_diagrams.design_table import DesignTable, chosen, measure, varied
 from linkwright.study.designs import Sweep
 
 if TYPE_CHECKING:

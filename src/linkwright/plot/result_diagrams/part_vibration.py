@@ -11,7 +11,7 @@ from linkwright.parts.vibration.follower import FollowerVibration
 from linkwright.parts.vibration.mounts import Shaken
 from linkwright.parts.vibration.system import Vibration
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.part_axes import Line, Pane, panes
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

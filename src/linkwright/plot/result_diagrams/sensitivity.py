@@ -13,10 +13,10 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.design_table import chosen
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.source import InputAxis
+from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of
 from linkwright.study.sensitivity import Sensitivity
 

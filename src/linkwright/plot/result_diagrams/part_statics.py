@@ -14,8 +14,8 @@ from linkwright.parts.statics.forces import Resultant, spatial
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
-from linkwright.plot.diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
 from linkwright.plot.diagrams.picture import COLOURS, INK
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,9 +10,9 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.design_table import DesignTable, Measure, Varied
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import significant
+from linkwright.plot.result_diagrams.design_table import DesignTable, Measure, Varied
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
