@@ -83,7 +83,7 @@ def _judged_motion(mechanism: Any, motion: Any, care: float) -> Verdict:
         lines = [f"{silent.sum()} given, but the drawn branch does not reach the first position"]
         if not silent.any():
             return Verdict(LIMIT, [], len(reached))
-        dyads = all(len(group.links) <= 2 for group in motion.structure.groups)
+        dyads = all(len(group.unknowns) <= 2 for group in motion.structure.groups)
         return Verdict(
             UNSURE if dyads else "beyond a limit", lines
         )  # a dyad's mode needs no way from the drawing

@@ -1,4 +1,4 @@
-"""Random mechanisms without reserve, the branch that is followed independently, and the judge itself.
+"""300 random mechanisms without reserve, judged by the independently followed branch; and the judge itself.
 
 `python -m tests.random_mechanisms` judges as many as wanted.
 """
@@ -10,14 +10,26 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.random_mechanisms import judge_seed
 from tests.reference import judge
 from tests.reference.adapter import driver_values, reference_system, starting_position
 from tests.reference.branch import Follower
 from tests.reference.general_case import general_case
-from tests.reference.judge import AGREES, LIMIT, judged
+from tests.reference.judge import AGREES, GOOD, LIMIT, UNSURE, judged
 from tests.reference.laws import kinks
 
 import linkwright as lw
+
+BATCH = 25
+
+
+@pytest.mark.parametrize("batch", range(300 // BATCH))
+def test_no_wrong_number_no_jump_no_unjustified_refusal(batch: int) -> None:
+    results = [judge_seed(seed) for seed in range(batch * BATCH, (batch + 1) * BATCH)]
+    wrong = [r for r in results if r.kind not in (*GOOD, UNSURE)]
+    assert not wrong, "\n".join(f"{r.seed} at {r.steps} steps: {r.kind}: {r.lines[:2]}" for r in wrong)
+    assert sum(r.kind == UNSURE for r in results) <= 2
+    assert sum(r.notes.get("ok", 0) for r in results) > 100
 
 
 def test_everything_comes_up() -> None:

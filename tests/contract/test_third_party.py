@@ -1,0 +1,199 @@
+"""A design number, a load and a driver law of another package: in files, commands, pictures and sweeps."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.drivers.base import LAWS
+from linkwright.loads.base import LOADS
+from linkwright.metrics import METRICS
+from linkwright.model.file import dump
+
+PACKAGE = '''
+"""What somebody else's package holds: public base classes and registries, nothing else."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.drivers.base import LAWS, Law
+from linkwright.loads import base
+from linkwright.loads.base import LOADS, Load
+from linkwright.loads.site import Wrench
+from linkwright.metrics import METRICS
+from linkwright.metrics.base import Metric
+from linkwright.model.fields import Quantity
+
+
+@LOADS.register("wind")
+@dataclass(frozen=True, kw_only=True)
+class Wind(Load):
+    """A constant force to the right at a point."""
+
+    kind: ClassVar[str] = "wind"
+    on: str = base.link(moving=True, doc="the link")
+    at: str = base.point_of("on", doc="its point")
+    size: float = base.quantity("force", doc="how strong it is")
+
+    def wrenches(self, site):
+        return [Wrench(self.on, site.direction(0.0) * site.dimension("size"), site.place(self.on, self.at))]
+
+
+@LAWS.register("settling")
+@dataclass(frozen=True)
+class Settling(Law):
+    """q = way (1 - exp(-t / 1 s))."""
+
+    key: ClassVar[str] = "settling"
+    way: float
+    rotary: bool = True
+
+    def coordinate(self, t):
+        left = np.exp(-t)
+        return self.way * (1.0 - left), self.way * left, -self.way * left
+
+    @classmethod
+    def fields(cls, rotary):
+        return {"settling": Quantity("angle" if rotary else "length", doc="way after all time")}
+
+    @classmethod
+    def from_values(cls, values, rotary, parameters):
+        return cls(values["settling"], rotary)
+
+    def text_values(self) -> Mapping[str, object]:
+        return {"settling": self.way}
+
+
+@METRICS.register("mean_crank_torque")
+class MeanTorque(Metric):
+    """Mean of the driver's torque over the positions."""
+
+    name = "mean_crank_torque"
+    dimension = "torque"
+    source = "the arithmetic mean of the solved positions"
+    needs_forces = True
+
+    def values(self, analysis):
+        yield self.value(analysis, "driver", float(analysis.forces.input_torque.mean()))
+'''
+MODEL = """
+format: 1
+name: slider-crank in the wind
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.7 m}
+  piston: {points: [B]}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, LAW}
+cycle: {duration: 2 s}
+loads: {gust: {kind: wind, on: piston, at: B, size: 50 N}}
+"""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The other package on the path and imported; taken away again."""
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "windpackage.py").write_text(PACKAGE, "utf-8")
+    sys.path.insert(0, str(folder))
+    importlib.import_module("windpackage")
+    yield
+    sys.path.remove(str(folder))
+    del sys.modules["windpackage"], LOADS._elements["wind"]
+    del LAWS._elements["settling"], METRICS._elements["mean_crank_torque"]
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "wind.yaml"
+    path.write_text(MODEL.replace("LAW", "settling: 300 deg"), "utf-8")
+    return path
+
+
+def torque_by_hand(time: np.ndarray) -> np.ndarray:
+    """50 N to the right on the piston, and the crank's own inertia with q = 300° (1 - exp(-t))."""
+    way = np.radians(300.0)
+    q, rate, second = way * (1 - np.exp(-time)), way * np.exp(-time), -way * np.exp(-time)
+    slope = -0.2 * np.sin(q) - 0.04 * np.sin(q) * np.cos(q) / np.sqrt(0.49 - 0.04 * np.sin(q) ** 2)
+    assert (rate > 0).all()
+    return -50.0 * slope + (0.01 + 0.1**2) * second
+
+
+def test_law_and_load_are_read_and_solved(file: Path) -> None:
+    motion = lw.solve_motion(lw.load(file), steps=40)
+    assert motion.input == pytest.approx(np.radians(300.0) * (1 - np.exp(-motion.time)), rel=1e-13)
+    forces = lw.solve_forces(motion)
+    assert forces.input_torque == pytest.approx(torque_by_hand(motion.time), rel=1e-10, abs=1e-10)
+    assert np.abs(forces.power_residual).max() < 1e-9
+    assert forces.load("gust").force == pytest.approx(np.array([(50.0, 0.0)] * 41))
+
+
+def test_they_are_written_and_read_again(file: Path) -> None:
+    mechanism = lw.load(file)
+    again = lw.loads(dump(mechanism))
+    assert again.loads == mechanism.loads
+    assert again.drivers == mechanism.drivers
+
+
+def test_a_design_number_stands_in_the_table(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.load(file), steps=40))
+    expected = torque_by_hand(forces.motion.time).mean()
+    assert lw.metrics(forces).value("mean_crank_torque") == pytest.approx(expected, rel=1e-10)
+    for language in ("en", "zh"):
+        assert (
+            main(["metrics", str(file), "--steps", "40", "--names", "mean_crank_torque", "--lang", language])
+            == 0
+        )
+        assert f"{expected:.2f}"[:4] in capsys.readouterr().out
+    assert main(["metrics", str(file), "--steps", "40", "--names", "mean_crank_torque", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["metrics"]
+    assert row["value"] == pytest.approx(expected, rel=1e-10) and row["unit"] == "N·m"
+
+
+def test_the_command_line_solves_and_draws_them(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(file)]) == 0
+    assert main(["solve", str(file), "--steps", "8", "--json"]) == 0
+    capsys.readouterr()
+    target = tmp_path / "wind.svg"
+    assert main(["draw", str(file), "--forces", "--output", str(target)]) == 0
+    texts = {"".join(each.itertext()) for each in ET.parse(target).iter("{http://www.w3.org/2000/svg}text")}
+    assert any("gust" in text for text in texts)
+    assert (
+        main(["plot", str(file), "--kind", "torque", "--steps", "24", "--output", str(tmp_path / "t.svg")])
+        == 0
+    )
+
+
+def test_a_finding_about_them_says_where(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file.write_text(file.read_text("utf-8").replace("size: 50 N", "size: 50 kg"), "utf-8")
+    with pytest.raises(lw.LinkwrightError, match=r"loads\.gust\.size"):
+        lw.load(file)
+
+
+def test_sweeps_and_derivatives_go_through_the_load(file: Path) -> None:
+    """The torque's largest value over sizes of the gust, against the formula; its derivative too."""
+    mechanism = lw.load(file)
+    sizes = np.array([0.0, 25.0, 50.0])
+    found = lw.sweep(mechanism, {"loads.gust.size": sizes}, outputs=[("input_torque", "max")], steps=40)
+    time = lw.solve_motion(mechanism, steps=40).time
+    inertial = (0.01 + 0.1**2) * -np.radians(300.0) * np.exp(-time)
+    unit = (torque_by_hand(time) - inertial) / 50.0
+    best = [(inertial + size * unit).max() for size in sizes]
+    assert found["input_torque", "max"] == pytest.approx(np.array(best), rel=1e-9)
+    slope = lw.sensitivity(mechanism, of=["input_torque"], by=["loads.gust.size"], steps=40)
+    assert slope.slope("input_torque", "loads.gust.size") == pytest.approx(unit, rel=1e-7, abs=1e-9)

@@ -1,0 +1,80 @@
+"""Every example of the documentation is run: Python blocks of a page in their order, shell lines one by one."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from linkwright.cli import main
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+#: Files that the examples take as the reader's own, and the gallery models that stand for them.
+OWN = {
+    "crusher.yaml": "jaw_crusher_sixbar",
+    "press.yaml": "slider_crank_inline",
+    "model.yaml": "crank_rocker",
+}
+FENCE = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    return [body for kind, body in FENCE.findall(page.read_text("utf-8")) if kind == language]
+
+
+def commands(page: Path) -> list[str]:
+    """Lines of blocks without a Python or YAML mark that call the command line, continued lines joined."""
+    found = []
+    for kind, body in FENCE.findall(page.read_text("utf-8")):
+        if kind in ("", "sh", "shell", "bash", "console", "text"):
+            lines = body.replace("\\\n", " ").splitlines()
+            found += [
+                line.removeprefix("$ ") for line in lines if line.removeprefix("$ ").startswith("linkwright ")
+            ]
+    return found
+
+
+def name(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
+
+
+WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
+COMMANDS = [pytest.param(line, id=f"{name(page)}: {line[:60]}") for page in PAGES for line in commands(page)]
+#: What a line needs and the examples do not give: a reader's own data, an answer that never ends.
+NOT_RUN = ("linkwright studio", "linkwright COMMAND", "linkwright check FILE", "| ", " FILE")
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the files that examples take for granted."""
+    for own, model in OWN.items():
+        with files("linkwright.gallery").joinpath(f"{model}.yaml").open("rb") as source:
+            (tmp_path / own).write_bytes(source.read())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_there_are_examples() -> None:
+    assert len(WITH_PYTHON) >= 10 and len(COMMANDS) >= 20
+
+
+@pytest.mark.parametrize("page", WITH_PYTHON, ids=name)
+def test_python_of_the_page_runs(page: Path, desk: Path) -> None:
+    known: dict[str, object] = {"__name__": "__main__"}
+    for number, body in enumerate(blocks(page, "python"), 1):
+        code = compile(body, f"{name(page)}, block {number}", "exec")
+        exec(code, known)
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_command_of_a_page_runs(line: str, desk: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = shlex.split(line, comments=True)[1:]
+    if "&&" in words or ">" in words:
+        words = words[: min(words.index(word) for word in ("&&", ">") if word in words)]
+    if any(mark in line for mark in NOT_RUN):
+        pytest.skip("it stands for a command")
+    assert main(words) == 0, capsys.readouterr().err
