@@ -1,0 +1,87 @@
+"""Friction on pins between moving links and on turning guides, against the reference with friction of its own.
+
+The reference puts couples on pins and forces along guides as loads, from the sizes of its own multipliers, and
+repeats until they agree.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.reference.adapted_loads import reference_loads
+from tests.reference.adapter import guide_direction, link_points, reference_motion
+from tests.reference.agreement import slide_coordinate
+from tests.reference.formulas import push_along_guide, torque
+from tests.reference.multibody import Array, Forces, Load, Motion
+
+import linkwright as lw
+
+SHAPER = """
+format: 1
+name: shaper with dry joints
+frame: {points: {O: [0 m, 0.5 m], Q: [0 m, 0 m], R: [0 m, 0.95 m]}}
+links:
+  crank: {points: [O, A], length: 0.15 m, mass: 4 kg, inertia: 0.02 kg·m²}
+  die: {points: [A], mass: 1 kg}
+  lever: {points: [Q, B], length: 0.9 m, mass: 6 kg, inertia: 0.4 kg·m²}
+  rod: {points: [B, C], length: 0.4 m, mass: 2 kg, inertia: 0.04 kg·m²}
+  ram: {points: [C], mass: 9 kg}
+joints:
+  A: {kind: revolute, pin_radius: 25 mm, friction: PIN}
+  B: {kind: revolute, pin_radius: 20 mm, friction: PIN}
+  Q: {kind: revolute, pin_radius: 30 mm, friction: PIN}
+  slot: {kind: prismatic, guide: lever, through: Q, direction: [Q, B], block: die, at: A, friction: SLOT}
+  bed: {kind: prismatic, guide: frame, through: R, direction: 0 deg, block: ram, at: C, friction: 0.1}
+drawing: {A: [0.15 m, 0.5 m], B: [0.25 m, 0.86 m], C: [0.64 m, 0.95 m]}
+driver: {turn: crank, about: O, speed: SPEED rad/s}
+gravity: [0, -9.81 m/s²]
+loads: {cutting: {kind: force, on: ram, at: C, components: [-200 N, 0 N]}}
+"""
+
+
+def friction_loads(mechanism: Any, motion: Motion, found: Forces) -> dict[str, Load]:
+    """Couples against relative rotation, forces against sliding, from the reactions in `found`."""
+    loads: dict[str, Load] = {}
+    for name, joint in mechanism.joints.items():
+        coefficient = getattr(joint, "friction", 0.0)
+        if not coefficient:
+            continue
+        if joint.kind == "revolute":
+            a, b = joint.links
+            pressing = np.hypot(*found.on(name, b)[0].T)
+            turning = motion.angle(b)[1] - motion.angle(a)[1]
+            loads[name] = torque(b, -np.sign(turning) * coefficient * joint.pin_radius * pressing, a)
+            continue
+        u = motion.direction(joint.guide, guide_direction(mechanism, joint))
+        force = found.on(name, joint.block)[0]
+        pressing = np.abs(u[:, 0] * force[:, 1] - u[:, 1] * force[:, 0])
+        sliding: Array = slide_coordinate(mechanism, motion, joint)[1]
+        block = joint.block, link_points(mechanism, joint.block)[joint.at]
+        guide = joint.guide, guide_direction(mechanism, joint)
+        loads[name] = push_along_guide(guide, block, -np.sign(sliding) * coefficient * pressing)
+    return loads
+
+
+@pytest.mark.parametrize("speed", [7.0, -7.0])
+@pytest.mark.parametrize(("pin", "slot"), [(0.2, 0.0), (0.0, 0.15), (0.15, 0.1)])
+def test_friction_of_moving_joints(pin: float, slot: float, speed: float) -> None:
+    text = SHAPER.replace("PIN", str(pin)).replace("SLOT", str(slot)).replace("SPEED", str(speed))
+    mechanism = lw.loads(text)
+    forces = lw.solve_forces(lw.solve_motion(mechanism, steps=30))
+    motion = reference_motion(mechanism, forces.motion.time)
+    applied = reference_loads(mechanism, motion, forces.motion.time)
+    found = motion.forces(applied)
+    smooth = found.effort("driver driver")
+    for _ in range(200):
+        found = motion.forces([*applied, *friction_loads(mechanism, motion, found).values()])
+    assert forces.input_torque == pytest.approx(found.effort("driver driver"), rel=1e-9, abs=1e-8)
+    for name, joint in mechanism.joints.items():
+        for link in joint.joined:
+            assert forces.reaction(name, on=link) == pytest.approx(
+                found.on(name, link)[0], rel=1e-8, abs=1e-7
+            )
+    assert forces.balance_residual.max() < 1e-7 and np.abs(forces.power_residual).max() < 1e-7
+    lost = (found.effort("driver driver") - smooth) * speed
+    assert lost.mean() > 1.0
