@@ -126,6 +126,9 @@ def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str,
     folded = {text.casefold(): text for text in reversed(known)}
     if name.casefold() in folded:
         return folded[name.casefold()]
+    within = [text for key, text in folded.items() if len(key) > 2 and name.casefold().startswith(key)]
+    if within:
+        return max(within, key=len)
     inside = [text for key, text in folded.items() if len(name) > 2 and key.startswith(name.casefold())]
     if inside:
         return min(inside, key=len)

@@ -40,3 +40,12 @@ def test_a_remedy_follows_its_message() -> None:
     error = QuantityError(STEEP, Sentence("outcome.assembled"))
     assert str(error) == f"{STEEP}; assembled"
     assert error.say("zh") == f"{STEEP.say('zh')}；可装配"
+
+
+def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
+    from linkwright.registry import nearest
+
+    assert nearest("rammer", ["frame", "hammer", "ram", "r"]) == "ram"
+    assert nearest("crank_arm", ["crank", "arm", "frame"]) == "crank"
+    assert nearest("Ram", ["ram", "ramp"]) == "ram"
+    assert nearest("cran", ["crank", "crane_arm"]) == "crank"

@@ -77,3 +77,38 @@ def test_a_machine_that_does_not_assemble_leaves_no_file(
 
 def test_the_command_offers_every_format() -> None:
     assert set(command.NAMES) == set(FORMATS)
+
+
+def test_every_option_of_every_format_is_on_the_command_line() -> None:
+    import inspect
+
+    from linkwright.cli.commands.export import OPTIONS
+    from linkwright.cli.help import command_parser
+    from linkwright.export.base import FORMATS
+    from linkwright.words import speaker
+
+    options = {
+        name
+        for form in FORMATS.values()
+        for name, parameter in inspect.signature(form.content).parameters.items()
+        if parameter.kind is parameter.KEYWORD_ONLY
+    }
+    assert options <= set(OPTIONS)
+    parser = command_parser("export", speaker("en"))
+    found = parser.read(
+        ["m.yaml", "--output", "a.dxf", "--curve", "spline", "--no-labels", "--timestep", "0.001"]
+    )
+    assert (found.curve, found.labels, found.dimensions, found.timestep) == ("spline", False, None, 0.001)
+    assert set(OPTIONS) <= set(vars(found))
+
+
+def test_options_change_what_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, options in {"a.mo": [], "b.mo": ["--form", "positions", "--name", "Own"]}.items():
+        assert main(["export", "gallery:crank_rocker", "--output", str(tmp_path / name), *options]) == 0
+    first, second = ((tmp_path / name).read_text(encoding="utf-8") for name in ("a.mo", "b.mo"))
+    assert "model Own" in second and "model Own" not in first and first != second
+    assert (
+        main(["export", "gallery:crank_rocker", "--output", str(tmp_path / "a.csv"), "--curve", "spline"])
+        == 2
+    )
+    assert "csv has no option curve" in capsys.readouterr().err

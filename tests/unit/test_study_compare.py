@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.study.compare import Comparison, compare
+from linkwright.words.sentence import in_language
 
 SIX, FOUR = "Hinged jaw crusher, six-bar", "Hinged jaw crusher, four-bar"
 
@@ -141,3 +144,25 @@ def test_outputs_are_named_per_machine() -> None:
     r, rod, e = 0.198, 0.7025, 0.0605
     theta = np.arcsin(e / (rod - r)) - np.arcsin(e / (rod + r))
     assert found.value("quick_return_ratio", 1) == pytest.approx((np.pi + theta) / (np.pi - theta), rel=1e-11)
+
+
+def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> None:
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    assert not any(
+        "unlike" in note for note in lw.compare([crusher, "gallery:jaw_crusher_fourbar"], steps=72).notes
+    )
+    heavier = crusher.with_dimensions({"loads.crushing.ramp.1": 90e3})
+    faster = crusher.with_dimensions({"driver.speed": -2 * crusher.dimension("driver.speed")})
+    notes = lw.compare([replace(crusher, name="a"), replace(heavier, name="b")], steps=72).notes
+    assert (
+        len(notes) == 1 and "different loads" in notes[0] and "85000 N" in notes[0] and "90000 N" in notes[0]
+    )
+    notes = lw.compare([replace(crusher, name="a"), replace(faster, name="b")], steps=72).notes
+    assert len(notes) == 1 and "different speeds" in notes[0]
+    assert "17.8024 rad/s" in notes[0] and "35.6047 rad/s" in notes[0]
+    assert in_language(notes[0], "zh").startswith("! 各方案的驱动速度不同（a：17.8024 rad/s；b：")
+    shaper = lw.load("gallery:shaper_quick_return")
+    assert any(
+        "different kinds" in note
+        for note in lw.compare([crusher, shaper], output=["jaw", "guide"], steps=72).notes
+    )

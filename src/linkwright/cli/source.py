@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from linkwright.cli.session import Session
 from linkwright.errors import Finding, ModelError
 from linkwright.model.file import read_text
 from linkwright.model.mechanism import Mechanism
-from linkwright.model.source import read_source
+from linkwright.model.source import GALLERY, read_source
+from linkwright.words import has, say
 
 
-def read_model(source: str) -> tuple[Mechanism, list[Finding]]:
-    """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError."""
+def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
+    """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError.
+
+    A model of the gallery has its title in the reader's language, except in data.
+    """
     mechanism, findings = read_text(*read_source(source))
     if mechanism is None:
         raise ModelError(findings)
+    if source.startswith(GALLERY) and not session.json:
+        title = gallery_title(source.removeprefix(GALLERY), mechanism.name, session.language)
+        mechanism = replace(mechanism, name=title)
     return mechanism, findings
+
+
+def gallery_title(name: str, given: str, language: str) -> str:
+    """Title of a model of the gallery in a language; as it is given where the catalogue has none."""
+    key = f"gallery_titles.{name.removesuffix('.yaml')}"
+    return say(key, language) if language != "en" and has(key) else given

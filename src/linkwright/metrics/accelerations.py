@@ -34,6 +34,7 @@ class PeakAcceleration(Metric):
     """Largest size of the acceleration of every output and free point: m/s², or rad/s² of a swinging link."""
 
     name = "peak_acceleration"
+    rank = 1.5
     dimension = "acceleration"
     source = "kinematics: exact second derivatives"
     better: ClassVar[Better | None] = "lower"

@@ -84,7 +84,9 @@ class Metric(ABC):
 
     ``dimension``: name of its dimension (values may have their own, where a link gives an angle and a slider a
     length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,
-    SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved.
+    SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved;
+    ``rank``: what matters first stands first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
+    ``on_request``: only where it is asked for by name.
     """
 
     name: ClassVar[str]
@@ -93,6 +95,8 @@ class Metric(ABC):
     better: ClassVar[Better | None] = None
     limit: ClassVar[float | None] = None
     needs_forces: ClassVar[bool] = False
+    rank: ClassVar[float] = 9.0
+    on_request: ClassVar[bool] = False
 
     @property
     def unit(self) -> str:

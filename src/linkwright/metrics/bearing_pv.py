@@ -25,6 +25,7 @@ class BearingPv(Metric):
     """
 
     name = "bearing_pv"
+    rank = 4
     dimension = "power"
     source = "Shigley, Mechanical Engineering Design, sec. 12-15: p = F/(2 r b), v = r ω"
     better: ClassVar[Better | None] = "lower"

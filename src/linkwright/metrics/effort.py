@@ -40,6 +40,7 @@ class PeakInputTorque(EffortMetric):
     """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
 
     name = "peak_input_torque"
+    rank = 3
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for name in analysis.motion.mechanism.drivers:
@@ -56,6 +57,7 @@ class RmsInputTorque(EffortMetric):
     """Root mean square over time of the effort of every driver: what heats a motor."""
 
     name = "rms_input_torque"
+    rank = 3
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for name in analysis.motion.mechanism.drivers:
@@ -73,6 +75,7 @@ class PeakPower(EffortMetric):
     """Largest power that the drivers supply together at any moment."""
 
     name = "peak_power"
+    rank = 3
     dimension = "power"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
@@ -87,6 +90,7 @@ class MeanPower(EffortMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
 
     name = "mean_power"
+    rank = 3
     dimension = "power"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:

@@ -32,7 +32,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     asked = None if names is None else [names] if isinstance(names, str) else list(names)
     rows: list[MetricValue] = []
     skipped: list[str] = []
-    for name in METRICS if asked is None else dict.fromkeys(asked):
+    for name in _usual() if asked is None else dict.fromkeys(asked):
         metric = METRICS[name]()
         if metric.applies(analysis):
             rows += metric.evaluate(analysis)
@@ -41,6 +41,12 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         else:
             raise RequestError(_refusal(name, analysis))
     return MetricsTable(analysis.motion.mechanism.name, rows, skipped)
+
+
+def _usual() -> list[str]:
+    """What is evaluated when nobody says what, the most important first."""
+    names = [name for name, metric in METRICS.items() if not metric.on_request]
+    return sorted(names, key=lambda name: METRICS[name].rank)
 
 
 def _refusal(name: str, analysis: Analysis) -> str:

@@ -59,6 +59,7 @@ class InstantCentre(Metric):
     """Distance of every instant centre P_ij from the frame's origin at the first position, m; its place beside it."""
 
     name = "instant_centre"
+    on_request = True
     dimension = "length"
     source = "Norton, Design of Machinery, sec. 6.3; Kennedy's theorem"
 

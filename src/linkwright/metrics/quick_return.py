@@ -33,6 +33,7 @@ class QuickReturnRatio(Metric):
     """K = time of the slow stroke / time of the fast one = (π + θ)/(π - θ) ≥ 1 at uniform crank speed."""
 
     name = "quick_return_ratio"
+    rank = 1
     dimension = "dimensionless"
     source = "IFToMM terminology, time ratio; Norton, Design of Machinery, ch. 3"
 
@@ -58,6 +59,7 @@ class CrankAngleBetweenLimits(QuickReturnRatio):
     """Acute angle θ between the crank's directions in the limit positions: π (K - 1)/(K + 1)."""
 
     name = "crank_angle_between_limits"
+    rank = 1
     dimension = "angle"
 
     def _number(self, slow: float, fast: float) -> float:

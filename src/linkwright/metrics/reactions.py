@@ -37,6 +37,7 @@ class PeakReaction(Metric):
     """Largest size of every joint's reaction, N."""
 
     name = "peak_reaction"
+    rank = 4
     dimension = "force"
     source = "kinetostatics: reactions by Assur group"
     better: ClassVar[Better | None] = "lower"
@@ -57,6 +58,7 @@ class RmsReaction(Metric):
     """Root mean square over time of the size of every joint's reaction, N."""
 
     name = "rms_reaction"
+    rank = 4
     dimension = "force"
     source = "kinetostatics: reactions by Assur group"
     better: ClassVar[Better | None] = "lower"

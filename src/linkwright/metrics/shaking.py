@@ -28,6 +28,7 @@ class PeakShakingForce(Shaking):
     """Largest resultant of the inertia forces on the frame, N."""
 
     name = "peak_shaking_force"
+    rank = 5
     dimension = "force"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
@@ -41,6 +42,7 @@ class PeakShakingMoment(Shaking):
     """Largest moment of the inertia forces about the frame's origin, N·m."""
 
     name = "peak_shaking_moment"
+    rank = 5
     dimension = "torque"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:

@@ -25,6 +25,7 @@ class Stroke(Metric):
     """Travel of every block on the frame between its outermost positions, m."""
 
     name = "stroke"
+    rank = 1
     dimension = "length"
     source = "IFToMM terminology: travel between limit positions"
     kind = "displacement"
@@ -52,5 +53,6 @@ class SwingAngle(Stroke):
     """Angle between the outermost positions of every link that swings about the frame, rad."""
 
     name = "swing_angle"
+    rank = 1
     dimension = "angle"
     kind = "angle"

@@ -30,6 +30,7 @@ class TransmissionAngle(Metric):
     """Smallest transmission angle of every dyad, 0 to π/2; defined in ``metrics/closure.py``."""
 
     name = "transmission_angle"
+    rank = 2
     dimension = "angle"
     source = SOURCE
     better: ClassVar[Better | None] = "higher"
@@ -50,6 +51,7 @@ class TransmissionAngleOfStroke(Metric):
     """Smallest transmission angle of a dyad on each stroke of its output between two limit positions."""
 
     name = "transmission_angle_of_stroke"
+    rank = 2
     dimension = "angle"
     source = SOURCE
     better: ClassVar[Better | None] = "higher"

@@ -47,6 +47,7 @@ class VelocityRatio(Metric):
     """The output's rate over the input's where it is largest in size; negative where they turn against each other."""
 
     name = "velocity_ratio"
+    rank = 3.5
     dimension = "dimensionless"
     source = "Norton, Design of Machinery, sec. 6.4"
 
@@ -71,6 +72,7 @@ class MechanicalAdvantage(VelocityRatio):
     """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|."""
 
     name = "mechanical_advantage"
+    rank = 3.5
     source = "Norton, Design of Machinery, sec. 6.4: power in equals power out"
     better: ClassVar[Better | None] = "higher"
 

@@ -21,6 +21,7 @@ from linkwright.model.events import Source, event_reader
 from linkwright.model.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.model.syntax import explain, tab_remarks
 from linkwright.words.carried import UNFIT
+from linkwright.words.sentence import Sentence
 
 _KINDS = ("str", "int", "float", "map", "seq", "null")
 _HARMLESS_TAGS = frozenset(("!", *(f"tag:yaml.org,2002:{kind}" for kind in _KINDS)))
@@ -56,8 +57,8 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
 
 
 def _unreadable(error: Exception) -> Remark:
-    message = f"the file cannot be read as YAML ({type(error).__name__})"
-    return Remark(0, 0, message, "check quotes, brackets and escapes", "syntax")
+    message = Sentence("yaml.failed", name=type(error).__name__)
+    return Remark(0, 0, message, Sentence("yaml.failed_do"), "syntax")
 
 
 class _Stop(Exception):
@@ -87,8 +88,8 @@ class _Composer:
                 if count > 1:
                     self.remark(
                         event.start_mark,
-                        "a second document begins here",
-                        "one file holds one model: remove the --- and what follows",
+                        Sentence("yaml.second"),
+                        Sentence("yaml.second_do"),
                         "documents",
                     )
                     raise _Stop
@@ -101,8 +102,8 @@ class _Composer:
         if depth > MAX_DEPTH:
             self.remark(
                 event.start_mark,
-                f"nested deeper than {MAX_DEPTH} levels",
-                "a model needs at most ten",
+                Sentence("yaml.deep", most=MAX_DEPTH),
+                Sentence("yaml.deep_do"),
                 "depth",
             )
             raise _Stop
@@ -127,7 +128,7 @@ class _Composer:
     def tag(self, event: Any) -> None:
         if event.tag not in _HARMLESS_TAGS and event.implicit is not True:
             shown = event.tag.replace("tag:yaml.org,2002:", "!!")
-            self.remark(event.start_mark, f'the tag "{shown}" is not supported', "remove the tag", "tag")
+            self.remark(event.start_mark, Sentence("yaml.tag", shown=shown), Sentence("yaml.tag_do"), "tag")
 
     def alias(self, event: Any) -> Node:
         name, start, end = event.anchor, event.start_mark, event.end_mark
@@ -138,10 +139,8 @@ class _Composer:
         inside = name in self.open
         self.remark(
             start,
-            f'the alias "*{name}" stands inside its own anchor'
-            if inside
-            else f'the alias "*{name}" has no anchor "&{name}" before it',
-            "write the value itself",
+            Sentence("yaml.own_alias", name=name) if inside else Sentence("yaml.no_anchor", name=name),
+            Sentence("yaml.alias_do"),
             "alias",
         )
         return Scalar(start.line, start.column, start.index, end.index, "")
@@ -149,9 +148,7 @@ class _Composer:
     def grow(self, mark: Any, size: int) -> None:
         self.total += size
         if self.total > MAX_NODES:
-            self.remark(
-                mark, "the file holds too many values", "a model needs far fewer; remove aliases", "size"
-            )
+            self.remark(mark, Sentence("yaml.many"), Sentence("yaml.many_do"), "size")
             raise _Stop
 
     def scalar(self, event: Any) -> Scalar:
@@ -161,8 +158,8 @@ class _Composer:
             shown = f"U+{ord(unfit[0]):04X}"
             self.remark(
                 start,
-                f"the text holds the control character {shown}",
-                "remove it: a model is plain text",
+                Sentence("yaml.control", shown=shown),
+                Sentence("yaml.control_do"),
                 "control-character",
             )
             text = UNFIT.sub("\ufffd", text)
@@ -199,12 +196,12 @@ class _Composer:
         if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and _nothing(value):
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
-            self.remark(key, "a key must be a single word", "write key: value", "key")
+            self.remark(key, Sentence("yaml.key"), Sentence("yaml.key_do"), "key")
         elif key.text in seen:
             self.remark(
                 key,
-                f'the key "{key.text}" is given twice',
-                f"it stands in line {seen[key.text].line + 1} already; remove or rename one",
+                Sentence("yaml.twice", text=key.text),
+                Sentence("yaml.twice_do", line=seen[key.text].line + 1),
                 "duplicate-key",
             )
         else:
@@ -216,9 +213,7 @@ class _Composer:
         sources = value.items if isinstance(value, Sequence) else [value]
         for source in sources:
             if not isinstance(source, Mapping):
-                self.remark(
-                    source, "a merge key (<<) needs a mapping", "refer to an anchor of a mapping", "merge"
-                )
+                self.remark(source, Sentence("yaml.merge"), Sentence("yaml.merge_do"), "merge")
                 continue
             found.entries += [entry for entry in source.entries if entry.key.text not in have]
             have.update(entry.key.text for entry in source.entries)

@@ -219,7 +219,7 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
 
 
 def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
-    word = "turns" if "turns" in given else "from and to"
+    word = "turns" if "turns" in given else Sentence("model.from_and_to")
     if not isinstance(law, ConstantSpeed):
         reader.error(
             node,

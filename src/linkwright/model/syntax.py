@@ -6,59 +6,29 @@ import re
 from typing import Any
 
 from linkwright.model.nodes import Remark
+from linkwright.words.sentence import Sentence
 
-_MEANINGS: tuple[tuple[str, str, str], ...] = (
-    (
-        "mapping values are not allowed",
-        "a colon is not expected here",
-        'check the indentation, brackets and quotes above, or put a text with ": " in quotes',
-    ),
-    (
-        "could not find expected ':'",
-        "a key without a colon",
-        'write "key: value", with a space after the colon',
-    ),
-    (
-        "expected ',' or '}'",
-        "a mapping in braces is not closed or a comma is missing",
-        "separate entries by commas and close with }",
-    ),
-    (
-        "expected ',' or ']'",
-        "a list in brackets is not closed or a comma is missing",
-        "separate entries by commas and close with ]",
-    ),
-    ("cannot start any token", "this character cannot begin a value", "put the value in quotes"),
-    ("unexpected end of stream", "a quoted text is not closed", "add the closing quote"),
-    (
-        "expected <block end>",
-        "the indentation does not fit the lines above",
-        "indent entries of one level by the same number of spaces",
-    ),
-    (
-        "expected key",
-        "the indentation does not fit the lines above, or a bracket is closed that was not opened",
-        "indent entries of one level by the same number of spaces, and check the brackets",
-    ),
-    (
-        "expected '-' indicator",
-        "the indentation does not fit the lines above",
-        "indent entries of one level by the same number of spaces",
-    ),
-    (
-        "expected <document start>",
-        "this does not belong to what is above: a bracket too many, or an indentation that does not fit",
-        "check brackets and indentation",
-    ),
-    ("expected the node content", "a value is missing here", "write the value"),
-    ("expected node content", "a value is missing here", "write the value"),
-    ("Unicode character escape code", "half of an escaped character", "write the character itself"),
-    ("unacceptable character", "a control character", "remove it: a model is plain text"),
-    ("control characters are not allowed", "a control character", "remove it: a model is plain text"),
-    ("special characters are not allowed", "a control character", "remove it: a model is plain text"),
-    ("unknown escape character", "an unknown escape in a quoted text", "write \\\\ for a backslash"),
-    ("undefined tag", "an unknown tag", "remove the tag (the word with !)"),
-    ("duplicate", "given twice", "remove one"),
+#: What the reader's complaints mean: keys of the catalogue ``yaml``, the remedy under KEY_do.
+_MEANINGS: tuple[tuple[str, str], ...] = (
+    ("mapping values are not allowed", "colon"),
+    ("could not find expected ':'", "no_colon"),
+    ("expected ',' or '}'", "open_brace"),
+    ("expected ',' or ']'", "open_bracket"),
+    ("cannot start any token", "beginning"),
+    ("unexpected end of stream", "open_quote"),
+    ("expected <block end>", "indentation"),
+    ("expected key", "indentation_or_bracket"),
+    ("expected '-' indicator", "indentation"),
+    ("expected <document start>", "apart"),
+    ("expected the node content", "no_value"),
+    ("expected node content", "no_value"),
+    ("Unicode character escape code", "half_character"),
+    ("unacceptable character", "some_control"),
+    ("control characters are not allowed", "some_control"),
+    ("special characters are not allowed", "some_control"),
+    ("unknown escape character", "escape"),
+    ("undefined tag", "unknown_tag"),
+    ("duplicate", "given_twice"),
 )
 
 
@@ -68,24 +38,19 @@ def explain(error: Any, text: str) -> Remark:
     line, column = _within(text, mark.line, mark.column) if mark is not None else _place(error, text)
     said = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
     context = str(getattr(error, "context", None) or "")
-    for sign, message, remedy in _MEANINGS:
+    since = _since(error, line)
+    for sign, key in _MEANINGS:
         if sign in said:
-            return Remark(
-                line, column, f"not readable as YAML: {message}{_since(error, line)}", remedy, "syntax"
-            )
+            told = Sentence("yaml.unreadable", message=Sentence(f"yaml.{key}"), since=since)
+            return Remark(line, column, told, Sentence(f"yaml.{key}_do"), "syntax")
     where = f" {context}" if context else ""
-    return Remark(
-        line,
-        column,
-        f"not readable as YAML{where}: {said}{_since(error, line)}",
-        "check indentation, brackets and quotes",
-        "syntax",
-    )
+    told = Sentence("yaml.unreadable_so", where=where, said=said, since=since)
+    return Remark(line, column, told, Sentence("yaml.other_do"), "syntax")
 
 
 def _since(error: Any, line: int) -> str:
     opened = getattr(error, "context_mark", None)
-    return f" (it began in line {opened.line + 1})" if opened is not None and opened.line != line else ""
+    return Sentence("yaml.began", line=opened.line + 1) if opened is not None and opened.line != line else ""
 
 
 def _within(text: str, line: int, column: int) -> tuple[int, int]:
@@ -109,6 +74,6 @@ def tab_remarks(text: str) -> list[Remark]:
         indentation = re.match(r"[ ]*\t[ \t]*(?=\S)", line)
         if indentation:
             found.append(
-                Remark(number, line.index("\t"), "a tab in the indentation", "indent with spaces", "tab")
+                Remark(number, line.index("\t"), Sentence("yaml.tab"), Sentence("yaml.tab_do"), "tab")
             )
     return found[:10]

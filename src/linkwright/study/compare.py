@@ -97,7 +97,10 @@ class Comparison:
     @property
     def notes(self) -> tuple[str, ...]:
         """What could not be found, and why."""
-        return tuple(dict.fromkeys(note for each in self.alternatives for note in each.notes))
+        from linkwright.study.unlike import unlike
+
+        own = (note for each in self.alternatives for note in each.notes)
+        return (*unlike(self.alternatives), *dict.fromkeys(own))
 
     @property
     def ranking(self) -> tuple[Rank, ...]:

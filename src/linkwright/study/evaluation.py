@@ -11,6 +11,7 @@ from linkwright.metrics.reactions import size
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import OWN
 from linkwright.words import Say, speaker
+from linkwright.words.sentence import in_language
 from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def report(comparison: Comparison, language: str) -> list[str]:
     lines += ranking(comparison, say)
     lines += ["", say("compare.evaluation"), *evaluation(comparison, language)]
     if comparison.notes:
-        lines += ["", *comparison.notes]
+        lines += ["", *(in_language(note, language) for note in comparison.notes)]
     return lines
 
 

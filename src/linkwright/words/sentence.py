@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
 from linkwright.words import say
+
+_OWN_NAMES = re.compile(r"(?<![\w.-])(?:frame|driver)(?![\w-])")
 
 
 @runtime_checkable
@@ -43,6 +46,13 @@ class Sentence(str):
 def in_language(text: str, language: str) -> str:
     """A sentence in a language; other texts as they are."""
     return text.say(language) if isinstance(text, Sentence) else text
+
+
+def in_words(subject: str, language: str) -> str:
+    """A subject with the names that the program itself gives, ``frame`` and ``driver``, in a language."""
+    if language == "en":
+        return subject
+    return _OWN_NAMES.sub(lambda found: say(f"nouns.{found[0]}", language), subject)
 
 
 def together(items: Sequence[str]) -> str:

@@ -63,7 +63,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     seconds = _seconds(options.seconds, session.say)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     refuse_unknown_vectors(motion, options)
     refuse_unknown(motion.point, "--traces", names(options.traces))

@@ -56,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     say = session.say
     refuse_output(options.output, ENDINGS, say, force=options.force)
     share = _share(options.share, say)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     radius = _radius(options.radius, mechanism, say)
     found = balance(mechanism, radius=radius, share=share, steps=options.steps)
     if options.output is not None:

@@ -48,7 +48,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         refuse_output(path, ENDINGS, say, force=options.force)
     refuse_output(options.plot, PICTURES, say, force=options.force)
     found = compare(
-        [read_model(name)[0] for name in options.files],
+        [read_model(name, session)[0] for name in options.files],
         metrics=options.metrics,
         weights=weights,
         output=_outputs(options, say),

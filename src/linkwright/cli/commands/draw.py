@@ -58,7 +58,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.plot.drawing.draw import draw
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     motion = cycle(mechanism, options.steps, session)
     dimensions = _dimensions(options.dimensions)
     _refuse_unknown_names(motion, options, dimensions)

@@ -12,6 +12,11 @@ from linkwright.cli.session import Session
 from linkwright.words import Say
 
 NAMES = ("csv", "dxf", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
+#: Options of formats; one that a format lacks is refused with those that it has.
+OPTIONS = (
+    "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",
+    "timestep", "indent", "compression", "width", "size",
+)  # fmt: skip
 
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
@@ -26,6 +31,18 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     parser.add_argument("--unit", choices=("mm", "m"), help=say("export.unit_help"))
     parser.add_argument("--position", type=int, metavar="N", help=say("export.position_help"))
     parser.add_argument("--paths", nargs="+", metavar="POINT", help=say("export.paths_help"))
+    parser.add_argument("--curve", choices=("polyline", "spline"), help=say("export.curve_help"))
+    for name in ("dimensions", "labels", "accelerations"):
+        parser.add_argument(
+            f"--{name}", action=argparse.BooleanOptionalAction, default=None, help=say(f"export.{name}_help")
+        )
+    parser.add_argument("--form", choices=("rates", "positions"), help=say("export.form_help"))
+    parser.add_argument("--name", metavar="NAME", help=say("export.name_help"))
+    parser.add_argument("--timestep", type=float, metavar="S", help=say("export.timestep_help"))
+    parser.add_argument("--indent", type=int, metavar="N", help=say("export.indent_help"))
+    parser.add_argument("--compression", metavar="NAME", help=say("export.compression_help"))
+    parser.add_argument("--width", type=whole_number, metavar="N", help=say("export.width_help"))
+    parser.add_argument("--size", type=float, metavar="N", help=say("export.size_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
 
 
@@ -39,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     path = Path(options.output)
     chosen, form = _checked(path, options)
     refuse_existing(path, force=options.force)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     export(
         mechanism,
         path,
@@ -62,7 +79,7 @@ def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, An
     from linkwright.export.base import FORMATS
     from linkwright.export.export import check_options, chosen_format
 
-    given = {name: getattr(options, name) for name in ("degrees", "unit", "position", "paths")}
+    given = {name: getattr(options, name) for name in OPTIONS}
     form = {name: value for name, value in given.items() if value is not None}
     try:
         chosen = chosen_format(path, options.format)

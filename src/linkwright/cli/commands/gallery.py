@@ -46,11 +46,14 @@ def _list(options: argparse.Namespace, session: Session) -> int:
 
         session.show(json_text(entries))
         return 0
+    from linkwright.cli.source import gallery_title
+
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:
         if parts and entry is parts[0]:
             session.show(f"\n{session.say('gallery.calculations')}")
-        session.show(f"{session.strong(entry['name'])}{' ' * (wide - len(entry['name']))}  {entry['title']}")
+        name, title = entry["name"], gallery_title(entry["name"], entry["title"], session.language)
+        session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()
     session.show(session.say("gallery.hint"))
     return 0

@@ -90,7 +90,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     from linkwright.machine.running import steady_running
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     forces = solve_forces(mechanism, steps=options.steps)
     running = steady_running(
         forces,

@@ -9,7 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, in_words
 
 if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError
@@ -44,7 +44,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     say = session.say
     refuse_output(options.output, ENDINGS, say, force=options.force)
     names = _names(options.names, say)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     table, trouble = _evaluated(mechanism, names, options)
     data = _data(table, trouble, session.language)
     rows = data["metrics"]
@@ -106,7 +106,11 @@ def _evaluated(
 def _ordered_warnings(table: MetricsTable, language: str) -> list[str]:
     """Sentences that need attention, closeness to a singular position first."""
     rows = sorted(table, key=lambda row: row.metric != "singularity")
-    return [f"{row.subject}: {remark.text(language)}" for row in rows for remark in row.warnings]
+    return [
+        f"{in_words(row.subject, language)}: {remark.text(language)}"
+        for row in rows
+        for remark in row.warnings
+    ]
 
 
 def _report(table: MetricsTable, session: Session) -> list[str]:
@@ -156,7 +160,7 @@ def _cells(row: MetricValue, language: str) -> list[str]:
     value = number(row.value, row.dimension)
     return [
         metric.label_in(language),
-        row.subject,
+        in_words(row.subject, language),
         value,
         shown_unit(row.dimension),
         at,

@@ -98,7 +98,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     for number, file in enumerate(options.files, 1):
         if len(options.files) > 1:
             session.tell(session.say("plot.solving", number=number, count=len(options.files), file=file))
-        mechanism, _ = read_model(file)
+        mechanism, _ = read_model(file, session)
         motion = solve_motion(mechanism, steps=options.steps, failures="mark")
         failed = [outcome for outcome in motion.outcomes if not outcome.ok]
         if len(failed) == motion.steps:

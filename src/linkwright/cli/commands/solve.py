@@ -45,7 +45,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.solving import solve
     from linkwright.cli.source import read_model
 
-    solved = solve(*read_model(options.file), options, session.say)
+    solved = solve(*read_model(options.file, session), options, session.say)
     if options.worked and solved.trouble is None:
         _show_worked(solved, options, session)
         return 0

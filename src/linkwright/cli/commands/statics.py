@@ -23,6 +23,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if kind_of(options.file) is not None:
         return run_part(options, session, kinds_of("statics"))
     refuse_outputs(options, session)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     show(equilibrium(mechanism), options, session)
     return 0

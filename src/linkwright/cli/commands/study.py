@@ -49,7 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
     vary = _ranges(options.vary, session.say)
-    mechanism, _ = read_model(options.file)
+    mechanism, _ = read_model(options.file, session)
     found = study(
         mechanism,
         vary,

@@ -67,4 +67,11 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each""",
     "curve.pivot_reaction": "reaction at the output's pivot",
     "curve.hodograph": "hodograph of the pivot reaction",
     "curve.input_torque": "balancing torque",
+    "unlike_loads": "! The alternatives carry different loads ({told}): torque, power, reactions and "
+    "flywheel compare unlike things.",
+    "unlike_speeds": "! The alternatives are driven at different speeds ({told}): rates, forces and powers "
+    "compare unlike things.",
+    "unlike_outputs": "! The outputs of the alternatives are of different kinds ({told}): their travels and "
+    "rates compare unlike things.",
+    "nothing": "none",
 }

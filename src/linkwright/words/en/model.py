@@ -255,4 +255,5 @@ WORDS = {
     "add_inertia": "add inertia: 2.5 kg·m² (about the mass centre), or inertia: 0 if that is meant",
     "no_mechanism": 'this is a calculation of kind "{kind}", not a mechanism',
     "calculations": "call linkwright beam, statics, vibration, statistics, program, trajectory, tolerance",
+    "from_and_to": "from and to",
 }

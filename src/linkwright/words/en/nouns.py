@@ -48,4 +48,5 @@ WORDS = {
     "dxf_drawings": "DXF drawings",
     "parquet_files": "Parquet files",
     "excel_files": "Excel files",
+    "frame": "frame",
 }

@@ -62,4 +62,8 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "curve.pivot_reaction": "输出支座反力",
     "curve.hodograph": "支座反力矢端图",
     "curve.input_torque": "平衡力矩",
+    "unlike_loads": "! 各方案的载荷不同（{told}）：力矩、功率、反力和飞轮的比较对象不同。",
+    "unlike_speeds": "! 各方案的驱动速度不同（{told}）：速度、加速度、力和功率的比较对象不同。",
+    "unlike_outputs": "! 各方案的输出种类不同（{told}）：行程与速度的比较对象不同。",
+    "nothing": "无",
 }

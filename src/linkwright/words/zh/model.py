@@ -254,4 +254,5 @@ WORDS = {
     "no_mechanism": "该文件是类型“{kind}”的计算，不是机构",
     "calculations": "请用相应的命令：linkwright beam、statics、vibration、"
     "statistics、program、trajectory、tolerance",
+    "from_and_to": "from 和 to",
 }

@@ -48,4 +48,5 @@ WORDS = {
     "dxf_drawings": "DXF 图样",
     "parquet_files": "Parquet 文件",
     "excel_files": "Excel 文件",
+    "frame": "机架",
 }

@@ -1,0 +1,144 @@
+"""Everything that a reader of Chinese sees is Chinese: titles, names that the program gives, findings, refusals."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright import gallery, words
+from linkwright.cli import main
+
+#: Words that stay: identifiers of commands, options, files, units, symbols.
+LATIN = re.compile(r"[A-Za-z][A-Za-z']{2,}")
+
+
+def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    main([*arguments, "--lang", "zh"])
+    said = capsys.readouterr()
+    return said.out + said.err
+
+
+def test_english_titles_are_those_of_the_files() -> None:
+    titles = words.catalogue("gallery_titles", "en")
+    assert dict(titles) == {name: lw.load(f"gallery:{name}").name for name in gallery.names()}
+
+
+def test_titles_of_the_gallery_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
+    listed = shown(capsys, "gallery", "list")
+    for title in words.catalogue("gallery_titles", "zh").values():
+        assert re.search("[一-鿿]", title) and title in listed
+    assert "铰链式颚式破碎机，六杆" in shown(capsys, "solve", "gallery:jaw_crusher_sixbar", "--steps", "2")
+    assert (
+        "Hinged jaw crusher"
+        in (main(["solve", "gallery:jaw_crusher_sixbar", "--steps", "2"]), capsys.readouterr())[1].out
+    )
+
+
+def test_frame_and_driver_have_their_words(capsys: pytest.CaptureFixture[str]) -> None:
+    table = shown(
+        capsys, "metrics", "gallery:jaw_crusher_sixbar", "--names", "instant_centre", "peak_input_torque"
+    )
+    assert "机架" in table and "驱动" in table and not re.search(r"\bframe\b|\bdriver\b", table)
+    english = (main(["metrics", "gallery:crank_rocker", "--names", "instant_centre"]), capsys.readouterr())[
+        1
+    ].out
+    assert "frame, crank" in english
+
+
+BASE = (gallery.file("crank_rocker")).read_text(encoding="utf-8")
+DAMAGES = [
+    ("length", "lenght"),
+    ("mm", "mn"),
+    ("rad/s", ""),
+    ("links:", "links: 3\nlinkz:"),
+    ("[O1, A]", "[O1]"),
+    ("[A, B]", "[A, A]"),
+    ("about: O1", "about: O9"),
+    ("turn: crank", "turn: crnk"),
+    ("turn: crank", "turn: crank, slide: x"),
+    ("assembly: {B: left}", "assembly: {B: lft}"),
+    ("format: 1", "format: 7"),
+    ("frame:", "fram:"),
+    ("driver:", "drivr:"),
+    ("{", "{{"),
+    ("points:", "\tpoints:"),
+    (": ", ":"),
+]
+KNOWN = set(
+    re.findall(
+        r"\w+",
+        "yaml format name frame points links crank rocker coupler length also lengths angle assembly driver drivers "
+        "turn slide about speed start joints loads gravity cycle parameters drawing mass inertia centre position "
+        "table law relative left right forward backward link duration from turns mm deg rpm rad kind guide block "
+        "through direction offset purpose source expected synthesis damaged linkz fram drivr crnk lft lenght linkage "
+        "null none mn",
+    )
+)
+
+
+def foreign(text: str, path: Path) -> set[str]:
+    """Latin words that are no identifiers of a model, in what is said of a file (its path left out)."""
+    return {
+        word.lower() for word in LATIN.findall(text.replace(str(path), "").replace(path.name, ""))
+    } - KNOWN
+
+
+@pytest.mark.parametrize("number", range(len(DAMAGES)))
+def test_findings_of_damaged_files_hold_no_english(
+    number: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old, new = DAMAGES[number]
+    if old not in BASE:
+        pytest.skip("the model has no such text")
+    path = tmp_path / "damaged.yaml"
+    path.write_text(BASE.replace(old, new, 1), encoding="utf-8")
+    said = shown(capsys, "check", str(path))
+    quoted = set(LATIN.findall(BASE.replace(old, new, 1)))
+    assert foreign(said, path) - {word.lower() for word in quoted} == set(), said
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["solve", "gallery:crank_rocker", "--at", "30"],
+        ["solve", "gallery:crank_rocker", "--at", "30 kg"],
+        ["solve", "gallery:crank_rocker", "--columns", "xyz"],
+        ["solve", "gallery:crank_rocker", "--steps", "0"],
+        ["solve", "gallery:nothing_like_it"],
+        ["study", "gallery:crank_rocker", "--vary", "crank.lenth=1..2 m:2"],
+        ["study", "gallery:crank_rocker", "--vary", "crank.length=1..2 kg:2"],
+        ["metrics", "gallery:crank_rocker", "--names", "peak_torque"],
+        ["compare", "gallery:crank_rocker", "gallery:kite", "--of", "jaw"],
+        ["export", "gallery:crank_rocker", "--output", "a.xyz"],
+        ["export", "gallery:crank_rocker", "--output", "a.csv", "--curve", "spline"],
+        ["machine", "gallery:crank_rocker", "--fluctuation", "0"],
+        ["balance", "gallery:excavator", "--radius", "10mm"],
+        ["draw", "gallery:crank_rocker", "--paths", "Q", "--output", "a.svg"],
+    ],
+)
+def test_refusals_hold_no_english(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(capsys, *arguments)
+    assert re.search("[一-鿿]", said), said
+    model = {word.lower() for name in ("crank_rocker", "kite", "excavator") for word in LATIN.findall(
+        (gallery.file(name)).read_text(encoding="utf-8"))}  # fmt: skip
+    own = {word.lower() for each in arguments for word in LATIN.findall(each)}
+    names = {word for name in [*lw.metrics.METRICS, *gallery.names()] for word in name.split("_")}
+    known = KNOWN | model | own | names | {"linkwright", "help", "gallery", "travel", "point", "flywheel"}
+    left = {
+        word.lower() for word in LATIN.findall(re.sub(r"\.\w+|--\w+|\w+_\w+|\w+\.[\w.]+", "", said))
+    } - known
+    assert left <= {
+        "csv",
+        "effort",
+        "closeness",
+        "joint",
+        "max",
+        "min",
+        "rms",
+        "output",
+        "polyline",
+        "spline",
+        "degrees",
+        "study",
+    }, (left, said)
