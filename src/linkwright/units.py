@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
@@ -221,6 +222,7 @@ SPELLINGS: Mapping[str, str] = {
 _SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
 NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _QUANTITY = re.compile(r"^([+-]?)\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
+_PLAIN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\s\d*(),.+-][^\s*(),]*)")
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _FACTOR = re.compile(r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|°)\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*")
 _JOINT = re.compile(r"[*·⋅/]")
@@ -245,6 +247,7 @@ def exponent(text: str) -> int:
     return power
 
 
+@lru_cache(1024)
 def unit(text: str) -> tuple[float, Dimension]:
     """Factor to SI and dimension of a unit such as ``N·m/rad`` or ``kg*m^2``.
 
@@ -346,6 +349,19 @@ def parse(text: str, dimension: str) -> float:
         return 0.0
     require(kind, dimension, plain, bare=not rest)
     return value
+
+
+def plain_quantity(text: str, dimension: str) -> float | None:
+    """SI value of a number with a right unit behind it; None for anything that needs a closer look."""
+    found = _PLAIN.fullmatch(text)
+    if found is None:
+        return None
+    try:
+        factor, kind = unit(found[2])
+    except QuantityError:
+        return None
+    value = float(found[1]) * factor
+    return value if kind == DIMENSIONS[dimension] and math.isfinite(value) else None
 
 
 def unit_fits(text: str, dimension: str) -> bool:

@@ -23,7 +23,7 @@ from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.drawing import Drawing, guide_angle
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical
+from linkwright.kinematics.names import canonical, vector_names
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
@@ -266,10 +266,17 @@ def coordinates(motion: Motion, index: int) -> Floats:
     """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
     mechanism, found = motion.mechanism, []
     size = mechanism_size(mechanism)
+    places = {
+        name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()
+    }
+    wanted = [vector_names(*each) for name, key in places.items() for each in (("e", name), ("p", key))]
+    motion.rows.fetch(
+        tuple(dict.fromkeys(name for pair in wanted for name in pair)), motion.evaluate
+    )  # all in one program
     for name, link in mechanism.links.items():
         c, s = motion.link(name).direction[index]
-        point, (px, py) = next(iter(link.points.items()))
-        x, y = motion.point_of(canonical(mechanism, name, point)).position[index]
+        px, py = next(iter(link.points.values()))
+        x, y = motion.point_of(places[name]).position[index]
         found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, math.atan2(s, c)]
     return np.array(found)
 

@@ -72,6 +72,14 @@ def _positions(
     return over_cycle(mechanism, steps, endpoint)
 
 
+def try_motion(mechanism: Mechanism, steps: int) -> Motion:
+    """The motion over the cycle with its outcomes only, positions that are not reached marked.
+
+    Everything else is evaluated when it is asked for. Raises as :func:`solve_motion`.
+    """
+    return MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps)).solve("mark", ("outcome",))
+
+
 class MotionRun:
     """One evaluation of a solver over given positions; ``single``: inputs for themselves, not a cycle."""
 
@@ -80,8 +88,8 @@ class MotionRun:
         self.positions = positions
         self.single = single
 
-    def solve(self, failures: str = "raise") -> Motion:
-        """The motion, with change points passed smoothly."""
+    def solve(self, failures: str = "raise", stored: tuple[str, ...] = ()) -> Motion:
+        """The motion, with change points passed smoothly; ``stored``: the outputs evaluated at once, all if empty."""
         followed = self.solver.follow(self.positions, apart=self.single)
         states = {} if followed is None else followed.states
         modes, said = reached_modes(self.solver, self.positions) if self.single else ({}, ())
@@ -91,7 +99,8 @@ class MotionRun:
         if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
         breaks = frozenset() if followed is None else followed.breaks
-        motion = self._evaluate(states, modes, found, breaks)
+        names = stored or tuple(self.solver.outputs.standard())
+        motion = self._evaluate(states, modes, found, breaks, names)
         motion.followed = followed
         motion.notes += said + branch_notes(motion)
         if failures == "raise" and not motion.ok.all():
@@ -104,8 +113,8 @@ class MotionRun:
         modes: Mapping[str, Floats],
         found: list[Passage],
         breaks: frozenset[int],
+        names: tuple[str, ...],
     ) -> Motion:
-        names = tuple(self.solver.outputs.standard())
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
         mark_singular(codes, found, self.solver.structure)

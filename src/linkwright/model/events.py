@@ -15,7 +15,7 @@ from typing import Any
 from linkwright.model.nodes import Mapping, Node, Sequence
 
 #: What libyaml takes for the end of a line, and YAML 1.2 does not.
-_OLD_BREAKS = str.maketrans("\x85\u2028\u2029", "   ")
+_OLD_BREAKS = re.compile("[\x85\u2028\u2029]")
 #: Colons without a space that are put right in one text, at most.
 MOST_SHIFTS = 20
 _PAIR = re.compile(r"(?<!\\)(?:\\\\)*(\\u[dD][89abAB][0-9a-fA-F]{2})(\\u[dD][c-fC-F][0-9a-fA-F]{2})")
@@ -23,7 +23,7 @@ _PAIR = re.compile(r"(?<!\\)(?:\\\\)*(\\u[dD][89abAB][0-9a-fA-F]{2})(\\u[dD][c-f
 
 def event_reader(text: str) -> Callable[[], Any]:
     """A function that gives the next event of a text; raises yaml.YAMLError where the text is no YAML."""
-    get_event: Callable[[], Any] = _parser()(text.translate(_OLD_BREAKS)).get_event
+    get_event: Callable[[], Any] = _parser()(_OLD_BREAKS.sub(" ", text)).get_event
     return get_event
 
 

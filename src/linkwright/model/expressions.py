@@ -163,6 +163,9 @@ def parse_quantity(
 
     An expression without names is evaluated at once. Raises QuantityError.
     """
+    value = units.plain_quantity(text, dimension)
+    if value is not None:
+        return value
     kinds = kinds or {}
     plain = units.tidy(text)
     if is_literal(plain, kinds):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import select
 import stat
 from pathlib import Path
@@ -97,8 +98,9 @@ def _near_file(path: Path) -> str:
 
 
 def _read_gallery(name: str) -> tuple[str, str]:
-    names = gallery_names()
-    if name not in names:
+    path = _FOLDER / f"{name}.yaml"
+    names = [] if re.fullmatch(r"\w+", name) and path.is_file() else gallery_names()
+    if names and name not in names:
         near = nearest(name, names)
         remedy = (
             Sentence("names.did_you_mean", offer=f"{GALLERY}{near}")
@@ -117,7 +119,7 @@ def _read_gallery(name: str) -> tuple[str, str]:
                 )
             ]
         )
-    content = (_FOLDER / f"{name}.yaml").read_bytes()
+    content = path.read_bytes()
     return decode(content, f"{name}.yaml"), f"{name}.yaml"
 
 

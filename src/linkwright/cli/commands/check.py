@@ -35,8 +35,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
-    from linkwright.kinematics import solve_motion
     from linkwright.kinematics.rank import analysed
+    from linkwright.kinematics.solve import try_motion
     from linkwright.model.file import read_text
     from linkwright.model.source import read_source
     from linkwright.parts.file import check as check_calculation
@@ -58,7 +58,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
             "mobility": built.mobility,
             "class": built.mechanism_class,
         }
-        motion = solve_motion(mechanism, steps=TRIED, failures="mark")
+        motion = try_motion(mechanism, TRIED)
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
     if not motion.ok.all():
