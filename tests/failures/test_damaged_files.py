@@ -1,0 +1,132 @@
+"""Damaged model files: whatever was cut, doubled or mistyped, the answer is findings at places, or a model, at once.
+
+``LINKWRIGHT_DAMAGED=5000 python -m pytest tests/failures/test_damaged_files.py`` tries more of them.
+"""
+
+import os
+import random
+import re
+import time
+from contextlib import suppress
+
+import pytest
+
+import linkwright as lw
+from linkwright.errors import Finding
+from linkwright.model.file import gallery_names, read_text
+from linkwright.model.source import read_source
+
+COUNT = int(os.environ.get("LINKWRIGHT_DAMAGED", "200"))
+BATCHES = 8
+SECONDS = 2.0
+TEXTS = {name: read_source(f"gallery:{name}")[0] for name in gallery_names()}
+SIGNS = [
+    *":{}[],-#&*!|>'\"%@`\t\n ~?=<\\/^·²°",
+    "\x07",
+    "\x85",
+    "\u2028",
+    "\ufeff",
+    "é",
+    "长",
+    "😀",
+    "\r\n",
+    "---\n",
+]
+WORDS = [
+    "1e999",
+    "-1",
+    "0",
+    "nan",
+    "null",
+    "~",
+    "''",
+    "[]",
+    "{}",
+    "1 m",
+    "1 mm*t",
+    "9" * 400,
+    "a" * 300,
+    "&a ",
+    "*a",
+    "<<: ",
+    "!!str ",
+]
+
+
+def damaged(text: str, rng: random.Random) -> str:
+    """The text after one to five accidents."""
+    for _ in range(rng.choice([1, 1, 1, 2, 5])):
+        at = rng.randrange(len(text)) if text else 0
+        kind = rng.randrange(7)
+        if kind == 0:
+            text = text[:at] + text[at + rng.choice([1, 1, 3, 20, 400]) :]
+        elif kind == 1:
+            text = text[:at] + rng.choice(SIGNS) + text[at:]
+        elif kind == 2:
+            text = text[:at] + rng.choice(SIGNS) + text[at + 1 :]
+        elif kind == 3:
+            other = rng.randrange(len(text)) if text else 0
+            text = text[:at] + text[other : other + rng.choice([1, 10, 100])] + text[at:]
+        elif kind == 4:
+            text = _instead(text, r"-?\d[\d.]*( ?[a-zA-Z°·/²]+)?", rng)
+        elif kind == 5:
+            text = _instead(text, r"[A-Za-z_]\w*", rng)
+        else:
+            lines = text.split("\n")
+            first, second = rng.randrange(len(lines)), rng.randrange(len(lines))
+            lines[first], lines[second] = lines[second], lines[first]
+            text = "\n".join(lines)
+    return text
+
+
+def _instead(text: str, pattern: str, rng: random.Random) -> str:
+    """One number or word replaced by a wrong one, or by another of the text."""
+    places = list(re.finditer(pattern, text))
+    if not places:
+        return text
+    place, other = rng.choice(places), rng.choice(places)
+    return text[: place.start()] + rng.choice([rng.choice(WORDS), other[0]]) + text[place.end() :]
+
+
+def is_placed(finding: Finding, text: str) -> bool:
+    """Whether a finding says a place that the text has."""
+    place = re.fullmatch(r"m\.yaml(?::(\d+):(\d+))?", finding.where)
+    if place is None or not finding.message:
+        return False
+    return place[1] is None or int(place[1]) <= text.count("\n") + text.count("\r") + 1
+
+
+@pytest.mark.parametrize("batch", range(BATCHES))
+def test_damage_is_answered_at_once(batch: int) -> None:
+    rng = random.Random(batch)
+    read = 0
+    for number in range(COUNT // BATCHES):
+        name = rng.choice(list(TEXTS))
+        text = damaged(TEXTS[name], rng)
+        began = time.process_time()
+        try:
+            mechanism, findings = read_text(text, "m.yaml")
+        except Exception as error:
+            raise AssertionError(f"{name}, batch {batch}, number {number}: {text!r}") from error
+        assert time.process_time() - began < SECONDS, text
+        assert all(is_placed(each, text) for each in findings), (findings, text)
+        errors = [each for each in findings if each.severity == "error"]
+        assert (mechanism is None) == bool(errors), text
+        if mechanism is not None:
+            read += 1
+            assert lw.loads(lw.dump(mechanism), "m.yaml").dimensions() == mechanism.dimensions(), text
+    assert 0 < read < COUNT // BATCHES, "some damage is harmless, most is not"
+
+
+@pytest.mark.parametrize("number", range(max(8, COUNT // 25)))
+def test_damage_that_reads_solves_or_is_refused(number: int) -> None:
+    """What still reads as a model is solved, or refused with a sentence."""
+    rng = random.Random(1000 + number)
+    for _ in range(40):
+        mechanism, _ = read_text(damaged(TEXTS[rng.choice(list(TEXTS))], rng), "m.yaml")
+        if mechanism is not None:
+            break
+    else:
+        pytest.skip("nothing of forty reads")
+    with suppress(lw.LinkwrightError):
+        lw.solve_forces(lw.solve_motion(mechanism, steps=12))
