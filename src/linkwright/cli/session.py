@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -49,6 +48,8 @@ class Session:
     @property
     def width(self) -> int:
         """Columns that a table may take."""
+        import shutil
+
         return shutil.get_terminal_size((PIPE_WIDTH, 24)).columns
 
     def strong(self, text: str) -> str:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkwright.errors import Finding, ModelError
 from linkwright.model.compose import compose
-from linkwright.model.document import Document
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.nodes import Node, Scalar
 from linkwright.model.read_model import read_model
 from linkwright.model.source import gallery_names, read_source
 from linkwright.model.write import dump
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.model.document import Document
 
 __all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
 
@@ -48,6 +51,8 @@ def check(source: str | Path) -> list[Finding]:
 
 def read_document(source: str | Path) -> Document:
     """A model file that can be changed and saved with its comments and order. Raises ModelError."""
+    from linkwright.model.document import Document
+
     text, name = read_source(source)
     return Document(text, name, read_text)
 
