@@ -1,8 +1,8 @@
 """Linkwright: analysis and design of planar machines."""
 
-from typing import TYPE_CHECKING
-
 from linkwright.lazy import offer
+
+TYPE_CHECKING = False  # type checkers take it for true
 
 if TYPE_CHECKING:
     from linkwright.errors import Finding as Finding

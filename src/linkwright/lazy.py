@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
-from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = (
+    False  # type checkers take it for true; nothing is imported before the first name is asked for
+)
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from inspect import Signature
+    from typing import Any
 
 
 def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
@@ -50,7 +51,16 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
     sys.modules[package].__class__ = Offering
 
 
+def import_module(name: str) -> ModuleType:
+    """The module of a name."""
+    from importlib import import_module as by_name
+
+    return by_name(name)
+
+
 def _is_package(name: str) -> bool:
+    from importlib.util import find_spec
+
     found = find_spec(name)
     return found is not None and found.submodule_search_locations is not None
 

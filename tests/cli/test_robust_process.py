@@ -52,20 +52,20 @@ def test_closed_errors_do_not_matter() -> None:
     assert b"fine" in done.stdout
 
 
-@pytest.mark.parametrize("wait", [0.03, 0.06, 0.12])
+@pytest.mark.parametrize("wait", [0.05, 0.1, 0.2])
 def test_an_interrupt_at_any_time_ends_quietly(wait: float) -> None:
-    """Until Python itself is up the system ends the process; from then on it leaves with 130, or was done."""
-    with subprocess.Popen(
-        [*RUN, "metrics", "gallery:jaw_crusher_sixbar"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
+    """From the moment Python itself is up, whether modules are being imported or the work is under way."""
+    program = "print('up', flush=True); from linkwright.cli import main; raise SystemExit(main())"
+    command = [sys.executable, "-c", program, "study", "gallery:jaw_crusher_sixbar"]
+    command += ["--vary", "crank.length=90..100 mm:500", "--metrics", "peak_jerk"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "up\n"
         time.sleep(wait)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
-    assert "Traceback" not in said or "linkwright" not in said
-    assert process.returncode in (130, -signal.SIGINT)
+    assert said in ("", "interrupted\n")
+    assert process.returncode == 130
 
 
 def test_an_interrupted_command_says_so(
@@ -130,7 +130,7 @@ def test_a_picture_too_large_for_memory_is_refused(
     assert 3000 < most < 60_000
 
 
-@pytest.mark.parametrize("steps", ["1", "2", "3"])
+@pytest.mark.parametrize("steps", ["1"])
 @pytest.mark.parametrize("name", lw.gallery_names())
 def test_few_steps_give_numbers_or_a_sentence(
     name: str, steps: str, capsys: pytest.CaptureFixture[str]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import _signal as signal  # type: ignore[import-not-found]  # signal itself imports a good deal first
 import os
-import signal
 import sys
 
 #: Exit code of a process that was interrupted.
