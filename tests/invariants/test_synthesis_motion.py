@@ -107,3 +107,37 @@ def test_three_poses_with_given_pivots() -> None:
     pivots = sorted((found.best.linkage.points[name] for name in ("O1", "O2")), key=lambda z: z.real)
     assert pivots == pytest.approx([-1 - 2j, 1 - 2j], abs=1e-9)
     assert math.isfinite(found.best.transmission_angle)
+
+
+def test_mixed_poses_and_points_are_met() -> None:
+    """Four poses and two points leave as many numbers free as there are conditions: exact solutions."""
+    theta = np.array([0.3, 1.1, 2.0, 3.1, 4.2, 5.2])
+    a, b, c, d = 1.0, 2.6, 2.2, 2.9
+    pin = a * np.exp(1j * theta)
+    reach = np.abs(d - pin)
+    turn = (d - pin) / reach * np.exp(1j * np.arccos((reach**2 + b * b - c * c) / (2 * reach * b)))
+    p, phi = pin + (1.3 + 0.8j) * turn, np.angle(turn)
+    phi[[2, 4]] = np.nan
+    found = lw.motion_generation(np.column_stack([p.real, p.imag, phi]))
+    assert not found.best.defects and found.best.error < 1e-9
+    for each in found:
+        if each.error > 1e-9 or each.defects or not each.turns:
+            continue
+        path = lw.solve_motion(each.mechanism(), steps=3600).point("P").position
+        assert max(np.hypot(path[:, 0] - q.real, path[:, 1] - q.imag).min() for q in p) < 0.02
+
+
+def test_fixed_pivots_lie_on_the_demanded_line() -> None:
+    """Three poses: any line; four: the line through two centre points that are known."""
+    given = [(0, 0, 0), (1, 0.4, 0.3), (1.6, 1.2, 0.9), (1.7, 2.1, 1.5)]
+    for each in lw.motion_generation(given[:3], pivot_line=[(-3, 3), (3, -3)]):
+        for name in ("O1", "O2"):
+            place = each.linkage.points[name]
+            assert place.real + place.imag == pytest.approx(0, abs=1e-6)
+    free = lw.motion_generation(given).best.linkage.points
+    o1, o2 = free["O1"], free["O2"]
+    ends = [(o1 + t * (o2 - o1)) for t in (-0.5, 1.5)]
+    found = lw.motion_generation(given, pivot_line=[(z.real, z.imag) for z in ends])
+    for each in found:
+        for name in ("O1", "O2"):
+            assert abs(((each.linkage.points[name] - o1) / (o2 - o1)).imag) < 1e-6

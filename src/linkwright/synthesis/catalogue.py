@@ -127,6 +127,7 @@ TASKS: Mapping[str, Task] = {
             "within": "window",
             "fixed_pivots": "points",
             "moving_pivots": "points",
+            "pivot_line": "window",
             "link_ratio": "number",
             "count": "count",
         },

@@ -189,6 +189,18 @@ def ranking(
     return np.asarray(np.lexsort((-transmission, step, ~sound)))
 
 
+def different(candidates: tuple[Candidate, ...], distance: float) -> tuple[Candidate, ...]:
+    """Without candidates all of whose points lie within ``distance`` (m) of those of a better one."""
+    kept: list[Candidate] = []
+    seen: list[Complexes] = []
+    for each in candidates:
+        places = np.array(list(each.linkage.points.values()))
+        if all(len(places) != len(o) or np.abs(places - o).max() > distance for o in seen):
+            kept.append(each)
+            seen.append(places)
+    return tuple(kept)
+
+
 def ranked(candidates: Sequence[Candidate], size: float) -> tuple[Candidate, ...]:
     """The candidates in the order of :func:`ranking`."""
     if not candidates:

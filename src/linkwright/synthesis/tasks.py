@@ -174,6 +174,8 @@ class _Reader:
         if depth == 2 or len(dimensions) == 1:
             inner = dimensions
             return [self._nested(each, key, form, inner, depth - 1) for each in node.items]
+        if form == "poses" and len(node.items) == 2:
+            return [*self._nested(node, key, "point", dimensions[:2], 1), math.nan]
         if len(node.items) != len(dimensions):
             return self._wrong(node, key, form)
         return [

@@ -20,7 +20,7 @@ from linkwright.synthesis.function_generation.generators import (
     Run,
     TurningFourBar,
 )
-from linkwright.synthesis.result import Candidate, Synthesis, note, ranked, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -125,7 +125,7 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
         )
         made.append(replace(each, curve=_four_bar_curve(demand, pin[i], joint[i], float(zeros[i, 1]))))
     counts = {"solutions": len(zeros), "sound": int(facts.sound.sum())}
-    result = Synthesis("function", _distinct(tuple(made))[:count], "angle", target, counts)
+    result = Synthesis("function", different(tuple(made), DISTINCT * frame)[:count], "angle", target, counts)
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
         raise refuse("function.no_movable", result, linkage="four_bar", why=why)
@@ -175,7 +175,7 @@ def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: i
         for i in range(len(x))
         if (found := _candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale)) is not None
     ]
-    chosen = _distinct(ranked(made, demand.size))[:count]
+    chosen = different(ranked(made, demand.size), DISTINCT * scale)[:count]
     if not chosen:
         raise refuse("function.none", linkage=generator.name)
     name = "angle" if generator.output_is_angle else "length"
@@ -237,15 +237,3 @@ def _type(generator: Generator, run: Run) -> str:
 
 def _turned(angle: float) -> float:
     return (angle + math.pi) % (2 * math.pi) - math.pi
-
-
-def _distinct(candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-    kept: list[Candidate] = []
-    seen: list[Complexes] = []
-    for each in candidates:
-        places = np.array(list(each.linkage.points.values()))
-        size = float(np.ptp(places.real) + np.ptp(places.imag))
-        if all(np.abs(places - other).max() > DISTINCT * size for other in seen):
-            kept.append(each)
-            seen.append(places)
-    return tuple(kept)

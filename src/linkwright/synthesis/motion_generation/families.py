@@ -85,13 +85,13 @@ def _five(p: Complexes, phi: Floats) -> Dyads:
     return join(exact, sliders(guides, p, d, e)) if len(guides) else exact
 
 
-def circle_points(d: Complexes, e: Complexes, window: Window) -> Complexes:
+def circle_points(d: Complexes, e: Complexes, window: Window, lines: int = LINES) -> Complexes:
     """Points of the circle-point curve of four poses on a net of lines, (K,), in axes at the first pose."""
-    xs = np.linspace(window.low.real, window.high.real, LINES)
-    ys = np.linspace(window.low.imag, window.high.imag, LINES)
+    xs = np.linspace(window.low.real, window.high.real, lines)
+    ys = np.linspace(window.low.imag, window.high.imag, lines)
     middle, half = 0.5 * (window.low + window.high), 0.5 * (window.high - window.low)
     origin = np.concatenate([xs + 1j * middle.imag, middle.real + 1j * ys])
-    along = np.concatenate([np.full(LINES, 1j * half.imag), np.full(LINES, half.real + 0j)])
+    along = np.concatenate([np.full(lines, 1j * half.imag), np.full(lines, half.real + 0j)])
     return on_lines(d, e, origin, along)
 
 

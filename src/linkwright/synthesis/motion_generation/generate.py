@@ -17,16 +17,19 @@ from linkwright.synthesis.build import (
     slider_crank,
     working_span,
 )
-from linkwright.synthesis.motion_generation.burmester import Dyads, circles, join, relative_poses
+from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, join, relative_poses
 from linkwright.synthesis.motion_generation.families import (
+    LINES,
     Window,
     circle_points,
     dyads,
     fitted,
     inverse_poses,
+    on_lines,
     usual_window,
 )
-from linkwright.synthesis.result import Candidate, Synthesis, note, ranking, refuse
+from linkwright.synthesis.motion_generation.mixed import mixed_solutions
+from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -43,6 +46,7 @@ def motion_generation(
     within: tuple[tuple[float, float], tuple[float, float]] | None = None,
     fixed_pivots: Sequence[tuple[float, float]] = (),
     moving_pivots: Sequence[tuple[float, float]] = (),
+    pivot_line: Sequence[Sequence[float]] | None = None,
     link_ratio: float = 10.0,
     count: int = 6,
 ) -> Synthesis:
@@ -50,11 +54,13 @@ def motion_generation(
 
     Args:
         poses: (n, 3) x (m), y (m) and angle (rad) of the coupler, n ≥ 2. Five poses: all real Burmester dyads; two
-            to four: dyads sampled from their families; six and more: dyads of least squares.
+            to four: dyads sampled from their families; six and more: dyads of least squares. An angle that is NaN is
+            free (mixed poses and points): least squares from many starts, so not provably all.
         within: lower left and upper right corner (m) in which pivots lie at the first pose (n ≤ 4); default: three
             times the extent of the poses.
         fixed_pivots, moving_pivots: pivots that dyads must have (n ≤ 3): places in the frame, moving ones at the
             first pose, m.
+        pivot_line: two places (m) between which every fixed pivot must lie (three or four poses).
         link_ratio: candidates with a larger ratio of longest to shortest link come last.
         count: candidates wanted.
 
@@ -67,8 +73,10 @@ def motion_generation(
             dismantled; ``nearest`` has the best ones with their defects or errors.
     """
     p, phi = _read(poses)
+    if np.isnan(phi).any():
+        return _mixed(p, phi, link_ratio, count)
     window = usual_window(p) if within is None else Window(complex(*within[0]), complex(*within[1]))
-    found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots)
+    found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
     if len(found) < 2 and len(p) == 5:
         raise refuse("motion.no_dyads", _nearest(p, phi, link_ratio, count), real=len(found))
@@ -88,7 +96,7 @@ def motion_generation(
 
 def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
     given = np.asarray(poses, float)
-    if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given).all():
+    if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given[:, :2]).all():
         raise refuse("motion.poses")
     p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]
     size = np.ptp(p.real) + np.ptp(p.imag)
@@ -103,11 +111,38 @@ def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
     return p, phi
 
 
+def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesis:
+    """Poses some of whose angles are free."""
+    if len(p) < 3:
+        raise refuse("motion.mixed", poses=len(p))
+    made: list[Candidate] = []
+    for angles, pair, squares in mixed_solutions(p, phi):
+        for first, second in ((0, 1), (1, 0)):
+            made += _pairs(
+                pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1
+            )
+    size = _scale(p)
+    chosen = different(ranked(made, size), 0.02 * size)[:count]
+    if not chosen:
+        raise refuse("motion.no_pairs")
+    turns = np.where(np.isnan(phi), 0, np.exp(1j * np.nan_to_num(phi)))
+    result = Synthesis("motion", chosen, "deviation", np.stack([p, turns]), {"pairs": len(made)})
+    if chosen[0].defects:
+        flaws = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in chosen[0].defects))
+        raise refuse("motion.no_movable", result, why=flaws)
+    return replace(result, notes=(note("motion.mixed_note", free=int(np.isnan(phi).sum())),))
+
+
 def _all_dyads(
     p: Complexes, phi: Floats, window: Window, fixed: Sequence[tuple[float, float]],
-    moving: Sequence[tuple[float, float]],
+    moving: Sequence[tuple[float, float]], line: Sequence[Sequence[float]] | None,
 ) -> tuple[Dyads, Floats]:  # fmt: skip
     """Dyads and the squared errors of their lengths."""
+    if line is not None:
+        if len(p) not in (3, 4):
+            raise refuse("motion.line", poses=len(p))
+        found = _on_line(p, phi, line)
+        return found, np.zeros(len(found))
     if fixed or moving:
         if len(p) > 3:
             raise refuse("motion.pivots", poses=len(p))
@@ -127,14 +162,24 @@ def _all_dyads(
 
 
 def _with_centre(p: Complexes, phi: Floats, centre: complex) -> complex:
-    """The body point whose circle about the given centre passes its positions (three poses), by inversion."""
+    """The body point whose circle about the given centre passes its positions, by inversion."""
     back = (centre - p) * np.exp(-1j * (phi - phi[0]))
     if len(p) == 2:
         return complex(back.mean() + 0.6j * (back[1] - back[0]))
-    (x1, y1), (x2, y2) = ((z.real, z.imag) for z in back[1:] - back[0])
-    cross = 2 * (x1 * y2 - x2 * y1)
-    s1, s2 = abs(back[1] - back[0]) ** 2, abs(back[2] - back[0]) ** 2
-    return complex(back[0] + complex((y2 * s1 - y1 * s2) / cross, (x1 * s2 - x2 * s1) / cross))
+    return complex(centres(back[:1], (back - back[0])[None])[0])
+
+
+def _on_line(p: Complexes, phi: Floats, ends: Sequence[Sequence[float]]) -> Dyads:
+    """Dyads of three or four poses whose fixed pivots lie on the stretch between two places."""
+    first, last = (complex(*place) for place in ends)
+    middle, half = 0.5 * (first + last) - p[0], 0.5 * (last - first)
+    if len(p) == 3:
+        pivots = middle + half * np.linspace(-1, 1, 48)
+    else:
+        d, phi_i = inverse_poses(p, phi)
+        pivots = on_lines(d, np.exp(1j * phi_i), np.array([middle]), np.array([half]))
+    points = np.array([_with_centre(p, phi, complex(place + p[0])) for place in pivots])
+    return circles(points, p, *relative_poses(p, phi)) if len(points) else Dyads(*4 * (np.empty(0, complex),))
 
 
 def _pairs(
@@ -162,7 +207,7 @@ def _pairs(
     if not made:
         return ()
     order = ranking(np.array([each.error for each in made]), angles, sound, _scale(p))
-    return tuple(made[i] for i in order[:count])
+    return different(tuple(made[i] for i in order), 0.08 * _scale(p) if len(p) < 5 else 0.0)[:count]
 
 
 def _scale(p: Complexes) -> float:
@@ -172,7 +217,7 @@ def _scale(p: Complexes) -> float:
 def _best(facts: Assessment, error: Floats, p: Complexes, link_ratio: float, count: int) -> list[int]:
     sound = facts.sound & (facts.ratio <= link_ratio)
     order = ranking(np.sqrt(error), np.nan_to_num(facts.transmission), sound, _scale(p))
-    return [int(k) for k in order[: 3 * count]]
+    return [int(k) for k in order[: 30 * count]]
 
 
 def _assess(found: Dyads, first: Whole, second: Whole, slider: bool) -> Assessment:
@@ -218,6 +263,6 @@ def _curves(p: Complexes, phi: Floats, window: Window) -> dict[str, Complexes]:
     di, phi_i = inverse_poses(p, phi)
     ei = np.exp(1j * phi_i)
     return {
-        "circle_points": p[0] + circle_points(d, e, shifted),
-        "centre_points": p[0] + circle_points(di, ei, shifted),
+        "circle_points": p[0] + circle_points(d, e, shifted, 4 * LINES),
+        "centre_points": p[0] + circle_points(di, ei, shifted, 4 * LINES),
     }

@@ -11,7 +11,7 @@ from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.path_generation.bounded import BoundedPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
-from linkwright.synthesis.result import Candidate, Synthesis, note, ranked, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -66,7 +66,7 @@ def path_generation(
     else:
         solved, who, linear = BoundedPaths(paths, bound).solve(free)
     candidates = _candidates(paths, solved, who, linear)
-    chosen = _distinct(ranked(candidates, demand.size**2))[:count]
+    chosen = different(ranked(candidates, demand.size**2), ALIKE * demand.size)[:count]
     if not chosen:
         raise refuse("path.none")
     notes = (note("path.ordered"),) if chosen[0].defects else ()
@@ -164,16 +164,3 @@ def _candidates(
         )
         for i in range(len(free))
     ]  # fmt: skip
-
-
-def _distinct(candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-    """Without candidates whose points agree with those of a better one."""
-    kept: list[Candidate] = []
-    seen: list[Complexes] = []
-    for each in candidates:
-        places = np.array(list(each.linkage.points.values()))
-        size = np.ptp(places.real) + np.ptp(places.imag)
-        if all(np.abs(places - other).max() > ALIKE * size for other in seen):
-            kept.append(each)
-            seen.append(places)
-    return tuple(kept)

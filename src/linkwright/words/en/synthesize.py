@@ -123,6 +123,9 @@ linkwright synthesize press.yaml --json""",
     "motion.poses": "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
     "motion.same": "poses {first} and {second} are the same; leave one out",
     "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
+    "motion.line": "{poses} poses do not fit pivots on a line; give three or four poses",
+    "motion.mixed": "{poses} poses are too few where angles are free; give three or more",
+    "motion.mixed_note": "{free} angles are free: solutions from many starts, not provably all",
     "motion.no_dyads": "{real} real Burmester dyads fit the five poses, two are needed; the nearest "
     "solution is that of "
     "least squares, with the errors shown",

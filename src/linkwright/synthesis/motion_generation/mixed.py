@@ -1,0 +1,73 @@
+"""Poses and points mixed: two dyads of least squares, the free angles of the body among the unknowns.
+
+Both pins keep their distances from their centres, |p_j + z e^{iφ_j} - C| = |p_0 + z e^{iφ_0} - C|, j = 1 … n - 1; the
+angles of points are free. Up to 4 + (number of free angles)/2 such conditions can be met exactly (nine points without
+any angle: Alt's problem). From many random starts at once, so what is found need not be all.
+Source: Tong, Myszka and Murray 2013, ASME DETC2013-12326 (mixed exact pose and point synthesis).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.least_squares import minimise, with_differences
+from linkwright.synthesis.motion_generation.burmester import Dyads
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+
+STARTS, LEFT, STEPS = 800, 120, 80
+
+
+def mixed_solutions(p: Complexes, phi: Floats) -> list[tuple[Floats, Dyads, float]]:
+    """Angles (n,) of the body, the two dyads and their sum of squares, for every different optimum, best first."""
+    size = float(np.abs(p - p.mean()).max())
+    x, f, _ = _optima((p - p[0]) / size, phi, np.random.default_rng(0))
+    found = []
+    for row, squares in zip(x, f, strict=True):
+        angles = _angles(row[None], phi)[0]
+        turn = np.exp(1j * angles)
+        points, middles = (row[0:4:2] + 1j * row[1:4:2]) * size, (row[4:8:2] + 1j * row[5:8:2]) * size
+        if np.abs(np.concatenate([points, middles])).max() > 50 * size:
+            continue
+        positions = p + points[:, None] * turn
+        pair = Dyads(points * turn[0], positions, p[0] + middles, np.full(2, np.nan + 0j))
+        found.append((angles, pair, float(squares) * size**2))
+    return found
+
+
+def _optima(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Floats, Floats, Whole]:
+    free = int(np.isnan(phi).sum())
+    start = np.column_stack([rng.normal(0, 1.5, (STARTS, 8)), _free_angles(p, phi, rng, free)])
+
+    def residual(x: Floats, _: Whole) -> Floats:
+        turn = np.exp(1j * _angles(x, phi))
+        off = []
+        for k in (0, 2):
+            z, c = x[:, k] + 1j * x[:, k + 1], x[:, k + 4] + 1j * x[:, k + 5]
+            far = np.abs(p + z[:, None] * turn - c[:, None])
+            off.append(far - far.mean(1, keepdims=True))
+        apart = np.abs(x[:, 0] + 1j * x[:, 1] - x[:, 2] - 1j * x[:, 3])
+        return np.column_stack([*off, np.maximum(0.05 - apart, 0)])
+
+    return minimise(with_differences(residual), start, steps=STEPS, keep=LEFT, halve=10)
+
+
+def _angles(x: Floats, phi: Floats) -> Floats:
+    """Angles (K, n) with the free ones from the parameters."""
+    angles = np.tile(phi, (len(x), 1))
+    angles[:, np.isnan(phi)] = x[:, 8:]
+    return angles
+
+
+def _free_angles(p: Complexes, phi: Floats, rng: np.random.Generator, free: int) -> Floats:
+    """Random angles (STARTS, free) near those of the given poses, or along a random turn where there are none."""
+    share = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(p)))])
+    known = ~np.isnan(phi)
+    if known.any():
+        base = np.interp(share, share[known], np.unwrap(phi[known]))[~known]
+        return np.asarray(base + rng.normal(0, 0.7, (STARTS, free)))
+    turn = rng.uniform(-2, 2, (STARTS, 1)) * share / share[-1]
+    return np.asarray((turn + rng.normal(0, 0.4, turn.shape))[:, ~known])
