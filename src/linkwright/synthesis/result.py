@@ -183,9 +183,9 @@ def ranking(
 ) -> NDArray[np.int64]:
     """Order of candidates: sound ones first, then by error, then by transmission angle.
 
-    Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to a tenth of a decade.
+    Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.
     """
-    step = np.where(error <= 1e-9 * size, -1e3, np.round(10 * np.log10(np.maximum(error, 1e-300))))
+    step = np.where(error <= 1e-9 * size, -1e3, np.round(1e3 * np.log10(np.maximum(error, 1e-300))))
     return np.asarray(np.lexsort((-transmission, step, ~sound)))
 
 

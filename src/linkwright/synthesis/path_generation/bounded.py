@@ -23,8 +23,9 @@ Linear = tuple[Complexes, Complexes, Complexes]
 
 #: Starts are moved this far inside the bounds, so that no sine begins at its turning point.
 INSIDE = 0.97
-#: Steps of the iteration and solutions carried to the end (timed, untimed); ratios that differ less are one solution.
-STEPS, FINISHED, ALIKE = (80, 140), (3, 8), 0.02
+#: Steps with the bounds as penalties (timed, untimed) and starts kept; steps inside the bounds; solutions carried to
+#: the end; ratios and coordinates that differ less are one solution. Then steps and tolerance of that end.
+NEAR, KEPT, INSIDE_STEPS, FINISHED, ALIKE = (40, 70), 40, 40, (3, 8), 0.02
 ROUGH, EXACT = (150, 1e-14), (300, 1e-16)
 
 
@@ -40,26 +41,34 @@ class BoundedPaths:
     def solve(self, free: Floats) -> tuple[Floats, Whole, Linear]:
         """Iterated solutions from the starts of the projection: ratios and angles, start numbers, z α β."""
         free_timing = int(not self.paths.demand.timed)
-        who = np.arange(len(free))
-        nearer, _, near = minimise(self.paths, free, keep=len(free) // 2, steps=12)
-        rows = np.concatenate([who, near])
+        near, _, rows = minimise(
+            with_differences(self.penalised), free, keep=KEPT, steps=NEAR[free_timing], halve=10
+        )
 
         def residual(q: Floats, chosen: Whole) -> Floats:
             return self.residual(self.measures(q, rows[chosen]), rows[chosen])
 
-        start = self.start(np.concatenate([free, nearer]), rows)
-        q, _, chosen = minimise(
-            with_differences(residual), start, keep=24, steps=STEPS[free_timing], halve=16
-        )
-        found = self.measures(q, rows[chosen])
-        measured = np.column_stack([found[:, :3], found[:, self.inner :]])
-        chosen_ones = _different(measured)[: FINISHED[free_timing]]
-        for i in chosen_ones:
-            found[i] = self.finish(found[i], int(rows[chosen[i]]), *ROUGH)
-        squares = (self.residual(found, rows[chosen]) ** 2).sum(1)
-        for i in sorted(chosen_ones, key=lambda j: float(squares[j]))[:2]:
-            found[i] = self.finish(found[i], int(rows[chosen[i]]), *EXACT)
-        return found[:, : self.inner], rows[chosen], self.linear(found, rows[chosen])
+        start = self.start(near, rows)
+        q, _, chosen = minimise(with_differences(residual), start, keep=16, steps=INSIDE_STEPS, halve=16)
+        rows = rows[chosen]
+        found = self.measures(q, rows)
+        best = _different(np.column_stack([found[:, :3], found[:, self.inner :]]))[: FINISHED[free_timing]]
+        for i in best:
+            found[i] = self.finish(found[i], int(rows[i]), *ROUGH)
+        squares = (self.residual(found, rows) ** 2).sum(1)
+        for i in sorted(best, key=lambda j: float(squares[j]))[:2]:
+            found[i] = self.finish(found[i], int(rows[i]), *EXACT)
+        return found[:, : self.inner], rows, self.linear(found, rows)
+
+    def penalised(self, free: Floats, who: Whole) -> Floats:
+        """Residuals of the projection (K, 2n), and how far lengths and coordinates lie beyond the bound (K, 5)."""
+        residual, z, alpha, beta = self.paths.fit(free, who)
+        crank = np.abs(alpha) + 1e-300
+        local = beta * alpha.conj() / crank
+        longest = crank / self._longest(free, who)
+        sizes = np.abs(np.stack([longest, local.real, local.imag, z.real, z.imag], 1)) / self.bound
+        beyond = np.log(np.maximum(sizes, 1.0))
+        return np.concatenate([residual, self.paths.demand.size * beyond], 1)
 
     def start(self, free: Floats, who: Whole) -> Floats:
         """Parameters q (K, m) of starts of the projection, moved into the bounds."""
