@@ -185,7 +185,7 @@ def ranking(
 
     Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.
     """
-    step = np.where(error <= 1e-9 * size, -1e3, np.round(1e3 * np.log10(np.maximum(error, 1e-300))))
+    step = np.where(error <= 1e-9 * size, -1e9, np.round(1e3 * np.log10(np.maximum(error, 1e-300))))
     return np.asarray(np.lexsort((-transmission, step, ~sound)))
 
 

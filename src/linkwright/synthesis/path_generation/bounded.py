@@ -25,7 +25,7 @@ Linear = tuple[Complexes, Complexes, Complexes]
 INSIDE = 0.97
 #: Steps with the bounds as penalties (timed, untimed) and starts kept; steps inside the bounds; solutions carried to
 #: the end; ratios and coordinates that differ less are one solution. Then steps and tolerance of that end.
-NEAR, KEPT, INSIDE_STEPS, FINISHED, ALIKE = (40, 70), 40, 40, (3, 8), 0.02
+NEAR, KEPT, WITHIN, FINISHED, ALIKE = (40, 50), 48, (40, 140), (3, 7), 0.02
 ROUGH, EXACT = (150, 1e-14), (300, 1e-16)
 
 
@@ -45,13 +45,7 @@ class BoundedPaths:
             with_differences(self.penalised), free, keep=KEPT, steps=NEAR[free_timing], halve=10
         )
 
-        def residual(q: Floats, chosen: Whole) -> Floats:
-            return self.residual(self.measures(q, rows[chosen]), rows[chosen])
-
-        start = self.start(near, rows)
-        q, _, chosen = minimise(with_differences(residual), start, keep=16, steps=INSIDE_STEPS, halve=16)
-        rows = rows[chosen]
-        found = self.measures(q, rows)
+        found, rows = self._iterated(near, rows, WITHIN[free_timing])
         best = _different(np.column_stack([found[:, :3], found[:, self.inner :]]))[: FINISHED[free_timing]]
         for i in best:
             found[i] = self.finish(found[i], int(rows[i]), *ROUGH)
@@ -59,6 +53,16 @@ class BoundedPaths:
         for i in sorted(best, key=lambda j: float(squares[j]))[:2]:
             found[i] = self.finish(found[i], int(rows[i]), *EXACT)
         return found[:, : self.inner], rows, self.linear(found, rows)
+
+    def _iterated(self, free: Floats, rows: Whole, steps: int) -> tuple[Floats, Whole]:
+        """Measures of starts iterated within the bounds, and their numbers."""
+
+        def residual(q: Floats, chosen: Whole) -> Floats:
+            return self.residual(self.measures(q, rows[chosen]), rows[chosen])
+
+        system = with_differences(residual)
+        q, _, chosen = minimise(system, self.start(free, rows), keep=16, steps=steps, halve=30)
+        return self.measures(q, rows[chosen]), rows[chosen]
 
     def penalised(self, free: Floats, who: Whole) -> Floats:
         """Residuals of the projection (K, 2n), and how far lengths and coordinates lie beyond the bound (K, 5)."""
