@@ -85,15 +85,9 @@ class TorqueWork:
         random = np.random.default_rng(0)
         self.table = self.both.start * random.uniform(0.995, 1.005, (designs, len(VARIED)))
 
-        gradient = self.both._gradient
-        self.plain, self.name, self.arrays = gradient.plain, gradient.value, self.both._arrays
-        self.full = np.repeat(self.both._base[None, :], designs, axis=0)
-        self.full[:, self.both._columns] = self.table
-
     def value(self) -> Floats:
         """The value of every design, by the stages that it needs."""
-        found = self.plain.evaluate(self.full, self.arrays, threads=1, backend=self.backend)  # type: ignore[arg-type]
-        return np.asarray(found[self.name], dtype=np.float64)
+        return self.both.values(self.table)
 
     def swept(self) -> Floats:
         """The same by a sweep."""

@@ -75,6 +75,7 @@ def test_weighted_sum_and_many_designs():
     )
     table = both.start * np.linspace(0.99, 1.01, 7)[:, None]
     values, gradients = both.many(table)
+    assert both.values(table) == pytest.approx(values, rel=1e-13)
     for row, value, gradient in zip(table, values, gradients, strict=True):
         (a, da), (b, db) = one(row), other(row)
         assert value == pytest.approx(2 * a - 0.1 * b, rel=1e-12)

@@ -78,6 +78,18 @@ class Objective:
 
     def many(self, values: ArrayLike, *, threads: int | None = 1) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, k) of many designs (designs, k)."""
+        return self._gradient.evaluate(
+            self._table(values), self._arrays, threads=threads, backend=self._backend
+        )
+
+    def values(self, values: ArrayLike, *, threads: int | None = 1) -> Floats:
+        """Values (designs,) alone of many designs (designs, k), for searches without gradients."""
+        found = self._gradient.plain.evaluate(
+            self._table(values), self._arrays, threads=threads, backend=self._backend
+        )
+        return np.asarray(found[VALUE])
+
+    def _table(self, values: ArrayLike) -> Floats:
         given = np.asarray(values, dtype=float)
         if given.ndim != 2 or given.shape[1] != len(self.names):
             raise RequestError(
@@ -85,7 +97,7 @@ class Objective:
             )
         table = np.repeat(self._base[None, :], len(given), axis=0)
         table[:, self._columns] = given
-        return self._gradient.evaluate(table, self._arrays, threads=threads, backend=self._backend)
+        return table
 
     def __repr__(self) -> str:
         return f"Objective({', '.join(self.names)})"
