@@ -42,7 +42,9 @@ def test_bash_completes_commands_options_choices_files_and_models(
 ) -> None:
     (tmp_path / "press.yaml").write_text("format: 1\n")
     script = printed("bash", capsys)
-    assert completed(script, "linkwright st", tmp_path) == {"structure", "study", "statics"}
+    expected = {name for name in commands.names() if name.startswith("st")}
+    assert {"structure", "study"} <= expected
+    assert completed(script, "linkwright st", tmp_path) == expected
     assert completed(script, "linkwright solve --ste", tmp_path) == {"--steps"}
     assert completed(script, "linkwright study --sampling ", tmp_path) == {"grid", "sobol"}
     assert completed(script, "linkwright solve x.yaml --lang ", tmp_path) == {"en", "zh"}

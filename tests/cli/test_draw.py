@@ -99,7 +99,7 @@ def test_png_and_pdf(tmp_path: Path) -> None:
         (["--velocities", "Q"], '--velocities: there is no point "Q"'),
         (["--dimensions", "jam"], 'did you mean "jaw"'),
         (["--dimensions", "O1:Q"], 'no point "Q"'),
-        (["--forces", "Q"], "no joint 'Q'"),
+        (["--forces", "Q"], 'no joint "Q"'),
         (["--overlay", "limits:jam"], 'did you mean "jaw"'),
         (["--at", "30"], "has no unit"),
         (["--at", "30 deg, 40 deg"], "more than one value"),

@@ -11,7 +11,7 @@ from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
-from linkwright.registry import nearest
+from linkwright.registry import no_such
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
@@ -58,9 +58,7 @@ def refuse_unknown_vectors(motion: Motion, options: argparse.Namespace) -> None:
     joints = motion.mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
-            offer = nearest(joint, list(joints))
-            hint = f"; did you mean {offer!r}?" if offer else ""
-            raise UsageError(f"--forces: there is no joint {joint!r}{hint}")
+            raise UsageError(Sentence("cli.about", name="--forces", cause=no_such("joint", joint, joints)))
 
 
 def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:

@@ -19,6 +19,7 @@ from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, iterated
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.groups import state_name
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
@@ -172,11 +173,8 @@ class Follower:
                 root = loops.newton(np.concatenate([rough, inputs]), 40)
                 exact = None if root is None else root[: loops.n]
         if exact is None:
-            said = ", ".join(f"{name} = {q:.6g}" for name, q in zip(loops.drivers, inputs, strict=True))
-            raise AssemblyError(
-                f"{self.mechanism.name!r}: the group without closed form cannot be put together near its drawing "
-                f"(input {said}); check the drawing's coordinates against the lengths"
-            )
+            said = tuple(f"{name} = {q:.6g}" for name, q in zip(loops.drivers, inputs, strict=True))
+            raise AssemblyError(Sentence("motion.not_near_drawing", name=self.mechanism.name, inputs=said))
         return exact
 
     @property

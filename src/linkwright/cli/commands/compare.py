@@ -11,6 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison
@@ -38,7 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
     say = session.say
     if len(options.files) < 2:
-        raise UsageError(f"linkwright compare: {say('compare.too_few')}")
+        raise UsageError(Sentence("cli.about", name="linkwright compare", cause=Sentence("compare.too_few")))
     weights, fluctuation = _weights(options.weights or [], say), _fluctuation(options.fluctuation, say)
     from linkwright.cli.source import read_model
     from linkwright.cli.tables import PICTURES, refuse_output

@@ -1,0 +1,76 @@
+"""Errors and findings are put into words in the catalogue: no English sentence stands where one is raised."""
+
+import ast
+import re
+from collections import Counter
+from pathlib import Path
+
+import linkwright
+
+ROOT = Path(linkwright.__file__).parent
+#: Errors of the program itself, which no user can do anything about.
+OF_THE_PROGRAM = {
+    "ValueError", "TypeError", "RuntimeError", "NotImplementedError", "AssertionError", "KeyError", "AttributeError",
+}  # fmt: skip
+#: Rooms whose sentences are still written in place, and at most how many; the number only falls.
+STILL_IN_PLACE = {"plot": 64}
+SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]{2,}")
+
+
+def is_english(node: ast.AST) -> bool:
+    """Whether an argument is a sentence written in place, plain or with values in it."""
+    match node:
+        case ast.Constant(value=str(text)):
+            return bool(SENTENCE.search(text))
+        case ast.JoinedStr(values=parts):
+            plain = "".join(part.value for part in parts if isinstance(part, ast.Constant))
+            return " " in plain and bool(re.search("[a-z]{3,}", plain))
+        case ast.BinOp(left=left, right=right):
+            return is_english(left) or is_english(right)
+        case ast.IfExp(body=body, orelse=other):
+            return is_english(body) or is_english(other)
+    return False
+
+
+def said(tree: ast.AST) -> list[ast.Call]:
+    """Calls that raise or note something a user reads."""
+    found = []
+    for node in ast.walk(tree):
+        match node:
+            case ast.Raise(exc=ast.Call() as call):
+                found.append(call)
+            case (
+                ast.Call(func=ast.Attribute(attr="error" | "remark"))
+                | ast.Call(func=ast.Name(id="Finding" | "Remark"))
+            ):
+                found.append(node)
+    return found
+
+
+def in_place(source: str) -> list[int]:
+    """Lines on which an English sentence stands where an error is raised or a finding noted."""
+    return [
+        call.lineno
+        for call in said(ast.parse(source))
+        if getattr(call.func, "id", getattr(call.func, "attr", "")) not in OF_THE_PROGRAM
+        and any(map(is_english, call.args))
+    ]
+
+
+def test_the_walk_finds_sentences() -> None:
+    assert in_place('raise LinkwrightError(f"the crank {name} does not turn")')
+    assert in_place('reader.error(node, place, "the frame does not move", "x")')
+    assert in_place('raise UsageError("not at all" if x else f"it has {y} steps")')
+    assert not in_place('raise LinkwrightError(Sentence("motion.bad_steps", steps=steps))')
+    assert not in_place('raise ValueError("the rows have other lengths")')
+
+
+def test_no_english_sentence_stands_where_an_error_is_raised() -> None:
+    counts: Counter[str] = Counter()
+    places = []
+    for path in sorted(ROOT.rglob("*.py")):
+        module = path.relative_to(ROOT)
+        lines = in_place(path.read_text(encoding="utf-8"))
+        counts[module.parts[0]] += len(lines)
+        places += [f"{module}:{line}" for line in lines]
+    assert {room: n for room, n in counts.items() if n > STILL_IN_PLACE.get(room, 0)} == {}, places
