@@ -118,7 +118,13 @@ class Followed:
         reached = back < len(branch.found)
         rows = branch.found[back[reached]].copy()
         rows[:, loops.n :] = q[order][reached]
-        found[order[reached]] = loops.polished(rows, 4)[0][:, : loops.n]
+        exact, last = loops.polished(rows, 4)
+        exact, moved = exact[:, : loops.n], np.abs(exact - rows)[:, : loops.n] / loops.scale
+        found[order[reached]] = exact
+        room = CORRECTION * np.abs((exact - self.coordinates[a]) / loops.scale).max(axis=1) + 1e-9
+        for i in order[reached][(moved.max(axis=1) > room) | (last > 1e-9)]:
+            own = follower.between(self.inputs[a], q[i], self.coordinates[a])
+            found[i] = own.last[: loops.n] if own.complete else math.nan
         return found
 
 
