@@ -52,7 +52,7 @@ def test_closed_errors_do_not_matter() -> None:
     assert b"fine" in done.stdout
 
 
-@pytest.mark.parametrize("wait", [0.05, 0.1, 0.2])
+@pytest.mark.parametrize("wait", [0.15, 0.3, 0.6])
 def test_an_interrupt_at_any_time_ends_quietly(wait: float) -> None:
     """From the moment Python itself is up, whether modules are being imported or the work is under way."""
     program = "print('up', flush=True); from linkwright.cli import main; raise SystemExit(main())"

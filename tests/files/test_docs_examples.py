@@ -54,6 +54,9 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for own, model in OWN.items():
         with files("linkwright.gallery").joinpath(f"{model}.yaml").open("rb") as source:
             (tmp_path / own).write_bytes(source.read())
+    (tmp_path / "designs").mkdir()
+    task = next(body for body in blocks(ROOT / "docs/en/how-to/synthesis.md", "yaml") if "synthesis:" in body)
+    (tmp_path / "feeder.yaml").write_text(task, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

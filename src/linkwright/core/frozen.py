@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import fields
-from typing import Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 K = TypeVar("K")
 V = TypeVar("V")
-S = TypeVar("S", bound=np.generic)
+S = TypeVar("S", bound="np.generic")
 
 
 class FrozenDict(dict[K, V]):
@@ -38,7 +40,8 @@ def locked(array: NDArray[S]) -> NDArray[S]:
 
 def frozen(value: Any) -> Any:
     """The same array or mapping, arrays within mappings too, read-only; everything else as it is."""
-    if isinstance(value, np.ndarray):
+    numpy = sys.modules.get("numpy")  # a model alone needs none
+    if numpy is not None and isinstance(value, numpy.ndarray):
         return locked(value)
     if isinstance(value, Mapping) and not isinstance(value, FrozenDict):
         return FrozenDict({key: frozen(each) for key, each in value.items()})

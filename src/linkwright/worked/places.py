@@ -248,7 +248,10 @@ class Places:
         rho = self._root(step, r.squared - h.squared, "m")
         self._mode_note(step, "mode_rrp", mode, (p, p, tip))
         slide = self.book.slide(guide.joint)
-        self.displacement(step, slide, along + rho if mode > 0 else along - rho)
+        ahead = (mode > 0) == (
+            guide.child == guide.connection.b
+        )  # words are seen along the guide of the file
+        self.displacement(step, slide, along + rho if ahead else along - rho)
         self.point(step, tip, zero + n.times(slide.s))
         arm = tip.place - p.place
         self.angle(step, joint.child, direction(arm.y, arm.x) - lean)
