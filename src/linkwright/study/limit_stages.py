@@ -16,15 +16,9 @@ from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin
 from linkwright.kinetostatics.site import limit_name
 from linkwright.model.signal_fields import Output
+from linkwright.study.load_slopes import RATES
 from linkwright.study.traced import VALID, Traced
 
-#: Names of an output's rate and second derivative among the motion's outputs.
-RATES = {
-    "angle": ("w:{0}", "g:{0}"),
-    "displacement": ("sv:{0}", "sa:{0}"),
-    "x": ("v:{0}.x", "a:{0}.x"),
-    "y": ("v:{0}.y", "a:{0}.y"),
-}
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
 
@@ -44,7 +38,7 @@ def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
     """Rate and second derivative of an output as traced values."""
     solver = traced.solver
     owner = traced.named.point_key(output.owner) if output.kind in ("x", "y") else output.owner
-    rate, second = (solver.outputs.value(name.format(owner)) for name in RATES[output.kind])
+    rate, second = (solver.outputs.value(name) for name in RATES[output.kind](owner))
     return rate, second
 
 
