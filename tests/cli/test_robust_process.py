@@ -68,6 +68,27 @@ def test_an_interrupt_at_any_time_ends_quietly(wait: float) -> None:
     assert process.returncode == 130
 
 
+def test_an_interrupt_that_hits_a_finalizer_is_not_lost() -> None:
+    program = """
+import signal, sys, time
+from linkwright.cli import process
+
+class Left:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+sys.unraisablehook = process._interrupt_again
+left = Left()
+try:
+    del left
+    time.sleep(20)
+except KeyboardInterrupt:
+    print("came again")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("came again\n", "")
+
+
 def test_an_interrupted_command_says_so(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -9,6 +9,9 @@ import sys
 #: Exit code of a process that was interrupted.
 INTERRUPTED = 130
 
+#: Seconds after which an interrupt that could not be raised comes again.
+AGAIN = 0.01
+
 
 def main() -> int:
     """Runs the command of the process's arguments and returns its exit code."""
@@ -32,8 +35,9 @@ def _leave(number: int, frame: object) -> None:
 
 def _interrupt_again(problem: sys.UnraisableHookArgs) -> None:
     """An interrupt that hit a place from which nothing can be raised comes once more, where it can."""
-    if issubclass(problem.exc_type, KeyboardInterrupt):
-        signal.raise_signal(signal.SIGINT)
+    if issubclass(problem.exc_type, KeyboardInterrupt) and hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        signal.setitimer(signal.ITIMER_REAL, AGAIN)  # raised here, it would be lost in this very hook
     else:
         sys.__unraisablehook__(problem)
 
