@@ -244,29 +244,45 @@ class _Search:
         return low
 
     def _poles(self) -> list[Passage]:
-        """Where two guides of a group become parallel, and its pin goes through infinity."""
+        """Where two guides of a group become parallel, and what slides on them goes through infinity."""
         placed = self.base.motion.placed
-        groups = {name: p.cuts[0].connection.joint for name, p in placed.items() if "sine" in p.facts}
-        if not groups:
+        slides = {
+            name: tuple(f"s:{step.joint}" for step in p.group.unknowns)
+            for name, p in placed.items()
+            if "sine" in p.facts
+        }
+        if not slides:
             return []
-        names = tuple(f"fact:{name}|sine" for name in groups)
+        names = tuple(f"fact:{name}|sine" for name in slides)
         rows = self._evaluate(names, np.arange(float(self.positions.count)), at_positions=True)
-        found = []
-        for (group, pin), name, row in zip(groups.items(), names, rows, strict=True):
-            sign = np.where(np.isfinite(row), np.where(row < 0.0, -1.0, 1.0), 0.0)
-            following = np.append(sign[1:], sign[0] if self.positions.closed else sign[-1])
-            for i in np.flatnonzero(sign * following < 0.0):
-                place = self._crossing(name, float(i))
-                ends = self._evaluate((f"p:{pin}.x", f"p:{pin}.y"), np.array([place - 1e-6, place + 1e-6]))
-                if not np.hypot(*(ends[:, 1] - ends[:, 0])) < mechanism_size(self.base.mechanism):
+        size, found = mechanism_size(self.base.mechanism), []
+        for (group, displacements), name, row in zip(slides.items(), names, rows, strict=True):
+            for place in self._crossings(name, row):
+                beside = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
+                if not (np.abs(np.diff(beside)) < size).all():
                     found.append(self._passage(group, place, 0.0, "pole"))
         return found
 
-    def _crossing(self, name: str, low: float) -> float:
-        """The place in the step after ``low`` where a value changes its sign."""
+    def _crossings(self, name: str, row: Floats) -> list[float]:
+        """Places where a sine changes its sign, between two positions or, going and coming back, beside one."""
+        sign = np.where(np.isfinite(row), np.where(row < 0.0, -1.0, 1.0), 0.0)
+        following = np.append(sign[1:], sign[0] if self.positions.closed else sign[-1])
+        change = np.flatnonzero(sign * following < 0.0)
+        places = [self._crossing(name, float(i), i + 1.0) for i in change]
+        for low, high in self._valleys(np.abs(row), NEAR**0.5):
+            if not np.isin(np.arange(low, high) % len(row), change).any():
+                place, least = self._lowest(name, low, high, float(sign[int(low) % len(row)]))
+                if least < 0.0:
+                    places += [self._crossing(name, low, place), self._crossing(name, place, high)]
+        return sorted(places)
+
+    def _crossing(self, name: str, low: float, high: float) -> float:
+        """The place between two where a value changes its sign."""
         start = np.array([low])
         first = np.sign(self._evaluate((name,), start)[0])
-        before = ends(lambda place: np.sign(self._evaluate((name,), place)[0]) == first, start, start + 1.0)
+        before = ends(
+            lambda place: np.sign(self._evaluate((name,), place)[0]) == first, start, np.array([high])
+        )
         return float(before[0])
 
     def _flips(self, p: Passage, blocked: NDArray[np.bool_]) -> tuple[float, float]:
@@ -313,10 +329,12 @@ class _Search:
         first, last = (-1.0, float(n)) if closed else (0.0, n - 1.0)
         return [(max(i - 1.0, first), min(i + 1.0, last)) for i in np.flatnonzero(lowest)]
 
-    def _lowest(self, name: str, low: float, high: float) -> tuple[float, float]:
-        """Place and value of the minimum."""
+    def _lowest(self, name: str, low: float, high: float, sign: float = 1.0) -> tuple[float, float]:
+        """Place and value of the minimum, of the value times ``sign``."""
         at, best = lowest(
-            lambda places: self._evaluate((name,), places[0])[0][None, :], np.array([low]), np.array([high])
+            lambda places: sign * self._evaluate((name,), places[0])[0][None, :],
+            np.array([low]),
+            np.array([high]),
         )
         return float(at[0]), float(best[0])
 
@@ -429,5 +447,9 @@ def notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, .
 
 def _note(p: Passage, positions: Positions) -> Sentence:
     name = next(iter(positions.coordinates))
-    where = f"{name} = " + (f"{np.degrees(p.at):.6g}°" if positions.rotary[name] else f"{p.at:.6g} m")
+    where = f"{name} = " + (
+        f"{round(np.degrees(p.at), 9) + 0.0:.6g}°"
+        if positions.rotary[name]
+        else f"{round(p.at, 12) + 0.0:.6g} m"
+    )
     return Sentence(f"passage.{p.kind}", links=tuple(p.group.split("+")), where=where)
