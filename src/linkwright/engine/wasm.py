@@ -1,0 +1,73 @@
+"""Programs as one WebAssembly module for browsers, by the same text that native code is made of.
+
+Vectors have two numbers (SIMD128). Square roots, absolute values and floors are instructions; the other functions are
+imported from the host (``env.linkwright_sin`` …), as native code takes them from the C library. The only other import
+is the memory. Function ``kernelN`` takes the address of program N's call block (see ``ir_kernel.Block``; 64 bits per
+place, addresses below 2³²).
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+from linkwright.engine.ir_kernel import ENTRY, kernel
+from linkwright.engine.ir_lookup import LOOKUP
+from linkwright.engine.lines import Lines
+from linkwright.engine.program import Program
+from linkwright.engine.wasm_module import linked
+
+_TRIPLE = "wasm32-unknown-unknown"
+WIDTH = 2
+_DEFINED = re.compile(r"define (?:internal )?[^@]*@(\w+)\(")
+
+
+def wasm_module(programs: Sequence[Program]) -> bytes | None:
+    """The module of some programs, every output stored; None where llvmlite or its WebAssembly target is missing."""
+    machine = _machines() if importlib.util.find_spec("llvmlite") else None
+    if machine is None:
+        return None
+    declared: dict[str, None] = {}
+    bodies: list[str] = []
+    level = 3
+    for number, program in enumerate(programs):
+        text, wanted = kernel(Lines.of(program), WIDTH, None)
+        text = text.replace(f"@{ENTRY}(", f"@kernel{number}(").replace(f"@{LOOKUP}", f"@{LOOKUP}_{number}_")
+        level = min(level, wanted)
+        for line in text.splitlines():
+            if line.startswith("declare "):
+                declared[line] = None
+            else:
+                bodies.append(line)
+    defined = [name for line in bodies if (found := _DEFINED.match(line)) for name in found.groups()]
+    exports = {f"kernel{number}": defined.index(f"kernel{number}") for number in range(len(programs))}
+    return linked(_object("\n".join([*declared, *bodies, ""]), machine[level]), exports)
+
+
+def _object(text: str, machine: Any) -> bytes:
+    import llvmlite.binding as binding
+
+    module = binding.parse_assembly(text)
+    module.triple = machine.triple
+    module.data_layout = str(machine.target_data)
+    return bytes(machine.emit_object(module))
+
+
+@cache
+def _machines() -> dict[int, Any] | None:
+    """The compilers for WebAssembly by how much they optimise."""
+    try:
+        import llvmlite.binding as binding
+
+        binding.initialize_all_targets()
+        binding.initialize_all_asmprinters()
+        target = binding.Target.from_triple(_TRIPLE)
+        return {
+            level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory")
+            for level in (0, 3)
+        }
+    except (ImportError, OSError, RuntimeError):
+        return None

@@ -1,0 +1,74 @@
+"""Programs and cycle programs evaluated by Node, with the engine that pages carry."""
+
+from __future__ import annotations
+
+import base64
+import json
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.javascript import javascript
+from linkwright.engine.portable import Kernels
+from linkwright.engine.program import Program
+from linkwright.engine.table import Tables
+from linkwright.engine.wasm import wasm_module
+
+NODE = shutil.which("node")
+needs_node = pytest.mark.skipif(NODE is None, reason="no Node on this machine")
+
+
+def work(
+    what: Program | CycleProgram,
+    values: Mapping[str, float],
+    positions: Mapping[str, Any],
+    n: int,
+    *,
+    fields: Mapping[str, Any] | None = None,
+    starts: Sequence[float] = (),
+    tables: Tables | None = None,
+) -> dict[str, Any]:
+    """One evaluation of one design as plain data."""
+    kernels = Kernels()
+    stages = kernels.stages(what) if isinstance(what, CycleProgram) else None
+    if isinstance(what, Program):
+        kernels.number(what)
+    names = [f"k{number}" for number in range(len(kernels.programs))]
+    module = wasm_module(kernels.programs)
+    texts = [javascript(each, name) for each, name in zip(kernels.programs, names, strict=True)]
+    return {
+        "programs": kernels.described(),
+        "stages": stages,
+        "module": module and base64.b64encode(module).decode(),
+        "text": "\n".join(texts),
+        "names": names,
+        "values": dict(values),
+        "positions": {name: _plain(row) for name, row in positions.items()},
+        "fields": {name: _plain(row) for name, row in (fields or {}).items()},
+        "starts": list(starts),
+        "tables": {name: table.numbers.tolist() for name, table in (tables or {}).items()},
+        "n": n,
+    }
+
+
+def _plain(row: Any) -> list[float | None]:
+    return [None if np.isnan(x) else float(x) for x in np.asarray(row, dtype=float)]
+
+
+def in_node(works: Sequence[dict[str, Any]], folder: Path) -> list[dict[str, dict[str, Any]]]:
+    """Results of the works, by ``wasm`` and ``text``, by the names of the outputs or cycle values."""
+    assert NODE is not None
+    engine = files("linkwright") / "page" / "built" / "engine.mjs"
+    job, result = folder / "job.json", folder / "result.json"
+    job.write_text(json.dumps({"works": list(works)}))
+    runner = Path(__file__).with_name("engine_in_node.mjs")
+    subprocess.run([NODE, str(runner), str(engine), str(job), str(result)], check=True, timeout=120)
+    found: list[dict[str, dict[str, Any]]] = json.loads(result.read_text())
+    return found
