@@ -8,6 +8,7 @@ import pytest
 import linkwright as lw
 from linkwright import gallery, words
 from linkwright.cli import main
+from linkwright.plot.diagrams.diagram_by_name import kinds
 
 #: Words that stay: identifiers of commands, options, files, units, symbols.
 LATIN = re.compile(r"[A-Za-z][A-Za-z']{2,}")
@@ -44,6 +45,14 @@ def test_frame_and_driver_have_their_words(capsys: pytest.CaptureFixture[str]) -
         1
     ].out
     assert "frame, crank" in english
+
+
+def test_the_driver_without_a_name_has_its_word(capsys: pytest.CaptureFixture[str]) -> None:
+    """Files with one driver give it no name; names that a file gives stay as they are."""
+    said = shown(capsys, "structure", "gallery:jaw_crusher_sixbar")
+    assert "铰链式颚式破碎机，六杆" in said and not re.search("driver|Hinged", said)
+    several = shown(capsys, "structure", "gallery:excavator")
+    assert all(name in several for name in lw.load("gallery:excavator").drivers)
 
 
 BASE = (gallery.file("crank_rocker")).read_text(encoding="utf-8")
@@ -115,6 +124,11 @@ def test_findings_of_damaged_files_hold_no_english(
         ["machine", "gallery:crank_rocker", "--fluctuation", "0"],
         ["balance", "gallery:excavator", "--radius", "10mm"],
         ["draw", "gallery:crank_rocker", "--paths", "Q", "--output", "a.svg"],
+        ["draw", "gallery:crank_rocker", "--overlay", "limitz", "--output", "a.svg"],
+        ["draw", "gallery:crank_rocker", "--output", "a.svg", "--width", "3"],
+        ["plot", "gallery:crank_rocker", "--kind", "torqe", "--output", "a.svg"],
+        ["plot", "gallery:crank_rocker", "--kind", "reactions", "--output", "a.svg"],
+        ["animate", "gallery:crank_rocker", "--output", "a.xyz"],
     ],
 )
 def test_refusals_hold_no_english(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
@@ -123,8 +137,14 @@ def test_refusals_hold_no_english(arguments: list[str], capsys: pytest.CaptureFi
     model = {word.lower() for name in ("crank_rocker", "kite", "excavator") for word in LATIN.findall(
         (gallery.file(name)).read_text(encoding="utf-8"))}  # fmt: skip
     own = {word.lower() for each in arguments for word in LATIN.findall(each)}
-    names = {word for name in [*lw.metrics.METRICS, *gallery.names()] for word in name.split("_")}
-    known = KNOWN | model | own | names | {"linkwright", "help", "gallery", "travel", "point", "flywheel"}
+    names = {word for name in [*lw.metrics.METRICS, *gallery.names(), *kinds()] for word in name.split("_")}
+    known = (
+        KNOWN
+        | model
+        | own
+        | names
+        | {"linkwright", "help", "gallery", "travel", "point", "flywheel", "faded"}
+    )
     left = {
         word.lower() for word in LATIN.findall(re.sub(r"\.\w+|--\w+|\w+_\w+|\w+\.[\w.]+", "", said))
     } - known

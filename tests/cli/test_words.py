@@ -1,5 +1,6 @@
 """The catalogue: both languages have the same keys, with the same values in their texts."""
 
+import re
 import string
 
 import pytest
@@ -46,3 +47,16 @@ def test_unknown_keys_and_languages_are_refused() -> None:
 def test_values_are_put_in() -> None:
     assert words.speaker("en")("cli.written", path="a.csv") == "written: a.csv"
     assert "a.csv" in words.speaker("zh")("cli.written", path="a.csv")
+
+
+#: Half-width marks where a Chinese sentence goes on; between a key and its value of the file format they stay.
+HALF_WIDTH = re.compile(r"[一-鿿），。；][,;!?]|[,;?] ?[一-鿿]|[一-鿿）]:[^ 一-鿿]|\([^()]*[一-鿿][^()]*\)")
+SYNTAX = re.compile(r"\[从, 到\]|\{\{.*?\}\}|gallery:名称|\d:[一-鿿]|=值,值")
+
+
+@pytest.mark.parametrize("area", words.areas("zh"))
+def test_chinese_sentences_have_chinese_punctuation(area: str) -> None:
+    found = {
+        key: HALF_WIDTH.findall(SYNTAX.sub("", text)) for key, text in words.catalogue(area, "zh").items()
+    }
+    assert {key: marks for key, marks in found.items() if marks} == {}

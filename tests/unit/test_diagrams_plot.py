@@ -173,7 +173,7 @@ def test_files_are_written_whole_or_not_at_all(forces: lw.Forces, tmp_path: Path
 
 
 def test_refusals_say_what_there_is(forces: lw.Forces) -> None:
-    with pytest.raises(LinkwrightError, match=r'did you mean "torque"\? the kinds are .*velocity_polygon'):
+    with pytest.raises(LinkwrightError, match=r'did you mean "torque"\? \(one of: .*velocity_polygon'):
         plot(forces, "torqe")
     with pytest.raises(LinkwrightError, match="O5"):
         plot(forces, "hodograph", joint="O55")

@@ -54,7 +54,7 @@ def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
     unsure = np.flatnonzero(motion.ok & ~way.certified)
     if len(unsure):
         near = int(unsure[np.argmin(way.margin[unsure])])
-        groups = "; ".join(", ".join(group.links) for group in iterated(motion.structure))
+        groups = [tuple(group.links) for group in iterated(motion.structure)]
         said.append(
             Sentence(
                 "passage.followed",

@@ -30,6 +30,7 @@ from linkwright.plot.svg.element import Element, Floats, circle, group
 from linkwright.plot.svg.render import png
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -78,13 +79,11 @@ def animate(
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
     if language not in LANGUAGES:
-        raise RequestError(
-            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
-        )
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
     if not 2 <= frames <= 2000:
-        raise RequestError(f"an animation of {frames} frames cannot be made; give 2 to 2000")
+        raise RequestError(Sentence("picture.bad_frames", frames=frames))
     if seconds is not None and not 0.05 <= seconds <= 3600:
-        raise RequestError(f"a cycle of {seconds} s cannot be shown; give 0.05 to 3600 s")
+        raise RequestError(Sentence("picture.bad_seconds", seconds=seconds))
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
@@ -191,7 +190,7 @@ class Animation:
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
             raise RequestError(
-                f"a film cannot be {width:.12g} pixels wide; give a width from {WIDTHS[0]} to {WIDTHS[1]}"
+                Sentence("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
             )
         if suffix == ".svg":
             return write_whole(path, self.svg.encode())
@@ -203,7 +202,7 @@ class Animation:
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
             return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
-        raise RequestError(f'{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4')
+        raise RequestError(Sentence("picture.no_film_suffix", path=path, suffix=suffix))
 
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None

@@ -67,10 +67,11 @@ def _table(structure: Structure, say: Say) -> list[str]:
 
 def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
     drivers = ", ".join(group.drivers)
+    own = "_unnamed" if group.drivers == ("driver",) else ""
     if group.assur_class == 1 and group.drivers:
-        what = say("structure_text.driven", drivers=drivers)
+        what = say(f"structure_text.driven{own}", drivers=drivers)
     else:
-        key = "class_order_driven" if group.drivers else "class_order"
+        key = f"class_order_driven{own}" if group.drivers else "class_order"
         level = numeral(group.assur_class, say)
         what = say(f"structure_text.{key}", level=level, order=group.assur_order, drivers=drivers)
     outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))

@@ -8,7 +8,7 @@ from typing import Protocol, runtime_checkable
 
 from linkwright.words import say
 
-_OWN_NAMES = re.compile(r"(?<![\w.-])(?:frame|driver)(?![\w-])")
+_OWN_NAMES = re.compile(r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b")
 
 
 @runtime_checkable
@@ -49,7 +49,7 @@ def in_language(text: str, language: str) -> str:
 
 
 def in_words(subject: str, language: str) -> str:
-    """A subject with the names that the program itself gives, ``frame`` and ``driver``, in a language."""
+    """A subject with the names that the program itself gives (frame, driver, max→min) in a language."""
     if language == "en":
         return subject
     return _OWN_NAMES.sub(lambda found: say(f"nouns.{found[0]}", language), subject)

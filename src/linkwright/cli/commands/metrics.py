@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
-from linkwright.words import Say
+from linkwright.words import Say, say
 from linkwright.words.sentence import Sentence, in_words
 
 if TYPE_CHECKING:
@@ -174,7 +174,7 @@ def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -
 
     rows = []
     for row, plain in zip(table, table.data(), strict=True):
-        remark = "; ".join(remark.text(language) for remark in row.remarks)
+        remark = say("finding.semicolon", language).join(remark.text(language) for remark in row.remarks)
         rows.append({**plain, "limit": METRICS[row.metric].limit, "remark": remark})
     found: dict[str, Any] = {
         "ok": trouble is None,

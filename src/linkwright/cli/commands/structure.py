@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.session import Session
+from linkwright.cli.source import read_model
 from linkwright.words import Say
 
 if TYPE_CHECKING:
@@ -23,9 +24,8 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
     from linkwright.kinematics.rank import analysed, rank_sentence
-    from linkwright.model.file import load
 
-    mechanism = load(options.file)
+    mechanism, _ = read_model(options.file, session)
     built = analysed(mechanism)
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = _program(mechanism, options.forces) if options.program or options.forces else None

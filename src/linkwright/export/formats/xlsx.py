@@ -183,7 +183,9 @@ def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
     for row in results.metrics:
         data = row.data()
         label = METRICS[row.metric]().label_in(results.language)
-        remark = "; ".join(each.text(results.language) for each in row.remarks)
+        remark = say("finding.semicolon", results.language).join(
+            each.text(results.language) for each in row.remarks
+        )
         yield label, row.subject, row.value, row.unit, row.at, data["at_unit"] or "", remark
 
 

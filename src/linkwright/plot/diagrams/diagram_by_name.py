@@ -14,9 +14,10 @@ from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.plot.svg.characters import printable
-from linkwright.registry import nearest
+from linkwright.registry import listed
 from linkwright.units import parse
 from linkwright.words import LANGUAGES
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import Balancing
@@ -92,9 +93,7 @@ def plot(
             sense for the mechanism, no matplotlib, or no font for Chinese.
     """
     if language not in LANGUAGES:
-        raise RequestError(
-            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
-        )
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
     own = _own_kind(result, kind)
     sources = [] if own else _sources(cast(_Solved, result), static=static)
     name = own or kind or _usual(cast(_Solved, result))
@@ -113,7 +112,7 @@ def plot(
         name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
     )
     if size is not None and not all(1.0 <= each <= 100.0 for each in size):
-        raise RequestError(f"a diagram cannot be {size[0]:g} × {size[1]:g} inches large; give 1 to 100 each")
+        raise RequestError(Sentence("picture.bad_inches", wide=size[0], tall=size[1]))
     request = Request(
         of=(of,) if isinstance(of, str) else tuple(of),
         joint=joint,
@@ -142,9 +141,7 @@ def require_kind(name: str) -> None:
     """Raises LinkwrightError, with the nearest kind and the list of all, where there is no kind of that name."""
     if name in DIAGRAMS:
         return
-    offer = nearest(name, list(DIAGRAMS))
-    hint = f'did you mean "{offer}"? ' if offer else ""
-    raise RequestError(f'there is no kind of diagram "{name}"; {hint}the kinds are {", ".join(DIAGRAMS)}')
+    raise RequestError(Sentence("picture.no_kind", name=name, hint=listed(name, DIAGRAMS, "one_of")))
 
 
 def require_options(name: str, given: Sequence[str]) -> None:
@@ -152,10 +149,8 @@ def require_options(name: str, given: Sequence[str]) -> None:
     known = DIAGRAMS[name].options if name in DIAGRAMS else RESULT_DIAGRAMS[name].options
     for option in given:
         if option not in known:
-            users = ", ".join(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
-            raise RequestError(
-                f'a diagram of the kind {name} has no use for "{option}"; leave it out, or draw one of {users}'
-            )
+            users = tuple(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
+            raise RequestError(Sentence("picture.no_use", kind=name, option=option, users=users))
 
 
 def _own_kind(result: object, kind: str | None) -> str | None:
@@ -168,9 +163,7 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     if kind is None:
         return next(name for name in own if RESULT_DIAGRAMS[name].usual)
     if kind not in own:
-        raise RequestError(
-            f'there is no kind of diagram "{kind}" of this result; the kinds are {", ".join(own)}'
-        )
+        raise RequestError(Sentence("picture.not_of_this", kind=kind, names=tuple(own)))
     return kind
 
 
@@ -182,9 +175,9 @@ def _sources(result: _Solved, *, static: bool) -> list[Source]:
     else:
         found = [Source(result, static=static)]
     if not found:
-        raise RequestError("there is nothing to draw; give at least one result")
+        raise RequestError(Sentence("picture.nothing_given"))
     if len(found) > 1 and len({source.label for source in found}) < len(found):
-        raise RequestError("results of equal names cannot be told apart; give labels: plot({'a': …, 'b': …})")
+        raise RequestError(Sentence("picture.equal_names"))
     return found
 
 
@@ -199,7 +192,5 @@ def _place(at: float | str | None, source: Source) -> float | None:
     if not isinstance(at, str):
         return at
     if not source.mechanism.drivers:
-        raise RequestError(
-            f"{source.mechanism.name!r} has no driver, so there is no input to set; leave at out"
-        )
+        raise RequestError(Sentence("picture.no_driver", name=source.mechanism.name))
     return parse(at, source.input_dimension)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from linkwright.errors import LinkwrightError
+from linkwright.words.sentence import Sentence
 
 #: Families that hold Chinese characters, the ones that look best first.
 CHINESE = (
@@ -14,10 +15,7 @@ CHINESE = (
     "Arial Unicode MS", "Microsoft JhengHei", "AR PL UMing CN", "AR PL UKai CN", "SimSun",
 )  # fmt: skip
 LATIN = "DejaVu Sans"
-REMEDY = (
-    "install one and try again (Debian, Ubuntu: apt-get install fonts-noto-cjk; Fedora: dnf install "
-    "google-noto-sans-cjk-fonts; Windows and macOS have one)"
-)
+REMEDY = Sentence("picture.install_font")
 
 
 @lru_cache(maxsize=1)
@@ -40,9 +38,7 @@ def families(language: str) -> list[str]:
     chinese = chinese_font()
     if language == "zh":
         if chinese is None:
-            raise LinkwrightError(
-                f"no installed font can write Chinese, so the labels would be boxes; {REMEDY}"
-            )
+            raise LinkwrightError(Sentence("picture.boxes", remedy=REMEDY))
         return [chinese, LATIN]
     return [LATIN] if chinese is None else [LATIN, chinese]
 

@@ -36,6 +36,7 @@ from linkwright.plot.diagrams.scaled_page import (
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import significant, unit_of
 from linkwright.plot.force_names import link_numbers, reaction_index
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -132,7 +133,7 @@ class ForcePolygon(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise RequestError("force polygons show one mechanism at one position; give one result")
+            raise RequestError(Sentence("picture.one_mechanism_forces"))
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

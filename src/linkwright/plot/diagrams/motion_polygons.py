@@ -36,6 +36,7 @@ from linkwright.plot.diagrams.scaled_page import (
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import significant
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,14 +71,12 @@ class MotionPolygons(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise RequestError("a polygon shows one mechanism at one position; give one result")
+            raise RequestError(Sentence("picture.one_mechanism"))
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
         if float(np.ptp(images, axis=0).max()) <= 0:
-            raise LinkwrightError(
-                "nothing moves at this position, so there is no polygon; choose another input: at=…"
-            )
+            raise LinkwrightError(Sentence("picture.nothing_moves"))
         return self._sheet(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
 
     def _sheet(

@@ -16,6 +16,7 @@ from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import reaction_pairs
+from linkwright.words.sentence import Sentence
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output | str:
@@ -99,9 +100,7 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
-            raise RequestError(
-                f"{mechanism.name!r} has no joint that carries a force there; name another joint"
-            )
+            raise RequestError(Sentence("picture.no_force_there", name=mechanism.name))
         return max(on_frame or pairs, key=lambda pair: size(forces.reaction(pair[0], on=pair[1])))
     if on is None and joint in mechanism.joints:
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]

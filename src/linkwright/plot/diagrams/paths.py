@@ -18,6 +18,7 @@ from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.position import LINK, draw_position, reach
 from linkwright.plot.diagrams.source import Source
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -98,7 +99,5 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 def _point(source: Source, name: str) -> str:
     found = output_named(source.mechanism, name)
     if isinstance(found, Output):
-        raise RequestError(
-            f'"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D'
-        )
+        raise RequestError(Sentence("picture.no_path", name=name))
     return found

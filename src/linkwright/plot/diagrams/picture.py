@@ -15,6 +15,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.diagrams.fonts import REMEDY, families
 from linkwright.plot.svg.render import MOST_PIXELS
 from linkwright.whole_files import write_whole
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,7 +59,7 @@ def style(language: str) -> Iterator[None]:
     try:
         import matplotlib
     except ImportError:
-        raise LinkwrightError("diagrams need matplotlib; install it: pip install linkwright[plot]") from None
+        raise LinkwrightError(Sentence("picture.diagrams_need")) from None
     settings: Any = {**_STYLE, "font.family": families(language)}
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
@@ -86,11 +87,16 @@ class Diagram:
         wide, tall = self.figure.get_size_inches()
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
             raise RequestError(
-                f"a diagram of {wide:.3g} × {tall:.3g} inches cannot have {dpi:.12g} dots per inch; give 1 to "
-                f"{int((MOST_PIXELS / (wide * tall)) ** 0.5)}"
+                Sentence(
+                    "picture.bad_dots",
+                    wide=wide,
+                    tall=tall,
+                    dpi=dpi,
+                    most=int((MOST_PIXELS / (wide * tall)) ** 0.5),
+                )
             )
         if ending not in ENDINGS:
-            raise RequestError(f'the ending "{ending}" is no kind of picture; use {", ".join(ENDINGS)}')
+            raise RequestError(Sentence("picture.no_ending", ending=ending, names=ENDINGS))
         return self._bytes(ending[1:], dpi)
 
     def svg(self) -> str:
@@ -139,9 +145,7 @@ def _no_boxes() -> Iterator[None]:
         try:
             yield
         except UserWarning as problem:
-            raise RequestError(
-                f"a text of the diagram cannot be written with the fonts there are ({problem}); {REMEDY}"
-            ) from None
+            raise RequestError(Sentence("picture.no_glyph", problem=problem, remedy=REMEDY)) from None
 
 
 def new_figure(size: tuple[float, float]) -> Figure:

@@ -17,6 +17,7 @@ from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Extremes, Source
 from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import reaction_pairs
+from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("reactions")
@@ -45,10 +46,7 @@ class Reactions(OverInput):
 def require_forces(forces: Forces) -> None:
     """Raises LinkwrightError where no joint carries anything."""
     if not loaded(forces):
-        raise RequestError(
-            f"no joint of {forces.mechanism.name!r} carries a force: its links have no mass and there are no loads; "
-            "give masses (mass: 5 kg) or loads (loads: …)"
-        )
+        raise RequestError(Sentence("picture.no_forces", name=forces.mechanism.name))
 
 
 def _of_all(source: Source, request: Request) -> Panel:

@@ -22,6 +22,7 @@ from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.plot.svg.characters import one_line
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
@@ -57,7 +58,7 @@ class Source:
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
         if static and isinstance(result, Forces) and not result.static:
-            raise RequestError("these forces hold inertia forces; give the motion instead")
+            raise RequestError(Sentence("picture.with_inertia"))
         self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static
@@ -79,9 +80,7 @@ class Source:
     def motion(self) -> Motion:
         """The motion."""
         if isinstance(self._result, SteadyRunning):
-            raise RequestError(
-                "the result of steady running holds no motion; it has the diagrams speed and energy; else give forces"
-            )
+            raise RequestError(Sentence("picture.no_motion"))
         if isinstance(self._result, Forces):
             return self._result.motion
         found = (
@@ -91,7 +90,9 @@ class Source:
         )
         if not found.ok.any():
             raise LinkwrightError(
-                f"{found.mechanism.name!r} reaches no position: {found.outcomes[0].sentence}"
+                Sentence(
+                    "picture.reaches_none", name=found.mechanism.name, sentence=found.outcomes[0].sentence
+                )
             )
         return found
 
@@ -169,14 +170,9 @@ class Source:
         """The input, or the time where drivers follow laws of their own, up to the cycle's end."""
         motion = self.motion
         if not motion.mechanism.drivers:
-            raise RequestError(
-                f"{motion.mechanism.name!r} has no driver, so there is no input to draw curves over; draw its "
-                "force_polygon, or add a driver"
-            )
+            raise RequestError(Sentence("picture.no_input", name=motion.mechanism.name))
         if motion.steps < 2:
-            raise RequestError(
-                f"{motion.mechanism.name!r} is solved at one position only; solve a cycle to draw curves"
-            )
+            raise RequestError(Sentence("picture.one_position_only", name=motion.mechanism.name))
         name, driver = next(iter(motion.mechanism.drivers.items()))
         if not all(isinstance(each.law, ConstantSpeed) for each in motion.mechanism.drivers.values()):
             end = [] if self._end is None else [self._end]

@@ -12,6 +12,7 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
 from linkwright.plot.diagrams.source import Source
+from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("torque")
@@ -27,7 +28,7 @@ class Torque(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         motion, forces, say = source.motion, source.forces, request.say
         if not motion.mechanism.drivers:
-            raise RequestError(f"{motion.mechanism.name!r} has no driver, so it has no input torque")
+            raise RequestError(Sentence("picture.no_torque", name=motion.mechanism.name))
         found = []
         several = len(motion.mechanism.drivers) > 1
         for name in motion.mechanism.drivers:

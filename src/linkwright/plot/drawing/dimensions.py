@@ -16,6 +16,7 @@ from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points
+from linkwright.words.sentence import Sentence
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)
@@ -81,9 +82,7 @@ def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) 
         if isinstance(each, str):
             found = list(_of_link(machine, each.removesuffix(".length"), index))
             if not found:
-                raise RequestError(
-                    f'link "{each}" has one point, so it has no length; name two points instead'
-                )
+                raise RequestError(Sentence("picture.no_length", link=each))
             yield from found
         else:
             start, end = (machine.paper(*find_point(machine.motion.mechanism, name), index) for name in each)

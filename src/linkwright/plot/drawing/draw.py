@@ -31,6 +31,7 @@ from linkwright.plot.force_names import carries
 from linkwright.plot.svg.element import Element, Floats, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import LANGUAGES, say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -89,9 +90,7 @@ def draw(
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
     if language not in LANGUAGES:
-        raise RequestError(
-            f'there are no words in the language "{language}"; use one of {", ".join(LANGUAGES)}'
-        )
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
@@ -217,7 +216,7 @@ def laid_out_beside(
 
 def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
     if sum(each is not None for each in (position, at, time)) > 1:
-        raise RequestError("a drawing shows one position; give one of position, at and time")
+        raise RequestError(Sentence("picture.one_position"))
     if at is not None:
         return at_input(motion, at).checked()
     if time is not None:
@@ -230,12 +229,15 @@ def _shown(motion: Motion, position: int | None, at: At | None, time: float | No
 def _index(motion: Motion, position: int) -> int:
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
-            f"position {position} does not exist; the motion of {motion.mechanism.name!r} has the positions 0 to "
-            f"{motion.steps - 1}"
+            Sentence(
+                "picture.no_position", position=position, name=motion.mechanism.name, last=motion.steps - 1
+            )
         )
     index = int(position) % motion.steps
     if not motion.ok[index]:
-        raise LinkwrightError(f"position {index} cannot be drawn: {motion.outcomes[index].sentence}")
+        raise LinkwrightError(
+            Sentence("picture.not_drawn", position=index, sentence=motion.outcomes[index].sentence)
+        )
     return index
 
 
@@ -248,10 +250,7 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown],
         return [Shown(denser, each) for each in indices], "lw-dashed"
     if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
         return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
-    raise RequestError(
-        f'overlay "{overlay}" is unknown; give positions, "limits", "limits:LINK" or "faded:8" '
-        f"(1 to {MOST_FADED} positions)"
-    )
+    raise RequestError(Sentence("picture.bad_overlay", overlay=overlay, most=MOST_FADED))
 
 
 def _spread(motion: Motion, count: int) -> list[int]:

@@ -12,7 +12,8 @@ from linkwright.plot.drawing.picture import Box
 from linkwright.plot.svg.element import Element, Floats, element, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
-from linkwright.registry import nearest
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
 
@@ -77,6 +78,4 @@ def title_of(columns: Mapping[str, Floats], name: str) -> str:
         if name in (title, title.split(" [", 1)[0]):
             return title
     bare = [title.split(" [", 1)[0] for title in columns]
-    offer = nearest(name, bare)
-    hint = f'; did you mean "{offer}"?' if offer else ""
-    raise RequestError(f'there is no result "{name}" to draw as a curve{hint}')
+    raise RequestError(Sentence("picture.no_result", name=name, hint=offered(name, bare)))

@@ -14,6 +14,7 @@ from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.plot.svg.element import Floats
+from linkwright.words.sentence import Sentence
 
 At = float | Mapping[str, float]
 
@@ -29,7 +30,7 @@ class Shown:
         """The same; raises LinkwrightError where the position was not reached."""
         if not self.motion.ok[self.index]:
             sentence = self.motion.outcomes[self.index].sentence
-            raise LinkwrightError(f"the position cannot be drawn: {sentence}")
+            raise LinkwrightError(Sentence("picture.the_position", sentence=sentence))
         return self
 
 
@@ -93,7 +94,7 @@ def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition,
     name = output or _last_to_and_fro(motion)
     found = limit_positions(motion, name)
     if not found:
-        raise RequestError(f'"{name}" does not turn back in this motion, so it has no limit positions')
+        raise RequestError(Sentence("picture.no_limit_positions", name=name))
     high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
     return (high,) if high is low else (high, low)
 
@@ -111,7 +112,4 @@ def _last_to_and_fro(motion: Motion) -> str:
                 angle = motion.link(link).angle
                 if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
                     return link
-    raise RequestError(
-        f"no link of {motion.mechanism.name!r} on the frame goes to and fro, so there are no limit positions; "
-        "name a link or a guide, such as limits:coupler"
-    )
+    raise RequestError(Sentence("picture.none_to_and_fro", name=motion.mechanism.name))

@@ -18,6 +18,7 @@ from linkwright.plot.drawing.view import View
 from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -380,10 +381,7 @@ def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
 def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
-        raise RequestError(
-            "the forces belong to another motion than the one that is drawn; draw forces.motion, or solve the forces "
-            "of this motion"
-        )
+        raise RequestError(Sentence("picture.other_motion"))
 
 
 def _largest(values: Mapping[str, Floats], indices: Sequence[int]) -> float:

@@ -11,6 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import Vec
+from linkwright.words.sentence import Sentence
 
 DIAGONAL = 620.0
 SHORTEST_BAR = 26.0
@@ -93,7 +94,7 @@ def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
     everything = np.concatenate([*cloud, *pins])
     everything = everything[np.isfinite(everything).all(axis=1)]
     if not len(everything):
-        raise LinkwrightError(f"no position of {mechanism.name!r} was reached, so there is nothing to draw")
+        raise LinkwrightError(Sentence("picture.no_position_reached", name=mechanism.name))
     low, high = everything.min(axis=0), everything.max(axis=0)
     diagonal = float(np.hypot(*(high - low))) or 1.0
     scale = DIAGONAL / diagonal

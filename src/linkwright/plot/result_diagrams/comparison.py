@@ -14,9 +14,11 @@ from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.diagrams.units import unit_of
+from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -73,9 +75,7 @@ class PivotHodograph(ResultKind):
     def draw(self, result: Comparison, request: Request) -> Figure:
         overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
         if overlay is None:
-            raise RequestError(
-                "the alternatives carry no loads or masses, so no pivot has a reaction; give some"
-            )
+            raise RequestError(Sentence("picture.no_pivot_reactions"))
         unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
         figure = new_figure(request.size or (6.4, 5.4))
         axes, legend = figure.subplots(), Legend()
@@ -98,7 +98,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     known = {each.name: each for each in result.curves if each.name != HODOGRAPH}
     for name in names:
         if name not in known:
-            raise RequestError(f"there is no curve {name!r} of this comparison; there is {', '.join(known)}")
+            raise RequestError(Sentence("picture.no_curve", name=name, hint=offered(name, known)))
     return [known[name] for name in names or known]
 
 
@@ -106,10 +106,7 @@ def _axis(result: Comparison) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in result.alternatives}
     if len(turning) > 1:
-        raise RequestError(
-            "one alternative has an input that turns and another one that slides, so their curves have no common "
-            "axis; draw the pivot_hodograph"
-        )
+        raise RequestError(Sentence("picture.turn_and_slide"))
     lines = [x for x, _ in result.curves[0].lines.values()]
     return InputAxis(
         "", "angle" if turning.pop() else "length", max(lines, key=lambda x: float(np.nanmax(x)))

@@ -13,6 +13,7 @@ from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import significant
 from linkwright.plot.result_diagrams.design_table import DesignTable, Measure, Varied
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +34,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
     Raises LinkwrightError where nothing varies.
     """
     if not table.moving:
-        raise RequestError("all designs are the same, so there is nothing to draw; vary a dimension")
+        raise RequestError(Sentence("picture.same_designs"))
     legend = Legend()
     if len(table.moving) == 1:
         figure = _over_one(table, request, legend)

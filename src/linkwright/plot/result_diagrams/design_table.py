@@ -13,8 +13,9 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
-from linkwright.registry import nearest
+from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -88,9 +89,7 @@ def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:
     """The metrics that are asked for, all by default; raises LinkwrightError for one that is not there."""
     for name in asked:
         if name not in known:
-            offer = nearest(name, list(known))
-            hint = f"did you mean {offer!r}?" if offer else f"there is {', '.join(known)}"
-            raise RequestError(f"there is no metric {name!r} here; {hint}")
+            raise RequestError(Sentence("picture.no_metric", name=name, hint=offered(name, known)))
     return list(asked or known)
 
 

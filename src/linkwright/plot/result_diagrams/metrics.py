@@ -13,6 +13,7 @@ from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
 from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,15 +53,16 @@ def _groups(result: MetricsTable, request: Request) -> list[Group]:
     """Rows that share an axis: of one metric, and of one dimension."""
     names = request.of or tuple(name for name in result.names if METRICS[name].limit is not None)
     if not names:
-        known = f"; name what to draw: of={result.names[0]!r}" if result.names else ", and it has no numbers"
-        raise RequestError(f"nothing in this table has a recommended limit to be drawn against{known}")
+        first = result.names[:1]
+        hint = Sentence("picture.name_one", name=first[0]) if first else Sentence("picture.no_numbers")
+        raise RequestError(Sentence("picture.no_limit", hint=hint))
     found: dict[tuple[str, str], list[MetricValue]] = {}
     for name in names:
         for row in result[name]:
             if np.isfinite(row.value):
                 found.setdefault((name, row.dimension), []).append(row)
     if not found:
-        raise RequestError(f"there is no number to draw: {', '.join(names)} are not finite")
+        raise RequestError(Sentence("picture.not_finite", names=names))
     return [(name, tuple(rows)) for (name, _), rows in found.items()]
 
 

@@ -19,6 +19,7 @@ from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of
 from linkwright.study.sensitivity import Sensitivity
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -46,9 +47,7 @@ class RelativeSensitivity(ResultKind):
         names = chosen(request.of, known)
         table = {name: result.relative(known[name].output, known[name].kind) for name in names}
         if not any(np.isfinite(row).any() for row in table.values()):
-            raise RequestError(
-                "all of these summaries are zero, so they have no relative sensitivity to draw"
-            )
+            raise RequestError(Sentence("picture.zero_summaries"))
         figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
         axes, legend = figure.subplots(), Legend()
         places, thick = np.arange(len(result.by)), 0.8 / len(names)
@@ -95,9 +94,7 @@ def _axis(result: Sensitivity) -> InputAxis:
     from linkwright.kinematics.cycle import over_cycle
 
     if len(result.input) < 2:
-        raise RequestError(
-            f"{result.mechanism.name!r} was solved at one position only, so there are no curves; ask for summaries"
-        )
+        raise RequestError(Sentence("picture.no_curves_here", name=result.mechanism.name))
     turning = next(iter(over_cycle(result.mechanism, 1).rotary.values()))
     return InputAxis("", "angle" if turning else "length", result.input)
 

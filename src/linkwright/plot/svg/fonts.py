@@ -9,6 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words.sentence import Sentence
 
 FAMILIES = (
     "Noto Sans", "DejaVu Sans", "Segoe UI", "Helvetica Neue", "Arial",
@@ -59,10 +60,10 @@ def needs_chinese(text: str) -> bool:
 
 def check_fonts(text: str, given: Sequence[Path]) -> None:
     """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
-    remedy = "install one (Debian: fonts-noto-cjk) or name its file: fonts=['NotoSansSC-Regular.ttf']"
+    remedy = Sentence("picture.font_or_file")
     if given:
         return
     if needs_chinese(text) and not chinese_fonts(system_fonts()):
-        raise RequestError(f"the picture has Chinese text, and no font that can write it was found; {remedy}")
+        raise RequestError(Sentence("picture.no_chinese_font", remedy=remedy))
     if "<text" in text and not system_fonts():
-        raise LinkwrightError(f"the picture has text, and no font was found; {remedy}")
+        raise LinkwrightError(Sentence("picture.no_font", remedy=remedy))

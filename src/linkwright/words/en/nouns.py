@@ -49,4 +49,6 @@ WORDS = {
     "parquet_files": "Parquet files",
     "excel_files": "Excel files",
     "frame": "frame",
+    "max": "max",
+    "min": "min",
 }

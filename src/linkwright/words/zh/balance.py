@@ -9,7 +9,7 @@ WORDS = {
 linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
 linkwright balance press.yaml --radius 120mm --share 0.5
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
-    "radius_help": '配重到所在铰链的距离：一个值（80mm）或按构件给出（"crank=80 mm, rod=40 mm"）',
+    "radius_help": '配重到所在转动副的距离：一个值（80mm）或按构件给出（"crank=80 mm, rod=40 mm"）',
     "share_help": "平衡的比例，0 到 1（默认 1：振动力为零）",
     "steps_help": "比较时一个循环内的位置数（默认 360）",
     "output_help": "把平衡后的模型写入 .yaml 文件",

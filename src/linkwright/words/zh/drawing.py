@@ -9,7 +9,7 @@ WORDS = {
     "animation": "{name} 机构动画",
     "driver": "驱动力、驱动力矩",
     "reaction": "F₁₂：构件 1 对构件 2 的作用力；{links}",
-    "pin": "F 下标为铰链名：该铰链对构件的作用力",
+    "pin": "F 下标为转动副名：该转动副对构件的作用力",
     "nothing_force": "无力可画：构件无质量，也没有载荷（mass: 5 kg，loads: …）",
     "zero_force": "此位置各力均为零",
     "zero_velocity": "此位置各点速度均为零",

@@ -49,4 +49,6 @@ WORDS = {
     "parquet_files": "Parquet 文件",
     "excel_files": "Excel 文件",
     "frame": "机架",
+    "max": "最大",
+    "min": "最小",
 }

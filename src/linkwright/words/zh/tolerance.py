@@ -3,7 +3,7 @@
 WORDS = {
     "summary": "尺寸公差与间隙对机构各项指标的影响",
     "description": """\
-由尺寸公差和铰链间隙求机构指标与曲线的分散：用精确导数的线性法，以及蒙特卡洛法；
+由尺寸公差和转动副间隙求机构指标与曲线的分散：用精确导数的线性法，以及蒙特卡洛法；
 各项贡献的大小；在界限内的合格率。间隙可以是自由的，也可以跟随运动副自身的反力。""",
     "examples": """\
 linkwright tolerance gallery:crank_rocker_tolerance
@@ -46,9 +46,9 @@ linkwright tolerance study.yaml --output machines.csv""",
     "wrong_kind_remedy": "请用该尺寸的单位",
     "bent_clearance": "{link} 的孔有间隙，其公差又无法由坐标表示",
     "bent_clearance_remedy": "请把间隙放在该销的另一构件上",
-    "no_pin": "没有铰链“{name}”",
+    "no_pin": "没有转动副“{name}”",
     "no_pin_remedy": "可选：{known}",
-    "not_on": "铰链 {pin} 不在 {link} 上",
+    "not_on": "转动副 {pin} 不在 {link} 上",
     "not_on_remedy": "可选：{known}",
     "limit_of": "给了“{name}”的界限，却没有要求它",
     "limit_of_remedy": "请在 of 中也写上它",
@@ -60,7 +60,7 @@ linkwright tolerance study.yaml --output machines.csv""",
     "no_kind_remedy": "请加 min、max、mean、rms、range 或 peak，或写到 curves 中",
     "no_position": "{name} 不是位置量，受压销只对位置量计算",
     "no_position_remedy": "请用角度、坐标或位移，或用自由间隙",
-    "no_force": "铰链 {pin} 不受力，没有力压它；请给质量、重力或载荷",
+    "no_force": "转动副 {pin} 不受力，没有力压它；请给质量、重力或载荷",
     "unsolved": "无法进行分析：{why}",
     "unsolved_remedy": "请先修正机构或名称（linkwright check、linkwright solve）",
 }

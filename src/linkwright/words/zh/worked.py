@@ -57,7 +57,7 @@ WORDS = {
     "same_matrix": "未知力的力臂即速度方程的矩阵 J，按列读取：",
     "balance": "构件 {link} 的平衡，求 {joint} 对它的作用力：",
     "driver_torque": "对 {point} 取矩：平衡力矩。",
-    "shares": "多构件铰链：各构件所受的力",
+    "shares": "复合铰链：各构件所受的力",
     "power": "用虚功率校核",
     "power_terms": "各构件重力、惯性力与载荷的功率：",
     "power_effort": "驱动功率使总和为零，由此再求平衡力矩（力）：",
