@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.metrics import METRICS, centrode, instant_centre, metrics
-from linkwright.metrics.jerk import TimeDerivative
+from linkwright.metrics import METRICS, Analysis, centrode, instant_centre, metrics
 from linkwright.model.build import Model
 
 
@@ -101,7 +100,7 @@ def test_jerk_is_the_derivative_of_the_acceleration(name: str) -> None:
     link = list(mechanism.links)[-1] if name != "shaper_quick_return" else "lever"
     time = np.array([0.011, 0.043])
     motion = lw.solve_motion(mechanism, times=time)
-    jerk = TimeDerivative(motion, (f"g:{link}",)).of(motion)[0]
+    jerk = Analysis(motion).signal(f"{link}.angular_jerk")(motion)
     speed = abs(next(iter(motion.positions.coordinates.values()))[1][0])
     h = 2e-3 / speed
     a = {

@@ -10,10 +10,22 @@ from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
+from linkwright.kinetostatics.named import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
 
+#: Before an output in words among the names of outputs.
+_WORDS = "words:"
 _OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa"})
+
+
+def words_name(words: str) -> str:
+    """The name under which programs know an output in the user's words (see :class:`Named`)."""
+    return _WORDS + words
+
+
+def _no_angle(link: str) -> float:
+    raise AssertionError(f"the angle of {link} is continuous in a motion, not in a program")
 
 
 class ForcePrograms:
@@ -50,7 +62,14 @@ class ForcePrograms:
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
+    @cached_property
+    def named(self) -> Named:
+        """Outputs in the user's words."""
+        return Named(self, _no_angle)
+
     def _value(self, name: str) -> Scalar:
+        if name.startswith(_WORDS):
+            return self.named.quantity(name.removeprefix(_WORDS)).value
         of_motion = name.split(":", maxsplit=1)[0] in _OF_MOTION
         return (self.motion.outputs if of_motion else self.outputs).value(name)
 

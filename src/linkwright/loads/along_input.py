@@ -78,7 +78,7 @@ def _phase(load: Load, course: Course) -> tuple[Mask, Scalar]:
         case SwingPhase():
             sense = sign(course.speed)
             begin, end = (course.limit(phase.output, kind) for kind in (phase.start, phase.end))
-            return _within(sense * (course.input - begin), _turned(sense * (end - begin)))
+            return _within(sense * (course.input - begin), turned(sense * (end - begin)))
     return True, 0.0
 
 
@@ -86,7 +86,7 @@ def _between(course: Course) -> tuple[Mask, Scalar]:
     """An interval of the input, modulo one turn; from the larger to the smaller end through the turn's end."""
     start, end = course.dimension("phase.input.0"), course.dimension("phase.input.1")
     gap = end - start
-    through = _turned(gap)
+    through = turned(gap)
     through = select(through <= 0.0, TURN, through)
     length = select(gap < 0.0, select(course.speed > 0.0, through, gap), gap)
     acts, share = _within(course.input - minimum(start, start + length), absolute(length))
@@ -95,11 +95,11 @@ def _between(course: Course) -> tuple[Mask, Scalar]:
 
 def _within(gone: Scalar, length: Scalar) -> tuple[Mask, Scalar]:
     """Whether what is gone of a turn lies within a length, and its share; the ends belong to it."""
-    turned = _turned(gone)
-    passed = select(turned > TURN * (1.0 - NEAR), turned - TURN, turned)
+    way = turned(gone)
+    passed = select(way > TURN * (1.0 - NEAR), way - TURN, way)
     return passed <= length + NEAR * TURN, minimum(maximum(passed / length, 0.0), 1.0)
 
 
-def _turned(angle: Scalar) -> Scalar:
+def turned(angle: Scalar) -> Scalar:
     """An angle modulo one turn, 0 to 2π."""
     return angle - TURN * floor(angle / TURN)

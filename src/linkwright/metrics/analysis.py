@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, TypeAlias, overload
 
@@ -15,10 +15,14 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.programs import words_name
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
 from linkwright.metrics.cycle_grid import CycleGrid, cycle_grid
-from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.outputs import mechanism_outputs, value
 from linkwright.metrics.resolve import Resolver
+from linkwright.metrics.summary import Summary, one
 from linkwright.model.signal_fields import Output
 
 Result: TypeAlias = "Motion | Forces | Analysis"
@@ -50,6 +54,8 @@ class Analysis:
         self.resolver = Resolver(motion, forces)
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
+        self._words: dict[str, None] = {}
+        self._parts: dict[str, Extreme] = {}
 
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
@@ -113,25 +119,109 @@ class Analysis:
         span = time[-1] - time[0]
         return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
 
+    def ask(self, parts: Iterable[str]) -> None:
+        """Says which summaries will be wanted, so that their outputs are evaluated together."""
+        for part in parts:
+            if not one(part).output.endswith(".angle"):
+                self._words[words_name(one(part).output)] = None
+
+    def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
+        """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
+        kept = self._words
+        link, _, part = output.rpartition(".")
+        if part == "angle" and link in self.motion.mechanism.links:
+            return lambda each: (each.motion if isinstance(each, Forces) else each).link(link).angle
+
+        def read(solved: Motion | Forces) -> Floats:
+            name = words_name(output)
+            rows = solved.rows
+            if name not in rows.index and name not in rows.extra:
+                kept.setdefault(name)
+                missing = [each for each in kept if each not in rows.extra]
+                rows.fetch(tuple(missing), lambda names: self._read(names, solved))
+            return rows.extra[name]
+
+        return read
+
+    def _read(self, names: tuple[str, ...], solved: Motion | Forces) -> Floats:
+        if isinstance(solved, Forces):
+            return solved.evaluate(names)
+        values = ForceSolver(solved.solver).evaluate(names, solved, {})
+        if not solved.ok.all():
+            values[:, ~solved.ok] = np.nan
+        return values
+
+    def part(self, summary: str) -> Extreme:
+        """A summary over the cycle, ``"reaction O5 on jaw max"``, with its place where it has one.
+
+        ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
+        """
+        if summary not in self._parts:
+            self._parts[summary] = self._summarised(one(summary))
+        return self._parts[summary]
+
+    def _summarised(self, summary: Summary) -> Extreme:
+        nothing = Extreme(float("nan"), float("nan"), float("nan"), True)
+        output, kind = self._output(summary.output), summary.kind
+        if output is not None and kind in ("argmax", "argmin", "range"):
+            return self._of_limits(output, kind)
+        signal = self.signal(summary.output)
+        if kind in ("mean", "rms"):
+            return replace(nothing, value=(self.mean_of if kind == "mean" else self.rms_of)(signal))
+        if kind in ("max", "min"):
+            return self._extreme(signal, kind) or replace(nothing, exact=False)
+        high, low = self._extreme(signal, "max"), self._extreme(signal, "min")
+        if high is None or low is None:
+            return replace(nothing, exact=False)
+        if kind == "range":
+            return replace(nothing, value=high.value - low.value, exact=high.exact and low.exact)
+        if kind == "peak":
+            largest = high if abs(high.value) >= abs(low.value) else low
+            return replace(largest, value=abs(largest.value))
+        found = high if kind == "argmax" else low
+        return replace(found, value=found.input)
+
+    def _extreme(self, signal: Callable[[Motion | Forces], Floats], kind: str) -> Extreme | None:
+        side: Kind = "max" if kind == "max" else "min"
+        if self.forces is None:
+            return self.extreme(signal, side)
+        return self.extreme(signal, side, of="forces")
+
+    def _output(self, words: str) -> Output | None:
+        """The output of the mechanism that words mean."""
+        owner, _, part = words.rpartition(".")
+        kind = "angle" if part == "angle" else "displacement"
+        return next((o for o in self.outputs if (o.owner, o.kind) == (owner, kind) and part == kind), None)
+
+    def _of_limits(self, output: Output, kind: str) -> Extreme:
+        """Place of an output's outermost limit position, or the way between them."""
+        if kind == "range":
+            reached = value(self.motion, output)
+            values = [float(v) for v in reached[np.isfinite(reached)]]
+            values += [limit.value for limit in self.limits(output)]
+            return Extreme(max(values) - min(values), float("nan"), float("nan"), self.resolver.possible)
+        ends = [limit for limit in outermost(self.limits(output)) if limit.kind == kind.removeprefix("arg")]
+        return Extreme(ends[0].input, ends[0].time, ends[0].input, True)
+
     @cached_property
     def grid(self) -> CycleGrid | None:
         """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
         return cycle_grid(self.resolver, self.motion, self.forces)
 
-    def mean_of(self, signal: Callable[[Forces], Floats]) -> float:
-        """Mean over the time of the cycle of what the forces give, (n,).
+    def mean_of(self, signal: Callable[..., Floats]) -> float:
+        """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
 
         By integration between the positions, so that the jumps of loads fall where they are; of the positions that
         are reached, where these are not all.
         """
-        assert self.forces is not None
+        of = "motion" if self.forces is None else "forces"
         if self.grid is None:
-            return self.mean(signal(self.forces))
-        return self.grid.curve(signal, "forces", halve=True).total / (self.grid.end - self.grid.start)
+            return self.mean(signal(self.forces or self.motion))
+        return self.grid.curve(signal, of, halve=True).total / (self.grid.end - self.grid.start)
 
-    def rms_of(self, signal: Callable[[Forces], Floats]) -> float:
+    def rms_of(self, signal: Callable[..., Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""
-        return float(np.sqrt(self.mean_of(lambda forces: signal(forces) ** 2)))
+        return float(np.sqrt(self.mean_of(lambda solved: signal(solved) ** 2)))
 
     @overload
     def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> Extreme | None: ...

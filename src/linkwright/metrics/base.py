@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from abc import ABC
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from math import isnan
 from typing import Any, ClassVar, Literal
 
-from linkwright.metrics.analysis import Analysis, Result
+from linkwright.engine.trace import Scalar
+from linkwright.metrics.analysis import Analysis, Extreme, Result
 from linkwright.metrics.quantities import si_unit
 from linkwright.registry import Registry
 from linkwright.words import has, say
@@ -79,8 +80,33 @@ class MetricValue:
         }
 
 
+def _itself(value: Scalar) -> Scalar:
+    return value
+
+
+def _first(*parts: Extreme) -> float:
+    return parts[0].input
+
+
+@dataclass(frozen=True)
+class Number:
+    """One value of a design number as a formula of summaries over the cycle, for one machine and for many designs.
+
+    ``parts``: outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see ``metrics.summary.KINDS``);
+    ``formula``: the value from these, with ``+ - * /`` and the functions of ``engine.trace`` alone, so that it serves
+    numbers and traced values; ``at``: where it is, from the parts as extremes. ``dimension``: that of the metric
+    where left out.
+    """
+
+    subject: str
+    parts: tuple[str, ...]
+    formula: Callable[..., Scalar] = _itself
+    dimension: str | None = None
+    at: Callable[..., float] = _first
+
+
 class Metric(ABC):
-    """One design number of a mechanism.
+    """One design number of a mechanism, from ``numbers`` or, where it is no formula of summaries, from ``values``.
 
     ``dimension``: name of its dimension (values may have their own, where a link gives an angle and a slider a
     length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,
@@ -136,9 +162,34 @@ class Metric(ABC):
         """Whether the mechanism has this number; forces are there if they are needed."""
         return bool(analysis.motion.mechanism.drivers)
 
-    @abstractmethod
+    def numbers(self, analysis: Analysis) -> Iterable[Number]:
+        """Its values as formulas; ``analysis``: of the machine, or of the one from which designs start."""
+        return ()
+
+    def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+        """What is to be said about a value of a formula."""
+        return ()
+
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         """The values, from what several numbers share."""
+        numbers = tuple(self.numbers(analysis))
+        analysis.ask(part for number in numbers for part in number.parts)
+        for number in numbers:
+            parts = [analysis.part(part) for part in number.parts]
+            found = number.formula(*(part.value for part in parts))
+            assert isinstance(found, float)
+            value = float(found)
+            at, exact = number.at(*parts), all(part.exact for part in parts)
+            remarks = self.remarks(value, at, analysis)
+            yield self.value(
+                analysis,
+                number.subject,
+                value,
+                dimension=number.dimension,
+                at=at,
+                exact=exact,
+                remarks=remarks,
+            )
 
     def value(
         self,

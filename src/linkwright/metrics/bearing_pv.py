@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.kinematics.cycle import Floats
-from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
-from linkwright.metrics.reactions import size
 
 
 @METRICS.register("bearing_pv")
@@ -32,37 +30,23 @@ class BearingPv(Metric):
     needs_forces = True
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and bool(_bearings(analysis))
+        return super().suits(analysis) and any(_bearings(analysis))
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for joint, link in _bearings(analysis):
+            subject = joint.name if len(joint.links) == 2 else f"{joint.name} on {link}"
+            yield Number(subject, (f"heat {joint.name} on {link} peak",))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for joint in _bearings(analysis):
-            assert joint.pin_radius is not None
-            for link in joint.links[1:]:
-                signal = _heat(joint, link, joint.links[0])
-                found = analysis.extreme(signal, "max", of="forces")
-                if found is None:
-                    continue
-                mean = shown(analysis.mean_of(signal), "power")
-                remarks = (
-                    Remark("bearing_pv.mean", {"mean": mean, "radius": shown(joint.pin_radius, "length")}),
-                )
-                subject = joint.name if len(joint.links) == 2 else f"{joint.name} on {link}"
-                yield self.value(
-                    analysis, subject, found.value, remarks=remarks, at=found.input, exact=found.exact
-                )
+        for found, (joint, link) in zip(super().values(analysis), _bearings(analysis), strict=True):
+            heat = analysis.signal(f"heat {joint.name} on {link}")
+            mean = shown(analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces))), "power")
+            said: dict[str, object] = {"mean": mean, "radius": shown(joint.pin_radius or 0.0, "length")}
+            yield replace(found, remarks=(Remark("bearing_pv.mean", said),))
 
 
-def _bearings(analysis: Analysis) -> list[RevoluteJoint]:
-    joints = analysis.motion.mechanism.joints.values()
-    return [joint for joint in joints if isinstance(joint, RevoluteJoint) and joint.pin_radius]
-
-
-def _heat(joint: RevoluteJoint, link: str, other: str) -> Callable[[Forces], Floats]:
-    radius = joint.pin_radius or 0.0
-
-    def signal(forces: Forces) -> Floats:
-        motion = forces.motion
-        speed = motion.link(link).angular_velocity - motion.link(other).angular_velocity
-        return np.asarray(size(joint.name, link)(forces) * radius * np.abs(speed))
-
-    return signal
+def _bearings(analysis: Analysis) -> Iterator[tuple[RevoluteJoint, str]]:
+    """Every pin with a radius, with each link that it holds beside its first one."""
+    for joint in analysis.motion.mechanism.joints.values():
+        if isinstance(joint, RevoluteJoint) and joint.pin_radius:
+            yield from ((joint, link) for link in joint.links[1:])

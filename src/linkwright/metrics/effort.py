@@ -3,36 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from typing import ClassVar
 
-import numpy as np
-
-from linkwright.kinematics.cycle import Floats
-from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue
+from linkwright.metrics.base import METRICS, Better, Metric, Number
 
 
 class EffortMetric(Metric):
-    """What drivers must supply."""
+    """What every driver must supply, by a ``summary`` of its effort over the cycle."""
 
     dimension = "torque"
     source = "kinetostatics: effort of the driver from the joint forces"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+    rank = 3
+    summary: ClassVar[str]
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.loaded
 
-    @staticmethod
-    def effort_dimension(analysis: Analysis, name: str) -> str:
-        """Torque of a turning driver, force of a sliding one."""
-        return "torque" if analysis.motion.positions.rotary[name] else "force"
-
-
-def _size(forces: Forces, name: str) -> Floats:
-    return np.asarray(np.abs(forces.driver_effort(name)))
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for name, turns in analysis.motion.positions.rotary.items():
+            yield Number(name, (f"{name}.effort {self.summary}",), dimension="torque" if turns else "force")
 
 
 @METRICS.register("peak_input_torque")
@@ -40,16 +32,7 @@ class PeakInputTorque(EffortMetric):
     """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
 
     name = "peak_input_torque"
-    rank = 3
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for name in analysis.motion.mechanism.drivers:
-            found = analysis.extreme(partial(_size, name=name), "max", of="forces")
-            if found is not None:
-                kind = self.effort_dimension(analysis, name)
-                yield self.value(
-                    analysis, name, found.value, dimension=kind, at=found.input, exact=found.exact
-                )
+    summary = "peak"
 
 
 @METRICS.register("rms_input_torque")
@@ -57,41 +40,29 @@ class RmsInputTorque(EffortMetric):
     """Root mean square over time of the effort of every driver: what heats a motor."""
 
     name = "rms_input_torque"
-    rank = 3
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for name in analysis.motion.mechanism.drivers:
-            root = analysis.rms_of(partial(_size, name=name))
-            yield self.value(analysis, name, root, dimension=self.effort_dimension(analysis, name))
+    summary = "rms"
 
 
-def power(forces: Forces) -> Floats:
-    """Power of all drivers together, (n,) W."""
-    return forces.power
+class PowerMetric(EffortMetric):
+    """The same of the power of all drivers together."""
+
+    dimension = "power"
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        yield Number(analysis.motion.mechanism.name, (f"power {self.summary}",))
 
 
 @METRICS.register("peak_power")
-class PeakPower(EffortMetric):
+class PeakPower(PowerMetric):
     """Largest power that the drivers supply together at any moment."""
 
     name = "peak_power"
-    rank = 3
-    dimension = "power"
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        found = analysis.extreme(power, "max", of="forces")
-        if found is not None:
-            subject = analysis.motion.mechanism.name
-            yield self.value(analysis, subject, found.value, at=found.input, exact=found.exact)
+    summary = "max"
 
 
 @METRICS.register("mean_power")
-class MeanPower(EffortMetric):
+class MeanPower(PowerMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
 
     name = "mean_power"
-    rank = 3
-    dimension = "power"
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        yield self.value(analysis, analysis.motion.mechanism.name, analysis.mean_of(power))
+    summary = "mean"

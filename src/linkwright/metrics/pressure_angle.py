@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from math import pi, radians
 from typing import ClassVar
 
+from linkwright.engine.trace import Scalar
+from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.closure import dyads, transmission_angle
+from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.quantities import shown
+
+
+def _complement(angle: Scalar) -> Scalar:
+    return 0.5 * pi - angle
 
 
 @METRICS.register("pressure_angle")
@@ -25,14 +29,12 @@ class PressureAngle(Metric):
     limit = radians(50)
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and bool(dyads(analysis.motion))
+        return super().suits(analysis) and bool(dyads(analysis.motion.structure))
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for group in dyads(analysis.motion):
-            found = analysis.extreme(partial(transmission_angle, group=group), "min")
-            if found is None:
-                continue
-            angle = pi / 2 - found.value
-            limits: dict[str, object] = {"value": shown(angle, "angle"), "limit": shown(self.limit, "angle")}
-            remarks = (Remark("pressure_angle.high", limits, warning=True),) if angle > self.limit else ()
-            yield self.value(analysis, group.name, angle, at=found.input, exact=found.exact, remarks=remarks)
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for group in dyads(analysis.motion.structure):
+            yield Number(group.name, (f"transmission_angle {group.name} min",), _complement)
+
+    def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+        limits: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(self.limit, "angle")}
+        return (Remark("pressure_angle.high", limits, warning=True),) if value > self.limit else ()

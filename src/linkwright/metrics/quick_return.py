@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
+from linkwright.engine.trace import Scalar, floor, maximum
 from linkwright.loads.phases import outermost
-from linkwright.loads.signals import Limit
-from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue
+from linkwright.metrics.analysis import Analysis, Extreme
+from linkwright.metrics.base import METRICS, Metric, Number
 from linkwright.model.signal_fields import Output
-
-
-def slow_and_fast(analysis: Analysis, output: Output) -> tuple[float, float, Limit] | None:
-    """Times of the slow and of the fast stroke, s, and where the slow one begins.
-
-    None where the output has no two outermost positions in a closed cycle.
-    """
-    ends = outermost(analysis.limits(output)) if analysis.limits(output) else []
-    period = analysis.motion.positions.period
-    if len(ends) != 2 or ends[0].kind == ends[1].kind or period is None:
-        return None
-    first, last = ends
-    share = (last.time - first.time) % period
-    return (share, period - share, first) if share >= period / 2 else (period - share, share, last)
 
 
 @METRICS.register("quick_return_ratio")
@@ -36,22 +24,18 @@ class QuickReturnRatio(Metric):
     rank = 1
     dimension = "dimensionless"
     source = "IFToMM terminology, time ratio; Norton, Design of Machinery, ch. 3"
+    angle: ClassVar[bool] = False
 
     def suits(self, analysis: Analysis) -> bool:
         steady = analysis.whole and bool(np.ptp(analysis.input_rate) <= 1e-9 * abs(analysis.input_rate[0]))
-        return (
-            super().suits(analysis) and steady and any(slow_and_fast(analysis, o) for o in analysis.outputs)
-        )
+        return super().suits(analysis) and steady and any(_returning(analysis))
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for output in analysis.outputs:
-            found = slow_and_fast(analysis, output)
-            if found is not None:
-                slow, fast, begin = found
-                yield self.value(analysis, str(output), self._number(slow, fast), at=begin.input)
-
-    def _number(self, slow: float, fast: float) -> float:
-        return slow / fast
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        cycle = float(analysis.input_rate[0]) * (analysis.motion.positions.period or 0.0)
+        formula, begin = partial(_angle if self.angle else _ratio, abs(cycle)), partial(_begin, cycle)
+        for output in _returning(analysis):
+            parts = tuple(f"{output.owner}.{output.kind} {kind}" for kind in ("argmax", "argmin"))
+            yield Number(str(output), parts, formula, at=begin)
 
 
 @METRICS.register("crank_angle_between_limits")
@@ -59,8 +43,34 @@ class CrankAngleBetweenLimits(QuickReturnRatio):
     """Acute angle θ between the crank's directions in the limit positions: π (K - 1)/(K + 1)."""
 
     name = "crank_angle_between_limits"
-    rank = 1
     dimension = "angle"
+    angle = True
 
-    def _number(self, slow: float, fast: float) -> float:
-        return pi * (slow - fast) / (slow + fast)
+
+def _returning(analysis: Analysis) -> Iterator[Output]:
+    """The outputs with two outermost positions in a closed cycle."""
+    for output in analysis.outputs:
+        ends = outermost(analysis.limits(output)) if analysis.limits(output) else []
+        if len(ends) == 2 and ends[0].kind != ends[1].kind and analysis.motion.positions.period is not None:
+            yield output
+
+
+def _slow(cycle: float, first: Scalar, last: Scalar) -> Scalar:
+    """Share of the slow stroke in the way of the input through the cycle."""
+    share = (last - first) / cycle
+    share = share - floor(share)
+    return maximum(share, 1.0 - share)
+
+
+def _ratio(cycle: float, first: Scalar, last: Scalar) -> Scalar:
+    slow = _slow(cycle, first, last)
+    return slow / (1.0 - slow)
+
+
+def _angle(cycle: float, first: Scalar, last: Scalar) -> Scalar:
+    return pi * (2.0 * _slow(cycle, first, last) - 1.0)
+
+
+def _begin(cycle: float, first: Extreme, last: Extreme) -> float:
+    """Where the slow stroke begins."""
+    return first.input if ((last.input - first.input) / cycle) % 1.0 >= 0.5 else last.input

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
 from linkwright.core.search import ends
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
-from linkwright.metrics.closure import dyads, transmission_angle
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 
@@ -104,9 +103,9 @@ class DeadPoint(Metric):
         if not analysis.resolver.possible:
             return []
         found = [analysis.resolver.input_at(time) for time, _ in edges(analysis)]
-        for group in dyads(analysis.motion):
-            low = analysis.extreme(partial(transmission_angle, group=group), "min")
-            if low is not None and low.value < DEAD:
+        for group in dyads(analysis.motion.structure):
+            low = analysis.part(f"transmission_angle {group.name} min")
+            if low.value < DEAD:
                 found.append(low.input)
         return _distinct(np.array(sorted(found)))
 

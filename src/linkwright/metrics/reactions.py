@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue
+from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.model.mechanism import Mechanism
 
 
@@ -42,31 +42,19 @@ class PeakReaction(Metric):
     source = "kinetostatics: reactions by Assur group"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+    summary: ClassVar[str] = "max"
 
     def suits(self, analysis: Analysis) -> bool:
         return analysis.loaded
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for subject, joint, link in sides(analysis.motion.mechanism):
-            found = analysis.extreme(size(joint, link), "max", of="forces")
-            if found is not None:
-                yield self.value(analysis, subject, found.value, at=found.input, exact=found.exact)
+            yield Number(subject, (f"reaction {joint} on {link} {self.summary}",))
 
 
 @METRICS.register("rms_reaction")
-class RmsReaction(Metric):
+class RmsReaction(PeakReaction):
     """Root mean square over time of the size of every joint's reaction, N."""
 
     name = "rms_reaction"
-    rank = 4
-    dimension = "force"
-    source = "kinetostatics: reactions by Assur group"
-    better: ClassVar[Better | None] = "lower"
-    needs_forces = True
-
-    def suits(self, analysis: Analysis) -> bool:
-        return analysis.loaded
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for subject, joint, link in sides(analysis.motion.mechanism):
-            yield self.value(analysis, subject, analysis.rms_of(size(joint, link)))
+    summary = "rms"

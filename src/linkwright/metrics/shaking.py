@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-import numpy as np
-
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue
+from linkwright.metrics.base import METRICS, Better, Metric, Number
 
 
 class Shaking(Metric):
@@ -17,10 +15,15 @@ class Shaking(Metric):
     source = "Norton, Design of Machinery, ch. 11: minus the sum of m a_G, and its moment"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+    rank = 5
+    summary: ClassVar[str]
 
     def suits(self, analysis: Analysis) -> bool:
         links = analysis.motion.mechanism.links.values()
         return super().suits(analysis) and any(link.mass or link.inertia for link in links)
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        yield Number("frame", (self.summary,))
 
 
 @METRICS.register("peak_shaking_force")
@@ -28,13 +31,8 @@ class PeakShakingForce(Shaking):
     """Largest resultant of the inertia forces on the frame, N."""
 
     name = "peak_shaking_force"
-    rank = 5
     dimension = "force"
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        found = analysis.extreme(lambda f: np.hypot(*f.shaking_force.T), "max", of="forces")
-        if found is not None:
-            yield self.value(analysis, "frame", found.value, at=found.input, exact=found.exact)
+    summary = "shaking_force max"
 
 
 @METRICS.register("peak_shaking_moment")
@@ -42,10 +40,5 @@ class PeakShakingMoment(Shaking):
     """Largest moment of the inertia forces about the frame's origin, N·m."""
 
     name = "peak_shaking_moment"
-    rank = 5
     dimension = "torque"
-
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        found = analysis.extreme(lambda f: np.abs(f.shaking_moment), "max", of="forces")
-        if found is not None:
-            yield self.value(analysis, "frame", found.value, at=found.input, exact=found.exact)
+    summary = "shaking_moment peak"

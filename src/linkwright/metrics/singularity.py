@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from dataclasses import replace
 from typing import ClassVar
 
+from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.closure import closable, conditioning
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
 
 #: Below this a dyad is nearer than 10° to a dead point.
@@ -29,19 +29,17 @@ class Singularity(Metric):
     limit = NEAR
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and bool(closable(analysis.motion))
+        return super().suits(analysis) and bool(closable(analysis.motion.structure))
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for group in closable(analysis.motion.structure):
+            yield Number(group.name, (f"conditioning {group.name} min",))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for group in closable(analysis.motion):
-            found = analysis.extreme(partial(conditioning, group=group), "min")
-            if found is None:
+        for found, group in zip(super().values(analysis), closable(analysis.motion.structure), strict=True):
+            if found.value >= NEAR ** len(group.cuts):
+                yield found
                 continue
-            near = found.value < NEAR ** len(group.cuts)
-            place: dict[str, object] = {
-                "group": group.name,
-                "at": shown(found.input, analysis.input_dimension),
-            }
-            remarks = (Remark("singularity.near", place, warning=True),) if near else ()
-            yield self.value(
-                analysis, group.name, found.value, at=found.input, exact=found.exact, remarks=remarks
-            )
+            at = shown(found.at if found.at is not None else float("nan"), analysis.input_dimension)
+            remark = Remark("singularity.near", {"group": group.name, "at": at}, warning=True)
+            yield replace(found, remarks=(remark,))

@@ -4,20 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue
-from linkwright.metrics.outputs import turns_fully, value
+from linkwright.metrics.base import METRICS, Metric, Number
+from linkwright.metrics.outputs import turns_fully
 from linkwright.model.signal_fields import Output
-
-
-def travel(analysis: Analysis, output: Output) -> float:
-    """Largest minus smallest value of an output over the cycle, limit positions and ends counted."""
-    values = value(analysis.motion, output)
-    reached = [float(v) for v in values[np.isfinite(values)]]
-    reached += [limit.value for limit in analysis.limits(output)]
-    return max(reached) - min(reached)
 
 
 @METRICS.register("stroke")
@@ -33,11 +23,9 @@ class Stroke(Metric):
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and bool(self._swinging(analysis))
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in self._swinging(analysis):
-            yield self.value(
-                analysis, str(output), travel(analysis, output), exact=analysis.resolver.possible
-            )
+            yield Number(str(output), (f"{output.owner}.{output.kind} range",))
 
     def _swinging(self, analysis: Analysis) -> list[Output]:
         motion = analysis.motion

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from math import radians
 from typing import Any, ClassVar
 
+from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis, Extreme
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.closure import dyads, transmission_angle
+from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.model.signal_fields import Output
@@ -27,7 +26,7 @@ def low(value: float) -> tuple[Remark, ...]:
 
 @METRICS.register("transmission_angle")
 class TransmissionAngle(Metric):
-    """Smallest transmission angle of every dyad, 0 to π/2; defined in ``metrics/closure.py``."""
+    """Smallest transmission angle of every dyad, 0 to π/2; defined in ``kinetostatics/closure.py``."""
 
     name = "transmission_angle"
     rank = 2
@@ -37,13 +36,14 @@ class TransmissionAngle(Metric):
     limit = LIMIT
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and bool(dyads(analysis.motion))
+        return super().suits(analysis) and bool(dyads(analysis.motion.structure))
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for group in dyads(analysis.motion):
-            found = analysis.extreme(partial(transmission_angle, group=group), "min")
-            if found is not None:
-                yield self.value(analysis, group.name, found.value, **_where(found))
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for group in dyads(analysis.motion.structure):
+            yield Number(group.name, (f"transmission_angle {group.name} min",))
+
+    def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+        return low(value)
 
 
 @METRICS.register("transmission_angle_of_stroke")
@@ -67,7 +67,7 @@ class TransmissionAngleOfStroke(Metric):
             for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
                 end = last.time if last.time > first.time else last.time + period
                 found = analysis.extreme_between(
-                    partial(transmission_angle, group=group), "min", first.time, end
+                    analysis.signal(f"transmission_angle {group.name}"), "min", first.time, end
                 )
                 if found is not None:
                     subject = f"{group.name}: {output} {first.kind}→{last.kind}"
@@ -83,7 +83,7 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
     motion = analysis.motion
     return [
         (group, output)
-        for group in dyads(motion)
+        for group in dyads(motion.structure)
         for output in analysis.outputs
         if output_link(motion.mechanism, output) in group.links and len(analysis.limits(output)) >= 2
     ]

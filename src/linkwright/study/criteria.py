@@ -13,9 +13,9 @@ from linkwright.kinematics.motion import Motion
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.outputs import rate, second, turns_fully
 from linkwright.metrics.reactions import size
+from linkwright.metrics.summary import KINDS, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import IDLE, Alternative
-from linkwright.study.summary import KINDS, wanted
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 

@@ -14,10 +14,10 @@ from linkwright.core.html import columns_html
 from linkwright.engine.sweep import Backend, Progress
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.named import Quantity
+from linkwright.metrics.summary import Summary, wanted
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.failures import Failure, explained
-from linkwright.study.named import Quantity
-from linkwright.study.summary import Summary, wanted
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
 from linkwright.words.sentence import Sentence

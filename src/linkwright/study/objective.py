@@ -18,11 +18,11 @@ from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, Trace, absolute, atan, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
+from linkwright.kinetostatics.named import Quantity
+from linkwright.metrics.summary import KINDS, Summary, reductions, wanted
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input
-from linkwright.study.named import Quantity
-from linkwright.study.summary import KINDS, Summary, reductions, wanted
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.words.sentence import Sentence

@@ -15,10 +15,10 @@ from linkwright.engine.sweep import Backend
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal
+from linkwright.kinetostatics.named import Quantity
+from linkwright.metrics.summary import Summary
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.named import Quantity
 from linkwright.study.slopes import Slopes
-from linkwright.study.summary import Summary
 from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
@@ -185,7 +185,7 @@ def sensitivity(
 
 def split(each: str | tuple[str, str]) -> str | Summary:
     """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
-    from linkwright.study.summary import wanted
+    from linkwright.metrics.summary import wanted
 
     output = each if isinstance(each, str) else None
     found = wanted([each])

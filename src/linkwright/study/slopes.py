@@ -15,9 +15,9 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.run import run_forces
 from linkwright.study.load_slopes import LoadSlopes
-from linkwright.study.named import Quantity
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
 

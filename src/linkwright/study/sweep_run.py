@@ -17,11 +17,11 @@ from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.threads import chunks
 from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
+from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import MARGIN, Following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.study.loads import OneByOne
-from linkwright.study.summary import Summary, finished, reductions
 from linkwright.study.touching import Touching
 from linkwright.study.traced import NEAREST, VALID, Traced
 

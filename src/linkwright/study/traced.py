@@ -18,9 +18,9 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.named import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.named import Named, Quantity
 from linkwright.study.vary import positions_steps
 from linkwright.words.sentence import Sentence
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.summary import Summary, wanted
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.display import number, shown, unit
 from linkwright.parts.steps import put
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
-from linkwright.study.summary import Summary, wanted
 from linkwright.tolerance.pressed import is_position, require_forces, shifts
 from linkwright.tolerance.problem import Limit, ToleranceStudy
 from linkwright.words import Say

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.effort import power as total
 from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
@@ -25,8 +26,12 @@ class Power(OverInput):
         power = source.forces.power
         title = f"{request.say('power')} P"
         panel = Panel(
-            title, "power", (Curve("", source.closed(power), extremes=source.extremes(total, "forces")),)
+            title, "power", (Curve("", source.closed(power), extremes=source.extremes(_total, "forces")),)
         )
-        mean = Analysis(source.motion, source.forces).mean_of(total)
+        mean = Analysis(source.motion, source.forces).mean_of(_total)
         label = request.say("mean", value=panel.unit.text(mean))
         return [Panel(title, "power", panel.curves, (Level(label, mean),))]
+
+
+def _total(forces: Forces) -> Floats:
+    return forces.power

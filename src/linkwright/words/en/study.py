@@ -65,8 +65,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "steps",
     "no_closed_form": "{name!r}: there is no group with a closed form, and only those tell how near they are "
     "to a singular position; choose another output",
-    "no_rrr": "{name!r}: a transmission angle is between two links of an RRR group; {signature} ({links}) is "
-    "none; ask for closeness {joint}",
+    "no_dyad": "{name!r}: a transmission angle is that of a dyad cut at a pin; {group} ({links}) is none; use "
+    "conditioning",
+    "no_jerk": "{name!r}: a jerk needs drivers of constant speed, but the driver {driver} has another law",
     "inner_joints": "inner joints are: {names}",
     "not_inner": "{name!r}: {joint!r} is not the inner joint of a group; {hint}",
     "not_touching": "{name!r}: joint {joint!r} does not touch {link!r}; it joins {joined}",

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.engine.trace import Scalar, absolute, minimum, sqrt
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point
-from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.closure import closable, conditioning, transmission
+from linkwright.kinetostatics.outputs import ForceOutputs
+from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure.group import Group
@@ -26,12 +32,21 @@ POINT_PARTS = {
     "position": ("p", "length"),
     "velocity": ("v", "velocity"),
     "acceleration": ("a", "acceleration"),
+    "jerk": ("j", "jerk"),
 }
-LINK_PARTS = {"angular_velocity": "w", "angular_acceleration": "g"}
+LINK_PARTS = {"angular_velocity": "w", "angular_acceleration": "g", "angular_jerk": "g"}
 SLIDE_PARTS = {
     "displacement": ("s", "length"),
     "velocity": ("sv", "velocity"),
     "acceleration": ("sa", "acceleration"),
+    "jerk": ("sa", "jerk"),
+}
+#: Dimension of output rate over input rate, by the kinds of output and input.
+RATIO = {
+    ("angle", "angle"): "dimensionless",
+    ("length", "length"): "dimensionless",
+    ("length", "angle"): "length_per_angle",
+    ("angle", "length"): "angle_per_length",
 }
 
 
@@ -56,6 +71,13 @@ class Quantity:
         factor = 2.0 if self.form == "half tangent" else 1.0
         return np.asarray(self.reference + factor * np.arctan(values))
 
+    @property
+    def value(self) -> Scalar:
+        """The quantity itself as a traced value."""
+        if self.form == "plain":
+            return self.carrier
+        return self.reference + (2.0 if self.form == "half tangent" else 1.0) * atan(self.carrier)
+
     def slope(self, values: Floats) -> Floats:
         """Derivative of the quantity by its carrier."""
         if self.form == "plain":
@@ -64,13 +86,32 @@ class Quantity:
         return np.asarray(factor / (1.0 + values * values))
 
 
+class Traces(Protocol):
+    """Traced motion and forces of a mechanism."""
+
+    @property
+    def motion(self) -> MotionPrograms | MotionSolver:
+        """The motion."""
+        ...
+
+    @property
+    def forces(self) -> ForceTrace:
+        """Reactions and efforts."""
+        ...
+
+    @property
+    def outputs(self) -> ForceOutputs:
+        """Outputs of the forces by name."""
+        ...
+
+
 class Named:
     """Looks outputs up by the user's words, in the programs of one mechanism.
 
     ``middle(link)``: an angle near which a link's angle stays, (rad); asked for links whose angle is wanted.
     """
 
-    def __init__(self, forces: ForceSolver, middle: Callable[[str], float]) -> None:
+    def __init__(self, forces: Traces, middle: Callable[[str], float]) -> None:
         self.forces = forces
         self.motion = forces.motion
         self.mechanism: Mechanism = forces.motion.mechanism
@@ -104,14 +145,16 @@ class Named:
         if part == "angle":
             return self._angle(name, owner)
         if part in LINK_PARTS:
-            return Quantity(name, part, self.motion.outputs.value(f"{LINK_PARTS[part]}:{owner}"))
+            value = self.motion.outputs.value(f"{LINK_PARTS[part]}:{owner}")
+            return Quantity(name, part, self._in_time(name, value) if part == "angular_jerk" else value)
         return None
 
     def _slide(self, name: str) -> Quantity | None:
         owner, _, part = name.rpartition(".")
         if isinstance(self.mechanism.joints.get(owner), PrismaticJoint) and part in SLIDE_PARTS:
             kind, dimension = SLIDE_PARTS[part]
-            return Quantity(name, dimension, self.motion.outputs.value(f"{kind}:{owner}"))
+            value = self.motion.outputs.value(f"{kind}:{owner}")
+            return Quantity(name, dimension, self._in_time(name, value) if part == "jerk" else value)
         return None
 
     def _point(self, name: str) -> Quantity | None:
@@ -127,8 +170,25 @@ class Named:
         if part not in POINT_PARTS or not owner or (part == "position" and not axis):
             return None
         kind, dimension = POINT_PARTS[part]
-        vector = self.motion.outputs.point(self.point_key(owner))["pva".index(kind)]
+        vector = self.motion.outputs.point(self.point_key(owner))[min("pvaj".index(kind), 2)]
+        if kind == "j":
+            vector = Vec(self._in_time(name, vector.x), self._in_time(name, vector.y))
         return Quantity(name, dimension, _component(vector, axis))
+
+    def _in_time(self, name: str, value: Scalar) -> Scalar:
+        """Exact derivative in time at constant speed."""
+        trace = self.motion.motion.trace
+        seeds: dict[Value, Scalar] = {}
+        for driver in self.mechanism.drivers.values():
+            if not isinstance(driver.law, ConstantSpeed):
+                raise RequestError(Sentence("study.no_jerk", name=name, driver=driver.name))
+            given = self.motion.motion.drivers[driver.name]
+            if given.turn is None:
+                seeds[trace.position(f"slide:{driver.name}")] = given.rate
+            else:
+                seeds[trace.position(f"cos:{driver.name}")] = -given.turn.y * given.rate
+                seeds[trace.position(f"sin:{driver.name}")] = given.turn.x * given.rate
+        return slope(value, seeds)
 
     def point_key(self, owner: str) -> str:
         """The canonical key of a point, or of a link's mass centre."""
@@ -203,28 +263,65 @@ class Named:
         return Quantity(name, "dimensionless", total)
 
     def transmission_angle(self, name: str, rest: list[str]) -> Quantity:
-        """Acute angle between the two links at the inner pin of an RRR dyad."""
+        """Transmission angle of a dyad, named by its inner pin or by its links."""
         if len(rest) != 1:
             raise self._unknown(name)
         group = self._group(name, rest[0])
-        if group.signature != "RRR" or len(group.inner_joints) != 1:
+        if len(group.unknowns) != 2 or group not in closable(self.motion.structure):
             raise RequestError(
-                Sentence(
-                    "study.no_rrr",
-                    name=name,
-                    signature=group.signature,
-                    links=tuple(group.links),
-                    joint=rest[0],
-                )
+                Sentence("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
             )
-        outer = [self.motion.outputs.point(joint.joint)[0] for joint in group.outer_joints]
-        inner = self.motion.outputs.point(rest[0])[0]
-        u, v = inner - outer[0], inner - outer[1]
-        tangent = absolute(u.cross(v)) / absolute(u.dot(v))
-        return Quantity(name, "angle", tangent, "tangent")
+        return Quantity(name, "angle", transmission(self.motion.outputs, group))
+
+    def conditioning(self, name: str, rest: list[str]) -> Quantity:
+        """Determinant of a group's closure equations with unit columns: 0 at a singular position."""
+        if len(rest) != 1:
+            raise self._unknown(name)
+        group = self._group(name, rest[0])
+        return Quantity(name, "dimensionless", conditioning(self.motion.outputs, group))
+
+    def velocity_ratio(self, name: str, rest: list[str]) -> Quantity:
+        """Rate of a link's angle, or of a guide's displacement, over the first driver's."""
+        if len(rest) != 1 or not self.mechanism.drivers:
+            raise self._unknown(name)
+        slides = isinstance(self.mechanism.joints.get(rest[0]), PrismaticJoint)
+        if not slides and rest[0] not in self.mechanism.links:
+            raise self._unknown(name)
+        rate = self.motion.outputs.value(f"{'sv' if slides else 'w'}:{rest[0]}")
+        driver = self.mechanism.drivers[next(iter(self.mechanism.drivers))]
+        turns = isinstance(self.mechanism.joints[driver.joint], RevoluteJoint)
+        dimension = RATIO["length" if slides else "angle", "angle" if turns else "length"]
+        return Quantity(name, dimension, rate / self.motion.motion.drivers[driver.name].rate)
+
+    def heat(self, name: str, rest: list[str]) -> Quantity:
+        """Force of a pin times its pin radius times the relative speed of its two links, with the speed's sign."""
+        joint, link, _ = self._at_joint(name, rest)
+        pin = self.mechanism.joints[joint]
+        if not isinstance(pin, RevoluteJoint) or not pin.pin_radius:
+            raise self._unknown(name)
+        other = next(each for each in pin.joined if each != link)
+        states = self.motion.motion.states
+        force = sqrt(self.forces.forces.reaction(joint, link).square)
+        radius = self.motion.motion.dimensions(f"{joint}.pin_radius")
+        return Quantity(name, "power", force * radius * (states[link].omega - states[other].omega))
+
+    def equivalent_inertia(self, name: str, rest: list[str]) -> Quantity:
+        """Inertia on the first driver's link of the same kinetic energy as all links."""
+        if rest or not self.mechanism.drivers:
+            raise self._unknown(name)
+        motion = self.motion.motion
+        total: Scalar = 0.0
+        for link in self.mechanism.links:
+            state = motion.states[link]
+            velocity = state.velocity_of(motion.dimensions.centre(link))
+            total = total + motion.dimensions(f"{link}.mass") * velocity.square
+            total = total + motion.dimensions(f"{link}.inertia") * state.omega * state.omega
+        rate = next(iter(motion.drivers.values())).rate
+        return Quantity(name, "inertia", total / (rate * rate))
 
     def _group(self, name: str, joint: str) -> Group:
-        inner = {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
+        inner = {g.name: g for g in self.motion.structure.groups if g.cuts}
+        inner |= {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
         if joint not in inner:
             hint = offered(joint, inner, "study.inner_joints")
             raise RequestError(Sentence("study.not_inner", name=name, joint=joint, hint=hint))
@@ -272,6 +369,10 @@ _PHRASES: dict[str, Callable[[Named, str, list[str]], Quantity]] = {
     "load": Named.load,
     "closeness": Named.closeness,
     "transmission_angle": Named.transmission_angle,
+    "conditioning": Named.conditioning,
+    "velocity_ratio": Named.velocity_ratio,
+    "heat": Named.heat,
+    "equivalent_inertia": Named.equivalent_inertia,
 }
 
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
+from linkwright.kinetostatics.named import Quantity
 from linkwright.registry import offered
-from linkwright.study.named import Quantity
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
@@ -61,6 +61,12 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
     if not found:
         raise RequestError(Sentence("study.no_outputs"))
     return tuple(found)
+
+
+def one(text: str) -> Summary:
+    """The one summary that a text ``output kind`` means."""
+    output, _, kind = text.rpartition(" ")
+    return Summary(output, kind)
 
 
 def _one(each: str | tuple[str, str]) -> list[Summary]:

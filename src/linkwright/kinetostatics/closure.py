@@ -1,0 +1,70 @@
+"""How well a group's closure determines its motion: angles between the ways in which its cut can move, traced."""
+
+from __future__ import annotations
+
+from linkwright.engine.linear import determinant
+from linkwright.engine.trace import Scalar, absolute, angle, sqrt
+from linkwright.engine.vector import Vec
+from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinetostatics.site import guide_state
+from linkwright.structure.group import Group, Structure, TreeJoint
+
+
+def dyads(structure: Structure) -> tuple[Group, ...]:
+    """The groups of two unknowns that are cut at a pin."""
+    return tuple(group for group in closable(structure) if len(group.unknowns) == 2)
+
+
+def closable(structure: Structure) -> tuple[Group, ...]:
+    """The groups whose cuts are all pins."""
+    return tuple(
+        group
+        for group in structure.groups
+        if group.unknowns and group.cuts and all(cut.kind == "revolute" for cut in group.cuts)
+    )
+
+
+def transmission(outputs: MotionOutputs, group: Group) -> Scalar:
+    """Transmission angle of a dyad, 0 to π/2.
+
+    The acute angle between the two ways in which the dyad's cut can move. RRR: between coupler and output link;
+    RRP: between the rod and the normal of the guide; RPR: between the line of the two pins and the normal of the
+    slot; PRP and RPP: between the two guides. Its sine is the determinant of the closure equations with unit
+    columns, so zero is a dead point.
+    """
+    (a, b), (c, d) = _columns(outputs, group)
+    return angle(absolute(a * d - b * c), absolute(a * c + b * d))
+
+
+def conditioning(outputs: MotionOutputs, group: Group) -> Scalar:
+    """Determinant of the closure equations with unit columns, 0 (singular) to 1; a dyad's is sin μ."""
+    columns = _columns(outputs, group)
+    found = absolute(determinant(columns))
+    for column in columns:
+        square: Scalar = 0.0
+        for entry in column:
+            square = square + entry * entry
+        found = found / sqrt(square)
+    return found
+
+
+def _columns(outputs: MotionOutputs, group: Group) -> list[list[Scalar]]:
+    """Directions in which the cuts move with each unknown: per unknown a column of two entries per cut."""
+    found: list[list[Scalar]] = [[0.0] * (2 * len(group.cuts)) for _ in group.unknowns]
+    for row, cut in enumerate(group.cuts):
+        place = outputs.point(cut.joint)[0]
+        for sense, end in ((1.0, cut.a), (-1.0, cut.b)):
+            for step in group.path(end):
+                if step.free:
+                    way = _way(outputs, step, place) * sense
+                    column = found[group.unknowns.index(step)]
+                    column[2 * row] = column[2 * row] + way.x
+                    column[2 * row + 1] = column[2 * row + 1] + way.y
+    return found
+
+
+def _way(outputs: MotionOutputs, step: TreeJoint, place: Vec) -> Vec:
+    """Velocity of the cut for a unit rate of one joint."""
+    if step.kind == "revolute":
+        return (place - outputs.point(step.joint)[0]).perp
+    return guide_state(outputs.motion, step.joint)[0]
