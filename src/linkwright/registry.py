@@ -11,10 +11,13 @@ from typing import Generic, TypeVar
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
+from linkwright.words.synonyms import nearest_in_meaning
 
 T = TypeVar("T")
 #: Names of which a sentence lists all, and among which the nearest is looked for, at most.
 MOST_SHOWN, MOST_COMPARED = 60, 300
+#: Likeness of two names above which one is the other with a slip of the pen.
+SLIP = 0.8
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -119,13 +122,19 @@ class UnknownName(RequestError, KeyError):
 
 
 def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...]) -> str | None:
-    """The candidate that looks most like ``name`` (capitals do not count), or None."""
+    """The candidate that looks most like ``name`` (capitals do not count), or means the same; or None."""
     known = list(candidates)
     if len(known) > MOST_COMPARED:
         known = [text for text in known if text[:1].casefold() == name[:1].casefold()][:MOST_COMPARED]
     folded = {text.casefold(): text for text in reversed(known)}
     if name.casefold() in folded:
         return folded[name.casefold()]
+    same, share = nearest_in_meaning(name, known)
+    slip = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=SLIP)
+    if slip and share < 1.0:
+        return folded[slip[0]]
+    if share >= 0.5:
+        return same
     within = [text for key, text in folded.items() if len(key) > 2 and name.casefold().startswith(key)]
     if within:
         return max(within, key=len)

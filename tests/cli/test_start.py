@@ -100,7 +100,7 @@ def test_an_unexpected_error_is_one_sentence_and_a_traceback_only_on_request(
     def broken(source: str) -> None:
         raise ZeroDivisionError("of what")
 
-    monkeypatch.setattr("linkwright.model.file.load", broken)
+    monkeypatch.setattr("linkwright.cli.source.read_source", broken)
     assert main(["structure", "gallery:kite"]) == 1
     plain = capsys.readouterr().err
     assert "ZeroDivisionError: of what" in plain and "report" in plain and "Traceback" not in plain
@@ -114,7 +114,7 @@ def test_interrupted_work_ends_with_130(
     def interrupted(source: str) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("linkwright.model.file.load", interrupted)
+    monkeypatch.setattr("linkwright.cli.source.read_source", interrupted)
     assert main(["structure", "gallery:kite"]) == 130
     assert capsys.readouterr().err == "interrupted\n"
 

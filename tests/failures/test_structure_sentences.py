@@ -71,7 +71,7 @@ def test_two_mechanisms_in_one_file_are_told_apart() -> None:
 
 def test_the_number_of_drivers_is_said() -> None:
     one = lw.structure(four_bar(f"driver: {ONE.split(': ', 1)[1]}")).text()
-    assert "number of driver (1)" in one
+    assert "number of drivers (1)" in one
     two = lw.structure(lw.load("gallery:dyad_rrr")).text()
     assert "number of drivers (2)" in two
 

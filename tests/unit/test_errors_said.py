@@ -3,8 +3,11 @@
 import copy
 import pickle
 
+import pytest
+
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.words.sentence import Sentence
+from linkwright.words.synonyms import ALIKE
 
 STEEP = Sentence("outcome.rpp_parallel", sine="0")
 
@@ -49,3 +52,32 @@ def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
     assert nearest("crank_arm", ["crank", "arm", "frame"]) == "crank"
     assert nearest("Ram", ["ram", "ramp"]) == "ram"
     assert nearest("cran", ["crank", "crane_arm"]) == "crank"
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "meant"),
+    [
+        ("slider", ["crank", "rod", "ram"], "ram"),
+        ("conrod", ["crank", "coupler", "ram"], "coupler"),
+        ("ground", ["crank", "frame"], "frame"),
+        ("weight", ["length", "mass", "inertia"], "mass"),
+        ("hinge", ["prismatic", "revolute", "weld"], "revolute"),
+        ("sliding", ["prismatic", "revolute", "weld"], "prismatic"),
+        ("driving_torque", ["peak_shaking_force", "peak_input_torque"], "peak_input_torque"),
+        ("connectingRod", ["crank", "coupler"], "coupler"),
+        ("曲柄", ["coupler", "crank"], "crank"),
+        ("crnk", ["rocker", "crank"], "crank"),
+        ("bolt", ["rocker", "frame"], None),
+    ],
+)
+def test_a_wrong_name_finds_the_one_that_means_the_same(
+    name: str, known: list[str], meant: str | None
+) -> None:
+    from linkwright.registry import nearest
+
+    assert nearest(name, known) == meant
+
+
+def test_no_word_means_two_things() -> None:
+    words = ALIKE.split()
+    assert len(words) == len(set(words))

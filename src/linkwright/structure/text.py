@@ -50,8 +50,7 @@ def _mobility(structure: Structure, say: Say) -> list[str]:
     if structure.mobility == 0 and not drivers:
         lines.append(say("structure_text.at_rest"))
     elif structure.mobility == drivers:
-        key = "determined" if drivers == 1 else "determined_several"
-        lines.append(say(f"structure_text.{key}", count=drivers))
+        lines.append(say("structure_text.determined", count=drivers))
     return lines
 
 

@@ -102,7 +102,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
         motion = solve_motion(mechanism, steps=options.steps, failures="mark")
         failed = [outcome for outcome in motion.outcomes if not outcome.ok]
         if len(failed) == motion.steps:
-            raise LinkwrightError(f"{file}: {failed[0].sentence}")
+            raise LinkwrightError(Sentence("cli.about", name=file, cause=failed[0].sentence))
         if failed:
             session.tell(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
                                      sentence=failed[0].sentence))  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from linkwright.errors import RequestError
+from linkwright.errors import QuantityError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
@@ -193,4 +193,7 @@ def _place(at: float | str | None, source: Source) -> float | None:
         return at
     if not source.mechanism.drivers:
         raise RequestError(Sentence("picture.no_driver", name=source.mechanism.name))
-    return parse(at, source.input_dimension)
+    try:
+        return parse(at, source.input_dimension)
+    except QuantityError as error:
+        raise RequestError(Sentence("cli.about", name="at", cause=error)) from None

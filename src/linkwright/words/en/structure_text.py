@@ -12,7 +12,6 @@ WORDS = {
     "redundant, so the mobility is {mobility}.",
     "at_rest": "Mobility 0 and no driver: a structure at rest, which carries loads.",
     "determined": "Mobility equals the number of drivers ({count}): the motion is determined.",
-    "determined_several": "Mobility equals the number of drivers ({count}): the motion is determined.",
     "groups": "Assur groups in solving order:",
     "driven": "driven by {drivers}",
     "driven_unnamed": "driven by driver",

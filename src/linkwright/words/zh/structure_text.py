@@ -12,7 +12,6 @@ WORDS = {
     "{mobility}。",
     "at_rest": "自由度为 0 且没有原动件：这是承受载荷的静止结构。",
     "determined": "自由度等于原动件数（{count}）：机构具有确定的运动。",
-    "determined_several": "自由度等于原动件数（{count}）：机构具有确定的运动。",
     "groups": "按求解顺序排列的基本杆组：",
     "driven": "原动件，由 {drivers} 驱动",
     "driven_unnamed": "原动件",
