@@ -24,6 +24,13 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import balance as balance
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.forces import solve_forces as solve_forces
+    from linkwright.laws.base import MotionLaw as MotionLaw
+    from linkwright.laws.choice import laws_for as laws_for
+    from linkwright.laws.choice import motion_law as motion_law
+    from linkwright.laws.found import FoundProgram as FoundProgram
+    from linkwright.laws.found import Window as Window
+    from linkwright.laws.program import MotionProgram as MotionProgram
+    from linkwright.laws.program import Segment as Segment
     from linkwright.machine import SteadyRunning as SteadyRunning
     from linkwright.machine import TorqueCurve as TorqueCurve
     from linkwright.machine import steady_running as steady_running
@@ -86,6 +93,10 @@ PUBLIC = {
     "linkwright.kinematics.limits": ("LimitPosition", "limit_positions"),
     "linkwright.kinetostatics.balancing": ("Balancing", "balance"),
     "linkwright.kinetostatics.forces": ("Forces", "solve_forces"),
+    "linkwright.laws.base": ("MotionLaw",),
+    "linkwright.laws.choice": ("laws_for", "motion_law"),
+    "linkwright.laws.found": ("FoundProgram", "Window"),
+    "linkwright.laws.program": ("MotionProgram", "Segment"),
     "linkwright.machine": ("SteadyRunning", "TorqueCurve", "steady_running"),
     "linkwright.metrics": ("MetricsTable", "metrics"),
     "linkwright.model.build": ("Model",),

@@ -7,7 +7,7 @@ import importlib
 import pkgutil
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Generic, TypeVar
+from typing import Generic, TypeVar, cast
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
@@ -26,9 +26,11 @@ class Registry(Mapping[str, T], Generic[T]):
     An element registers itself with ``@REGISTRY.register("name")``; adding one touches no other file.
     """
 
-    def __init__(self, noun: str, package: str) -> None:
+    def __init__(self, noun: str, package: str, *, entry_points: str | None = None) -> None:
+        """``entry_points``: the group under which installed packages name modules with further elements."""
         self.noun = noun
         self._package = package
+        self._entry_points = entry_points
         self._elements: dict[str, T] = {}
         self._lock = threading.RLock()
         self._discovered = self._discovering = False
@@ -74,9 +76,21 @@ class Registry(Mapping[str, T], Generic[T]):
                 package = importlib.import_module(self._package)
                 for module in pkgutil.iter_modules(package.__path__):
                     importlib.import_module(f"{self._package}.{module.name}")
+                self._load_installed()
                 self._discovered = True
             finally:
                 self._discovering = False
+
+    def _load_installed(self) -> None:
+        """Imports what other installed packages offer; an element registers itself, or is what is named."""
+        if self._entry_points is None:
+            return
+        from importlib.metadata import entry_points
+
+        for point in entry_points(group=self._entry_points):
+            found = point.load()
+            if point.name not in self._elements and isinstance(found, type):
+                self.register(point.name)(cast("T", found))
 
 
 def _home(element: object) -> tuple[str, str]:

@@ -45,6 +45,9 @@ DIMENSIONS: Mapping[str, Dimension] = {
     "line_load": (0, 1, -2, 0),
     "linear_density": (-1, 1, 0, 0),
     "mass_moment": (1, 1, 0, 0),
+    "length_per_angle": (1, 0, 0, -1),
+    "length_per_angle_squared": (1, 0, 0, -2),
+    "per_angle": (0, 0, 0, -1),
 }
 SI_UNITS: Mapping[str, str] = {
     "dimensionless": "",
@@ -73,6 +76,9 @@ SI_UNITS: Mapping[str, str] = {
     "line_load": "N/m",
     "linear_density": "kg/m",
     "mass_moment": "kg·m",
+    "length_per_angle": "m/rad",
+    "length_per_angle_squared": "m/rad²",
+    "per_angle": "1/rad",
 }
 #: What no machine reaches, in SI; a value beyond is a slip in a number or its unit, and squares of it stay finite.
 LARGEST: Mapping[str, float] = {
@@ -102,6 +108,9 @@ LARGEST: Mapping[str, float] = {
     "line_load": 1e15,
     "linear_density": 1e12,
     "mass_moment": 1e18,
+    "length_per_angle": 1e7,
+    "length_per_angle_squared": 1e7,
+    "per_angle": 1e7,
 }
 #: For a quantity of any other dimension.
 LARGEST_OF_ALL = max(LARGEST.values())

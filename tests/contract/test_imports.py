@@ -24,7 +24,7 @@ STAGES = (
         "core",
         "engine",
     ),
-    ("model", "joints", "drivers", "loads"),
+    ("model", "joints", "drivers", "loads", "laws"),
     ("structure",),
     ("groups",),
     ("kinematics",),

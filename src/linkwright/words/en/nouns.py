@@ -3,6 +3,7 @@
 WORDS = {
     "joint_kind": "joint kind",
     "driver_law": "driver law",
+    "motion_law": "motion law",
     "load_kind": "load kind",
     "assur_group": "Assur group",
     "diagram": "kind of diagram",
@@ -43,6 +44,9 @@ WORDS = {
     "a_second_moment_of_area": "a second moment of area",
     "in_units": "a quantity in {unit}",
     "a_mass_moment": "a mass moment",
+    "a_length_per_angle": "a length per angle",
+    "a_length_per_angle_squared": "a length per angle squared",
+    "a_per_angle": "a value per angle",
     "a_line_load": "a line load",
     "a_linear_density": "a linear density",
     "dxf_drawings": "DXF drawings",

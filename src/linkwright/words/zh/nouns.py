@@ -3,6 +3,7 @@
 WORDS = {
     "joint_kind": "运动副类型",
     "driver_law": "驱动规律",
+    "motion_law": "运动规律",
     "load_kind": "载荷类型",
     "assur_group": "杆组",
     "diagram": "图的种类",
@@ -43,6 +44,9 @@ WORDS = {
     "a_second_moment_of_area": "截面惯性矩",
     "in_units": "以 {unit} 为单位的量",
     "a_mass_moment": "质径积",
+    "a_length_per_angle": "单位转角的长度",
+    "a_length_per_angle_squared": "单位转角平方的长度",
+    "a_per_angle": "单位转角的值",
     "a_line_load": "线载荷",
     "a_linear_density": "线密度",
     "dxf_drawings": "DXF 图样",

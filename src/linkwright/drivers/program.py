@@ -1,0 +1,81 @@
+"""A coordinate given by a motion program over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+from linkwright.drivers.base import LAWS, Law
+from linkwright.errors import LinkwrightError
+from linkwright.laws.program_fields import ProgramField
+from linkwright.model.fields import Field
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.drivers.base import Array
+    from linkwright.laws.program import MotionProgram
+
+
+@LAWS.register("program")
+@dataclass(frozen=True)
+class ProgramLaw(Law):
+    """q goes through the segments of a motion program, from 0.
+
+    Where it ends with the velocity it began with it is repeated, from where it has come; else times beyond its end
+    raise.
+    """
+
+    key: ClassVar[str] = "program"
+    program: MotionProgram
+    rotary: bool = True
+
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        import numpy as np
+
+        if not self._repeats:
+            first, last = self.span()
+            slack = 1e-9 * last
+            if np.any(t < -slack) or np.any(t > last + slack):
+                values = {"first": first, "last": last, "begin": np.min(t), "end": np.max(t)}
+                raise LinkwrightError(Sentence("loads.table_range", **values))
+            t = np.clip(t, 0.0, np.nextafter(last, 0.0))
+        q, rate, second, _ = self.program.curves(t)
+        return q, rate, second
+
+    @cached_property
+    def _repeats(self) -> bool:
+        """Whether the program begins with the velocity with which it ends."""
+        import numpy as np
+
+        period = self.program.period
+        first, last = self.program.curves(np.array([0.0, np.nextafter(period, 0.0)]))[1].tolist()
+        size = max(abs(first), abs(last), abs(self.program.extreme(1, "max").value))
+        return bool(abs(first - last) <= 1e-7 * size)
+
+    def span(self) -> tuple[float, float]:
+        return super().span() if self._repeats else (0.0, self.program.period)
+
+    def natural_duration(self) -> float | None:
+        return self.program.period
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        lift = "angle" if rotary else "length"
+        return {
+            "program": ProgramField(lift, "time", closed=False, doc="segments over time, one after the other")
+        }
+
+    @classmethod
+    def from_values(
+        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
+    ) -> ProgramLaw:
+        from linkwright.laws.program import MotionProgram
+
+        program = values["program"]
+        assert isinstance(program, MotionProgram)
+        return cls(program, rotary)
+
+    def text_values(self) -> Mapping[str, object]:
+        return {"program": self.program}

@@ -1,0 +1,114 @@
+"""Laws of a straight line and sines of whole orders, and those that are known by a name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.laws.base import MOTION_LAWS, MotionLaw
+from linkwright.model.fields import Field, Quantity
+
+
+def sines(u: Any, shares: Sequence[tuple[int, float]]) -> tuple[Any, Any, Any, Any]:
+    """s = u - Σ b sin(2πku)/(2πk) with its derivatives, for (k, b) in ``shares``; Σ b = 1 begins and ends at rest."""
+    s, v = u + 0.0, 0.0 * u + 1.0
+    a, j = 0.0 * u, 0.0 * u
+    for order, share in shares:
+        w = 2 * pi * order
+        sine, cosine = np.sin(w * u), np.cos(w * u)
+        s, v = s - share * sine / w, v - share * cosine
+        a, j = a + share * w * sine, j + share * w * w * cosine
+    return s, v, a, j
+
+
+@MOTION_LAWS.register("cycloidal")
+@dataclass(frozen=True)
+class Cycloidal(MotionLaw):
+    """s = u - sin(2πu)/(2π): sine acceleration, from rest to rest; in VDI 2143 the inclined sine of Bestehorn."""
+
+    key: ClassVar[str] = "cycloidal"
+    source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2; VDI 2143-1"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return sines(u, ((1, 1.0),))
+
+
+@MOTION_LAWS.register("inclined_sine")
+@dataclass(frozen=True)
+class InclinedSine(MotionLaw):
+    """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, 0 unless given."""
+
+    key: ClassVar[str] = "inclined_sine"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "velocity": Quantity("dimensionless", doc="velocity at both ends, 0")
+    }
+    source: ClassVar[str] = "VDI 2143-1"
+    velocity: float = 0.0
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return sines(u, ((1, 1.0 - self.velocity),))
+
+
+@MOTION_LAWS.register("gutman")
+@dataclass(frozen=True)
+class Gutman(MotionLaw):
+    """s = u - (15/16) sin(2πu)/(2π) - (1/16) sin(6πu)/(6π): first and third order."""
+
+    key: ClassVar[str] = "gutman"
+    source: ClassVar[str] = (
+        "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
+    )
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return sines(u, ((1, 15 / 16), (3, 1 / 16)))
+
+
+@MOTION_LAWS.register("freudenstein")
+@dataclass(frozen=True)
+class Freudenstein(MotionLaw):
+    """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, the least acceleration."""
+
+    key: ClassVar[str] = "freudenstein"
+    source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return sines(u, ((1, 27 / 28), (3, 1 / 28)))
+
+
+@MOTION_LAWS.register("freudenstein_135")
+@dataclass(frozen=True)
+class Freudenstein135(MotionLaw):
+    """s = u - (1125/1192)(sin(2πu) + sin(6πu)/54 + sin(10πu)/1250)/(2π): orders 1, 3 and 5."""
+
+    key: ClassVar[str] = "freudenstein_135"
+    source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        m = 1125 / 1192
+        return sines(u, ((1, m), (3, m / 18), (5, m / 250)))
+
+
+@MOTION_LAWS.register("triple_harmonic")
+@dataclass(frozen=True)
+class TripleHarmonic(MotionLaw):
+    """Acceleration a = A₁ sin 2πu + A₂ sin 4πu + A₃ sin 6πu from rest to rest, so that A₁ + A₂/2 + A₃/3 = 2π.
+
+    Unless given, A₁ = 9π/4 and A₂ = 0: the jerk is then zero at both ends and in the middle.
+    """
+
+    key: ClassVar[str] = "triple_harmonic"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "first": Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"),
+        "second": Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"),
+    }
+    source: ClassVar[str] = "Reeve, Cams for Industry, 1995"
+    first: float = 9 * pi / 4
+    second: float = 0.0
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        one, two = self.first / (2 * pi), self.second / (4 * pi)
+        return sines(u, ((1, one), (2, two), (3, 1.0 - one - two)))

@@ -1,0 +1,118 @@
+"""The best spline: least peak of acceleration, jerk or velocity, or least residual vibration, within limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.laws.base import MOTION_LAWS, Floats, MotionLaw
+from linkwright.laws.pieces import Pieces
+from linkwright.model.fields import Field, Quantities, Quantity, Word
+from linkwright.words.sentence import Sentence
+
+AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}
+#: Pieces of the spline, places of the residual spectrum, directions in which its size is bounded.
+_PIECES, _RATIOS, _DIRECTIONS = 64, 25, 16
+_LIMIT = "largest {} allowed, for a rise of 1 over 1"
+
+
+@MOTION_LAWS.register("optimized_spline")
+@dataclass(frozen=True)
+class OptimizedSpline(MotionLaw):
+    """The rise from rest to rest of a spline of order 5 with the least peak ``minimize``, within limits.
+
+    ``residual`` is the largest amplitude |∫ a e^(2πinu) du|/(2πn) over ``ratios`` n of rise time and natural period.
+    Peaks are bounded by the control values of the derivatives, so that the limits hold everywhere. A linear program,
+    solved by HiGHS. Without limits of one's own the jerk is at most 200, for ``residual`` the acceleration at most 8.
+    """
+
+    key: ClassVar[str] = "optimized_spline"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "minimize": Word(tuple(AIMS), required=True, doc="what is made least"),
+        "velocity": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("velocity")),
+        "acceleration": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("acceleration")),
+        "jerk": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("jerk")),
+        "ratios": Quantities("dimensionless", count=2, doc="rise time over natural period, from and to"),
+    }
+    source: ClassVar[str] = "linear program over B-splines; bounds: de Boor, A Practical Guide to Splines"
+    minimize: str
+    velocity: float | None = None
+    acceleration: float | None = None
+    jerk: float | None = None
+    ratios: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.minimize not in AIMS:
+            raise RequestError(Sentence("laws.aim", aim=self.minimize, known=", ".join(AIMS)))
+        if (self.minimize == "residual") != (self.ratios is not None):
+            raise RequestError(Sentence("laws.ratios"))
+        if self.ratios is not None and not 0 < self.ratios[0] <= self.ratios[1]:
+            raise RequestError(Sentence("laws.ratios"))
+
+    @property
+    def limits(self) -> dict[int, float]:
+        """Limits by order of the derivative, those that hold unless given among them."""
+        given = {1: self.velocity, 2: self.acceleration, 3: self.jerk}
+        usual = {2: 8.0, 3: 200.0} if self.minimize == "residual" else {3: 200.0}
+        found = {order: value for order, value in given.items() if value is not None}
+        return {**{k: v for k, v in usual.items() if k != AIMS[self.minimize]}, **found}
+
+    @cached_property
+    def _pieces(self) -> Pieces:
+        from scipy.optimize import linprog
+
+        from linkwright.laws.spline_space import SplineSpace
+
+        space = SplineSpace(np.linspace(0.0, 1.0, _PIECES + 1))
+        rows, right = self._rows(space)
+        held = space.resting
+        free = np.r_[3 : space.size - 3, space.size]
+        right = right - rows[:, : space.size] @ np.where(np.isin(np.arange(space.size), free), 0.0, held)
+        cost = np.zeros(len(free))
+        cost[-1] = 1.0
+        bounds = [(None, None)] * len(free)
+        found = linprog(cost, A_ub=rows[:, free], b_ub=right, bounds=bounds, method="highs")
+        if not found.success:
+            said = ", ".join(f"{name} ≤ {self.limits[k]:g}" for name, k in AIMS.items() if k in self.limits)
+            raise RequestError(Sentence("laws.limits_too_tight", limits=said))
+        held[free[:-1]] = found.x[:-1]
+        return space.pieces(held)
+
+    def _rows(self, space: Any) -> tuple[Floats, Floats]:
+        """Rows A and right sides of A (control values, peak) <= b."""
+        blocks, right = [], []
+        for order, limit in self.limits.items():
+            bound = space.bounds(order)
+            blocks += [np.column_stack([sign * bound, np.zeros(len(bound))]) for sign in (1.0, -1.0)]
+            right += [np.full(2 * len(bound), limit)]
+        if self.minimize == "residual":
+            bound = self._residual(space)
+        else:
+            one_side = space.bounds(AIMS[self.minimize])
+            bound = np.concatenate([one_side, -one_side])
+        blocks.append(np.column_stack([bound, np.full(len(bound), -1.0)]))
+        right.append(np.zeros(len(bound)))
+        return np.concatenate(blocks), np.concatenate(right)
+
+    def _residual(self, space: Any) -> Floats:
+        """The residual amplitudes over the ratios, seen from all sides."""
+        assert self.ratios is not None
+        places, weights = space.gauss
+        n = np.linspace(*self.ratios, _RATIOS)
+        turn = np.exp(2j * pi * np.outer(n, places)) * weights / (2 * pi * n[:, None])
+        whole = turn @ space.at(places, 2)
+        sides = np.exp(-2j * pi * np.arange(_DIRECTIONS) / _DIRECTIONS)
+        return np.asarray((sides[:, None, None] * whole).real.reshape(-1, space.size))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple((np.arange(1, _PIECES) / _PIECES).tolist())
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return self._pieces.curves(u)

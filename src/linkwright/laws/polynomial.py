@@ -1,0 +1,180 @@
+"""Polynomials: the named ones from rest to rest, and those that meet any conditions at the ends."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import perm
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.model.fields import Field, Quantities, Quantity
+from linkwright.words.sentence import Sentence
+
+Coefficients = tuple[float, ...]
+
+
+def powers(u: Any, coefficients: Sequence[float]) -> tuple[Any, Any, Any, Any]:
+    """Σ c_k u^k and its first three derivatives, by Horner's rule."""
+    found = []
+    row = np.asarray(coefficients, dtype=float)
+    for _ in range(4):
+        value = 0.0 * u
+        for each in row[::-1]:
+            value = value * u + each
+        found.append(value)
+        row = row[1:] * np.arange(1, len(row))
+    return found[0], found[1], found[2], found[3]
+
+
+def from_conditions(start: Sequence[float], end: Sequence[float]) -> Coefficients:
+    """Coefficients of the polynomial with these derivatives (displacement first) at u = 0 and at u = 1."""
+    low, count = len(start), len(start) + len(end)
+    known = [value / perm(k, k) for k, value in enumerate(start)]
+    matrix = np.array([[perm(k, order) for k in range(low, count)] for order in range(len(end))], dtype=float)
+    right = [value - sum(c * perm(k, order) for k, c in enumerate(known)) for order, value in enumerate(end)]
+    return (*known, *np.linalg.solve(matrix, np.array(right, dtype=float)).tolist())
+
+
+class Polynomial(MotionLaw):
+    """s = Σ c_k u^k."""
+
+    source: ClassVar[str] = "Norton, Cam Design and Manufacturing Handbook, ch. 4; VDI 2143-1"
+
+    @property
+    @abstractmethod
+    def coefficients(self) -> Coefficients:
+        """c_k, k from 0."""
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return powers(u, self.coefficients)
+
+
+@MOTION_LAWS.register("polynomial_23")
+@dataclass(frozen=True)
+class Polynomial23(Polynomial):
+    """s = 3u² - 2u³: the acceleration jumps beside dwells."""
+
+    key: ClassVar[str] = "polynomial_23"
+    coefficients = (0.0, 0.0, 3.0, -2.0)
+
+
+@MOTION_LAWS.register("polynomial_345")
+@dataclass(frozen=True)
+class Polynomial345(Polynomial):
+    """s = 10u³ - 15u⁴ + 6u⁵."""
+
+    key: ClassVar[str] = "polynomial_345"
+    coefficients = (0.0, 0.0, 0.0, 10.0, -15.0, 6.0)
+
+
+@MOTION_LAWS.register("polynomial_4567")
+@dataclass(frozen=True)
+class Polynomial4567(Polynomial):
+    """s = 35u⁴ - 84u⁵ + 70u⁶ - 20u⁷: the jerk has no jumps."""
+
+    key: ClassVar[str] = "polynomial_4567"
+    coefficients = (0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0)
+
+
+@MOTION_LAWS.register("polynomial_5")
+@dataclass(frozen=True)
+class Polynomial5(Polynomial):
+    """The polynomial of order 5 with any velocity and acceleration at both ends (all pairs of VDI 2143)."""
+
+    key: ClassVar[str] = "polynomial_5"
+    demanded: Ends = field(default_factory=Ends)
+    rise: float = 1.0
+
+    @classmethod
+    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
+        return cls(ends, rise)
+
+    @cached_property
+    def coefficients(self) -> Coefficients:
+        v, a = self.demanded.velocity, self.demanded.acceleration
+        return from_conditions((0.0, v[0], a[0]), (self.rise, v[1], a[1]))
+
+
+@MOTION_LAWS.register("polynomial_7")
+@dataclass(frozen=True)
+class Polynomial7(Polynomial):
+    """The polynomial of order 7 with any velocity and acceleration at both ends, and no jerk there."""
+
+    key: ClassVar[str] = "polynomial_7"
+    demanded: Ends = field(default_factory=Ends)
+    rise: float = 1.0
+
+    @classmethod
+    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
+        return cls(ends, rise)
+
+    @cached_property
+    def coefficients(self) -> Coefficients:
+        v, a = self.demanded.velocity, self.demanded.acceleration
+        return from_conditions((0.0, v[0], a[0], 0.0), (self.rise, v[1], a[1], 0.0))
+
+
+@MOTION_LAWS.register("polynomial")
+@dataclass(frozen=True)
+class PolynomialOf(Polynomial):
+    """The polynomial of least order with these derivatives at the ends: velocity, acceleration, jerk and so on.
+
+    Without any it is s = u.
+    """
+
+    key: ClassVar[str] = "polynomial"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "start": Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"),
+        "end": Quantities("dimensionless", doc="v, a, j, … at u = 1"),
+    }
+    start: Coefficients = ()
+    end: Coefficients = ()
+
+    def __post_init__(self) -> None:
+        if max(len(self.start), len(self.end)) > 8:
+            raise RequestError(Sentence("laws.too_many_conditions"))
+
+    @cached_property
+    def coefficients(self) -> Coefficients:
+        return from_conditions((0.0, *self.start), (1.0, *self.end))
+
+
+@MOTION_LAWS.register("polydyne")
+@dataclass(frozen=True)
+class Polydyne(Polynomial):
+    """The cam's rise with which an elastic follower itself moves by the polynomial 5-6-7-8-9.
+
+    y + 2ζ/(2πn) y' + y''/(2πn)² of that polynomial y, with n the time of the rise over the natural period and ζ the
+    damping: at the speed it is made for nothing is left vibrating (Stoddart 1953).
+    """
+
+    key: ClassVar[str] = "polydyne"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "ratio": Quantity(
+            "dimensionless", above=0.0, required=True, doc="time of the rise over natural period"
+        ),
+        "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ of the follower, 0"),
+    }
+    source: ClassVar[str] = "D. A. Stoddart, Polydyne cam design, Machine Design 25, 1953"
+    ratio: float
+    damping_ratio: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.ratio <= 0 or not 0 <= self.damping_ratio < 1:
+            raise RequestError(Sentence("laws.polydyne"))
+
+    @cached_property
+    def coefficients(self) -> Coefficients:
+        y = np.zeros(10)
+        y[5:] = 126.0, -420.0, 540.0, -315.0, 70.0
+        w = 2 * np.pi * self.ratio
+        first = np.append(y[1:] * np.arange(1, 10), 0.0)
+        second = np.append(first[1:] * np.arange(1, 10), 0.0)
+        total: Floats = y + 2 * self.damping_ratio / w * first + second / w**2
+        return tuple(total.tolist())

@@ -1,0 +1,224 @@
+"""Laws and programs in files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from linkwright.errors import LinkwrightError, ModelError, RequestError
+from linkwright.model.fields import Field, Quantities, Quantity, Schema, Word, table_schema
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.laws.base import MotionLaw
+    from linkwright.laws.program import MotionProgram, Segment
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+#: Dimension of lift, velocity and acceleration, by what the lift is and over what.
+RATES = {
+    ("length", "angle"): ("length_per_angle", "length_per_angle_squared"),
+    ("angle", "angle"): ("dimensionless", "per_angle"),
+    ("length", "time"): ("velocity", "acceleration"),
+    ("angle", "time"): ("angular_velocity", "angular_acceleration"),
+}
+_ALTERED: Mapping[str, Field] = {
+    "crossover": Quantity("dimensionless", above=0.0, doc="where a symmetric law turns, 1/2 unless given"),
+    "portion": Quantities("dimensionless", count=2, doc="the part of the law from u to u"),
+    "backwards": Word(("true", "false"), doc="its ends change places"),
+}
+
+
+@dataclass(frozen=True)
+class LawField(Field):
+    """A motion law: its name, or a table with ``kind`` and the law's own keys."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        from linkwright.laws.base import MOTION_LAWS
+
+        if not isinstance(node, MappingNode):
+            return self._named(reader, node, place)
+        kind_node = node.get("kind")
+        if kind_node is None:
+            known = ", ".join(MOTION_LAWS)
+            remedy = Sentence("laws.no_kind_remedy", known=known)
+            reader.error(node, place.child("kind"), Sentence("laws.no_kind"), remedy, "missing-key")
+            return None
+        kind = reader.word(kind_node, place.child("kind"), tuple(MOTION_LAWS))
+        if kind is None:
+            return None
+        fields: Mapping[str, Field] = {
+            "kind": Word(tuple(MOTION_LAWS)),
+            **MOTION_LAWS[kind].fields,
+            **_ALTERED,
+        }
+        before = reader.error_count
+        values = reader.table(node, place, fields)
+        if values is None or reader.error_count > before:
+            return None
+        return self._built(reader, node, place, {k: v for k, v in values.items() if v is not None})
+
+    def _named(self, reader: Reader, node: Node, place: Place) -> MotionLaw | str | None:
+        from linkwright.laws.base import MOTION_LAWS
+
+        name = reader.word(node, place, tuple(MOTION_LAWS))
+        if name is None:
+            return None
+        needed = [key for key, each in MOTION_LAWS[name].fields.items() if each.required]
+        if needed:
+            message = Sentence("laws.needs_values", law=name, names=", ".join(needed))
+            remedy = Sentence("laws.needs_values_remedy", law=name, first=needed[0])
+            reader.error(node, place, message, remedy, "missing-key")
+            return None
+        return name
+
+    def _built(self, reader: Reader, node: Node, place: Place, values: dict[str, Any]) -> Any:
+        from linkwright.laws.base import MOTION_LAWS, Ends
+        from linkwright.laws.choice import altered
+
+        kind = MOTION_LAWS[values.pop("kind")]
+        changes = [
+            values.pop("crossover", None),
+            values.pop("portion", None),
+            values.pop("backwards", "") == "true",
+        ]
+        if not any(changes) and kind.meeting(Ends(), 1.0) is not None:
+            return kind.key
+        try:
+            return altered(kind(**values), changes[0], changes[1], changes[2])
+        except LinkwrightError as error:
+            reader.error(node, place, error.sentence, "", "law")
+            return None
+
+    def written(self, value: Any) -> Any:
+        from linkwright.laws.altered import Backwards, Portion, Shifted
+        from linkwright.laws.base import MOTION_LAWS, Ends
+
+        if isinstance(value, str):
+            return value
+        found: dict[str, Any] = {}
+        if isinstance(value, Backwards):
+            found, value = {"backwards": "true"}, value.law
+        if isinstance(value, Portion):
+            found, value = {"portion": [value.start, value.end], **found}, value.law
+        if isinstance(value, Shifted):
+            found, value = {"crossover": value.crossover, **found}, value.law
+        fields = MOTION_LAWS[value.key].fields if value.key in MOTION_LAWS else None
+        if fields is None or value.meeting(Ends(), 1.0) is not None:
+            raise RequestError(Sentence("laws.not_written", law=value.key))
+        own = {key: each.written(getattr(value, key)) for key, each in fields.items()
+               if getattr(value, key) not in (None, ())}  # fmt: skip
+        return {"kind": value.key, **own, **found} if own or found else value.key
+
+    def shape(self) -> Schema:
+        from linkwright.laws.base import MOTION_LAWS
+
+        return {"anyOf": [{"enum": list(MOTION_LAWS)}, {"type": "object", "required": ["kind"]}]}
+
+
+@dataclass(frozen=True)
+class ProgramField(Field):
+    """A list of segments: ``{rise: 10 mm, over: 90 deg, law: cycloidal}``, ``{dwell: 30 deg}``, ``{fall: …}``.
+
+    ``lift``: length or angle, or a function that says so from the values read before; ``across``: angle or time.
+    ``closed``: whether the lift comes back.
+    """
+
+    lift: str | Callable[[Mapping[str, Any]], str] = "length"
+    across: str = "angle"
+    closed: bool = field(default=True, kw_only=True)
+
+    def segment_fields(self, lift: str) -> Mapping[str, Field]:
+        """Keys of one segment."""
+        velocity, acceleration = RATES[lift, self.across]
+        return {
+            "dwell": Quantity(self.across, above=0.0, doc="nothing moves while this passes"),
+            "rise": Quantity(lift, doc="how far up"),
+            "fall": Quantity(lift, doc="how far down"),
+            "to": Quantity(lift, doc="to this lift"),
+            "over": Quantity(self.across, above=0.0, doc="while this passes"),
+            "law": LawField(doc="motion law, polynomial_5 unless given"),
+            "velocity": Quantity(velocity, doc="velocity at its end, where both sides can meet it"),
+            "acceleration": Quantity(acceleration, doc="acceleration at its end"),
+        }
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        items = reader.items(node, place, None, "[{rise: 10 mm, over: 90 deg}, …]")
+        if items is None:
+            return None
+        lift = self.lift if isinstance(self.lift, str) else self.lift(given)
+        fields = self.segment_fields(lift)
+        before = reader.error_count
+        segments = [self._segment(reader, each, place.child(str(k)), fields) for k, each in enumerate(items)]
+        if reader.error_count > before:
+            return None
+        made = tuple(each for each in segments if each is not None)
+        return self._program(reader, node, items, place, made)
+
+    def _program(
+        self, reader: Reader, node: Node, items: list[Node], place: Place, segments: tuple[Segment, ...]
+    ) -> MotionProgram | None:
+        from linkwright.laws.program import TURN, MotionProgram
+
+        period = TURN if self.across == "angle" else sum(each.over for each in segments)
+        try:
+            return MotionProgram(segments, period=period, closed=self.closed)
+        except ModelError as error:
+            for each in error.findings:
+                number = each.key.split(".")[1:2]
+                at = items[int(number[0])] if number else node
+                reader.error(
+                    at, place.child(number[0]) if number else place, each.message, each.remedy, each.code
+                )
+        except LinkwrightError as error:
+            reader.error(node, place, error.sentence, "", "law")
+        return None
+
+    def _segment(
+        self, reader: Reader, node: Node, place: Place, fields: Mapping[str, Field]
+    ) -> Segment | None:
+        from linkwright.laws.program import Segment
+
+        before = reader.error_count
+        values = reader.table(node, place, fields)
+        if values is None or reader.error_count > before:
+            return None
+        ways = [key for key in ("dwell", "rise", "fall", "to") if values.get(key) is not None]
+        if len(ways) != 1:
+            reader.error(node, place, Sentence("laws.one_way"), Sentence("laws.one_way_remedy"), "choice")
+            return None
+        way = ways[0]
+        if (way == "dwell") == (values.get("over") is not None):
+            key = "laws.dwell_over" if way == "dwell" else "laws.no_over"
+            reader.error(node, place, Sentence(key), Sentence(f"{key}_remedy"), "missing-key")
+            return None
+        if way == "dwell":
+            return Segment(values["dwell"])
+        rise = values["rise"] if way == "rise" else -values["fall"] if way == "fall" else None
+        ends = values.get("velocity"), values.get("acceleration")
+        return Segment(values["over"], rise, values.get("to"), values.get("law") or "polynomial_5", *ends)
+
+    def written(self, value: MotionProgram) -> Any:
+        assert isinstance(self.lift, str)
+        fields = self.segment_fields(self.lift)
+        return [self._written_segment(each, fields) for each in value.segments]
+
+    def _written_segment(self, segment: Segment, fields: Mapping[str, Field]) -> dict[str, Any]:
+        if segment.dwells:
+            return {"dwell": fields["dwell"].written(segment.over)}
+        way = "rise" if segment.to is None else "to"
+        values = {
+            way: (segment.rise or 0.0) if segment.to is None else segment.to,
+            "over": segment.over,
+            "law": segment.law,
+            "velocity": segment.velocity,
+            "acceleration": segment.acceleration,
+        }
+        return {key: fields[key].written(each) for key, each in values.items() if each is not None}
+
+    def shape(self) -> Schema:
+        lift = self.lift if isinstance(self.lift, str) else "length"
+        return {"type": "array", "items": table_schema(self.segment_fields(lift))}

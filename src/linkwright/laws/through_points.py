@@ -1,0 +1,139 @@
+"""Laws through given points: exactly, or smoothed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.laws.pieces import Pieces
+from linkwright.model.fields import Field, Quantities, Quantity
+from linkwright.words.sentence import Sentence
+
+_PLACES = Quantities("dimensionless", required=True, doc="places u between 0 and 1, increasing")
+_VALUES = Quantities("dimensionless", required=True, doc="displacements there, as shares of the lift")
+#: Share of u that the shortest way between two points may be, and how many points there may be.
+_NEAR, _MOST = 1e-6, 5000
+
+
+def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floats, Floats]:
+    """Places and values with both ends."""
+    u = np.array([0.0, *(each for each in places if 0.0 < each < 1.0), 1.0])
+    inside = len(u) == len(places) + 2 or (len(places) and (places[0] == 0.0 or places[-1] == 1.0))
+    if len(places) != len(values) or not inside or np.diff(u).min() < _NEAR or len(u) > _MOST:
+        raise RequestError(Sentence("laws.points", places=len(places), values=len(values)))
+    kept = [s for x, s in zip(places, values, strict=True) if 0.0 < x < 1.0]
+    ends = [s for x, s in zip(places, values, strict=True) if x in (0.0, 1.0) and s != x]
+    if ends:
+        raise RequestError(Sentence("laws.points_ends", value=ends[0]))
+    return u, np.array([0.0, *kept, 1.0])
+
+
+@MOTION_LAWS.register("spline")
+@dataclass(frozen=True)
+class SplineThrough(MotionLaw):
+    """The spline of order 5 through points, from 0 to 1 with given velocity and acceleration at the ends.
+
+    Continuous up to the fourth derivative (de Boor, A Practical Guide to Splines).
+    """
+
+    key: ClassVar[str] = "spline"
+    fields: ClassVar[Mapping[str, Field]] = {"places": _PLACES, "values": _VALUES}
+    source: ClassVar[str] = "de Boor, A Practical Guide to Splines; Norton, ch. 5"
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    demanded: Ends = field(default_factory=Ends)
+
+    def __post_init__(self) -> None:
+        _checked(self.places, self.values)
+
+    @cached_property
+    def _pieces(self) -> Pieces:
+        from scipy.interpolate import make_interp_spline
+
+        u, s = _checked(self.places, self.values)
+        v, a = self.demanded.velocity, self.demanded.acceleration
+        bounds = ([(1, v[0]), (2, a[0])], [(1, v[1]), (2, a[1])])
+        found = make_interp_spline(u, s, k=5, bc_type=bounds)
+        return Pieces.of_spline(found.t, found.c, 5)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(self._pieces.edges[1:-1].tolist())
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return self._pieces.curves(u)
+
+
+@MOTION_LAWS.register("smoothed_table")
+@dataclass(frozen=True)
+class SmoothedTable(MotionLaw):
+    """The smoothest rise from rest to rest that stays within ``tolerance`` (a share of the lift) of measured points.
+
+    A spline of order 5 with the least ∫ j² du for the weight that just keeps the tolerance (Reinsch 1967).
+    """
+
+    key: ClassVar[str] = "smoothed_table"
+    fields: ClassVar[Mapping[str, Field]] = {
+        "places": _PLACES,
+        "values": _VALUES,
+        "tolerance": Quantity(
+            "dimensionless",
+            above=0.0,
+            required=True,
+            doc="largest distance to the points, as a share of the lift",
+        ),
+    }
+    source: ClassVar[str] = "C. H. Reinsch, Smoothing by spline functions, Numer. Math. 10, 1967"
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    tolerance: float
+
+    def __post_init__(self) -> None:
+        _checked(self.places, self.values)
+
+    @cached_property
+    def _pieces(self) -> Pieces:
+        from linkwright.laws.spline_space import SplineSpace
+
+        u, s = _checked(self.places, self.values)
+        space = SplineSpace(np.linspace(0.0, 1.0, min(max(2 * len(u), 12), 160) + 1))
+        held, free = space.resting, slice(3, -3)
+        rows, (bend, weights) = space.at(u), space.energy(3)
+        bend = np.sqrt(weights)[:, None] * bend
+        bend *= np.sqrt(len(u) / np.square(bend).sum())
+        bend = np.asarray(np.linalg.qr(np.column_stack([bend[:, free], bend @ held]), mode="r"))
+        gap = s - rows @ held
+
+        def fitted(log_weight: float) -> Floats:
+            scale = 10.0**log_weight
+            matrix = np.concatenate([rows[:, free], scale * bend[:, :-1]])
+            right = np.concatenate([gap, -scale * bend[:, -1]])
+            found = held.copy()
+            found[free] += np.linalg.lstsq(matrix, right, rcond=None)[0]
+            return found
+
+        def far(values: Floats) -> float:
+            return float(np.abs(space.at(u) @ values - s).max())
+
+        low, high = -7.0, 5.0
+        if far(fitted(low)) > self.tolerance:
+            raise RequestError(
+                Sentence("laws.not_smoothed", tolerance=self.tolerance, least=far(fitted(low)))
+            )
+        for _ in range(30):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if far(fitted(middle)) <= self.tolerance else (low, middle)
+        return space.pieces(fitted(low))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(self._pieces.edges[1:-1].tolist())
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return self._pieces.curves(u)
