@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from linkwright.study.sensitivity import sensitivity as sensitivity
     from linkwright.study.study import Study as Study
     from linkwright.study.study import study as study
+    from linkwright.synthesis.free_curve.generate import free_curve as free_curve
     from linkwright.synthesis.function_generation.generate import function_generation as function_generation
     from linkwright.synthesis.motion_generation.generate import motion_generation as motion_generation
     from linkwright.synthesis.path_generation.cognates import cognates as cognates
@@ -115,6 +116,7 @@ PUBLIC = {
     "linkwright.study.prepared": ("Prepared", "prepare"),
     "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
     "linkwright.study.study": ("Study", "study"),
+    "linkwright.synthesis.free_curve.generate": ("free_curve",),
     "linkwright.synthesis.function_generation.generate": ("function_generation",),
     "linkwright.synthesis.motion_generation.generate": ("motion_generation",),
     "linkwright.synthesis.path_generation.cognates": ("cognates",),

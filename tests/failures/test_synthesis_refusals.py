@@ -1,6 +1,7 @@
 """Demands that cannot be met: which one, how closely it can be, and the nearest solution."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -107,3 +108,37 @@ def test_ten_points_are_too_many_for_exactness() -> None:
 def test_a_slider_crank_has_no_cognates() -> None:
     with pytest.raises(lw.SynthesisError, match="four-bar"):
         lw.cognates(slider_crank_from_ratios(0.3, 3.0).best.linkage)
+
+
+@pytest.mark.parametrize(
+    ("demands", "told"),
+    [
+        ({}, "needs its points or a file"),
+        ({"points": [(0, 0), (1, 1)], "joints": 14}, "at most 14 joints"),
+        ({"points": [(0, 0), (0, 0)]}, "one place"),
+        ({"points": [(0, 0), (1, 1)], "transmission_angle": 2.0}, "114.592 deg"),
+        ({"points": [(0, 0), (1, 1)], "seconds": 0.0}, "seconds is 0"),
+        ({"file": "missing.svg"}, "missing.svg"),
+    ],
+)
+def test_free_curves_that_cannot_be_searched(demands: dict, told: str) -> None:
+    with pytest.raises(lw.SynthesisError, match=told):
+        lw.free_curve(**demands)
+
+
+def test_a_file_without_a_curve(tmp_path: Path) -> None:
+    table = tmp_path / "a.csv"
+    table.write_text("1, 2\n3, four\n")
+    with pytest.raises(lw.SynthesisError, match=r'line 2: "3, four"'):
+        lw.free_curve(file=table)
+    drawing = tmp_path / "a.svg"
+    drawing.write_text("<svg><circle r='1'/></svg>")
+    with pytest.raises(lw.SynthesisError, match="no path"):
+        lw.free_curve(file=drawing)
+
+
+def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
+    with pytest.raises(lw.SynthesisError, match=r"within the error 0\.001; the least is 0\.1") as caught:
+        lw.free_curve([(0.9, 0), (0.9, 1.7), (0, 0.6), (1.3, 0.6)], joints=5, error=0.001, seconds=1.0)
+    assert caught.value.nearest is not None
+    assert caught.value.nearest.best.error < 0.25

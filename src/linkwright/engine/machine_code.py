@@ -92,6 +92,20 @@ def object_code(text: str, level: int = 3) -> bytes:
         return bytes(machine.emit_object(module))
 
 
+def optimised(text: str) -> str:
+    """A module after LLVM's own passes: for text written with variables in memory and calls."""
+    with _LOCK:
+        binding = _binding()
+        machine = _target_machine()
+        module = binding.parse_assembly(text)
+        module.triple = machine.triple
+        module.data_layout = str(machine.target_data)
+        options = binding.create_pipeline_tuning_options(speed_level=3)
+        passes = binding.create_pass_builder(machine, options)
+        passes.getModulePassManager().run(module, passes)
+        return str(module)
+
+
 def assembly(text: str, level: int = 3) -> str:
     """Readable machine code of a module."""
     with _LOCK:
@@ -116,3 +130,7 @@ class Loaded:
             raise RuntimeError(f"the object code has no function {entry}")
         #: Function of one address, which gives the lock of the interpreter back while it runs.
         self.function = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
+
+    def address(self, entry: str) -> int:
+        """Address of a function."""
+        return int(self._engine.get_function_address(entry))

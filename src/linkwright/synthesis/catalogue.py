@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.synthesis.free_curve.generate import free_curve
 from linkwright.synthesis.function_generation.generate import function_generation
 from linkwright.synthesis.motion_generation.generate import motion_generation
 from linkwright.synthesis.path_generation.exact import exact_path_generation
@@ -150,5 +151,22 @@ TASKS: Mapping[str, Task] = {
     ),
     "exact_path": Task(
         exact_path_generation, {"points": "points", "count": "count", "seed": "count"}, ("points",)
+    ),
+    "free_curve": Task(
+        free_curve,
+        {
+            "points": "points",
+            "file": "file",
+            "file_unit": "length",
+            "closed": "flag",
+            "joints": "count",
+            "transmission_angle": "angle",
+            "size": "number",
+            "error": "number",
+            "seconds": "number",
+            "count": "count",
+            "seed": "count",
+        },
+        (),
     ),
 }

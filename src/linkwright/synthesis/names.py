@@ -2,5 +2,5 @@
 
 TASK_NAMES = (
     "slider_crank", "crank_rocker", "quick_return", "drag_link", "toggle", "dwell", "straight_line",
-    "function", "motion", "path", "exact_path",
+    "function", "motion", "path", "exact_path", "free_curve",
 )  # fmt: skip

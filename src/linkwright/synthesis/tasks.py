@@ -158,6 +158,9 @@ class _Reader:
         """The value of a demand in SI, or None with a finding."""
         if form in ("word", "flag"):
             return self._word(node, key, form)
+        if form == "file":
+            named = self._word(node, key, form)
+            return None if named is None else str(Path(self.name).parent / named)
         dimensions, depth = SHAPES[form]
         found = self._nested(node, key, form, dimensions, depth)
         if form == "count" and isinstance(found, float):

@@ -57,13 +57,18 @@ class SynthesisDiagram(ResultKind):
         for number, each in enumerate(result.candidates[:SHOWN]):
             colour = COLOURS[number % len(COLOURS)]
             if each.curve is not None and each.curve.ndim == 1:
-                axes.plot(each.curve.real, each.curve.imag, color=colour, lw=1)
+                label = say("synthesize.legend.candidate", language, number=number + 1)
+                own = label if result.task == "free_curve" and number else "_"
+                axes.plot(each.curve.real, each.curve.imag, color=colour, lw=1, label=own)
+            if result.task == "free_curve" and number:
+                continue
             _links(axes, each, colour, say("synthesize.legend.candidate", language, number=number + 1))
         target = result.target
         if target is not None and np.iscomplexobj(target):
             places = target if target.ndim == 1 else target[0]
             label = say("synthesize.legend.target", language)
-            axes.plot(places.real, places.imag, "o", ms=4, mfc="none", color=INK, label=label)
+            mark = "--" if result.task == "free_curve" else "o"
+            axes.plot(places.real, places.imag, mark, ms=4, mfc="none", color=INK, label=label)
             if target.ndim == 2:
                 axes.quiver(places.real, places.imag, target[1].real, target[1].imag, color=INK, width=0.003)
         axes.set_aspect("equal", adjustable="datalim")

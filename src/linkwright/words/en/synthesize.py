@@ -3,7 +3,7 @@
 WORDS = {
     "summary": "find dimensions from what the machine must do",
     "description": """\
-Finds linkages for a task: a path, poses, a function, or requirements such as
+Finds linkages for a task: a path, a free curve, poses, a function, or requirements such as
 stroke and quick-return ratio. Shows every candidate with its error, Grashof
 type, defects over the whole range, smallest transmission angle and ratio of
 longest to shortest link; writes each as a model file. The task stands in the
@@ -12,6 +12,7 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
 linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
 linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
 linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
+linkwright synthesize free_curve file=letter.svg joints=10 --output designs --plot letter.png
 linkwright synthesize press.yaml --json""",
     "task_help": "a file with a section synthesis, or the name of a task: {tasks}",
     "demands_help": 'demands of the task, such as stroke="40 mm"; lists in brackets as in a file',
@@ -51,6 +52,7 @@ linkwright synthesize press.yaml --json""",
     "error.angle": "error: root mean square structural error, rad",
     "error.length": "error: root mean square structural error, m",
     "error.rest": "error: greatest deviation during the rest, rad",
+    "error.curve": "error, worst: mean symmetric and greatest nearest distance, in rms radii of the curve",
     "type.crank_rocker": "crank-rocker",
     "type.rocker_crank": "rocker-crank",
     "type.double_crank": "double crank",
@@ -65,6 +67,10 @@ linkwright synthesize press.yaml --json""",
     "type.watt": "Watt six-bar",
     "type.geared_five_bar": "geared five-bar",
     "type.peaucellier": "Peaucellier",
+    "type.four_bar": "four-bar",
+    "type.six_bar": "six-bar",
+    "type.eight_bar": "eight-bar",
+    "type.ten_bar": "ten-bar",
     "points": "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
     "not_positive": "{name} is {given}; it must be positive and finite",
     "negative": "{name} is {given}; it must not be negative",
@@ -148,6 +154,20 @@ linkwright synthesize press.yaml --json""",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
     "{why}",
     "function.free": "zero angles: input {input} deg, output {output}",
+    "free_curve.measure": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
+    "whole turn, every joint within {size} rms radii of the curve's centroid. drawn_as_given: 1 where the curve is "
+    "drawn in the order of its points, 0 backwards; fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
+    "free_curve.no_curve": "a free curve needs its points or a file, and one of them only; give points: or file:",
+    "free_curve.joints": "a search with at most {given} joints cannot be made; ask for 5 (four-bar) to {most}",
+    "free_curve.compiler": "free curves need llvmlite, which does not run here; install it, or use the task path",
+    "free_curve.file": 'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file',
+    "free_curve.line": '{path}, line {line}: "{text}" are not two numbers; give x and y, such as 1.5, 2.0',
+    "free_curve.few": '"{path}" has fewer than two points; give x and y on each line',
+    "free_curve.no_path": '"{path}" has no path that can be drawn; save the curve as a path, polyline or polygon',
+    "free_curve.none": "no linkage was found that turns fully with transmission angles of {angle} deg within {size} "
+    "rms radii; ask for less, or give more seconds (the nearest ones are shown)",
+    "free_curve.error": "no linkage was found within the error {given}; the least is {least} (shown); allow more "
+    "joints or more seconds",
     "task": 'there is no task "{task}"; known: {known}',
     "task.missing": 'the task "{task}" needs "{demand}": {form}',
     "task.unknown": '"{demand}" is no demand of the task "{task}"; known: {known}',
@@ -158,6 +178,7 @@ linkwright synthesize press.yaml --json""",
     "task.form.number": "a number",
     "task.form.count": "a whole number",
     "task.form.flag": "true or false",
+    "task.form.file": "the name of a file, beside this one",
     "task.form.word": "a word",
     "task.form.points": "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]",
     "task.form.point": "a point with units, such as [0 mm, 10 mm]",

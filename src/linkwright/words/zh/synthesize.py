@@ -3,13 +3,14 @@
 WORDS = {
     "summary": "由机器的要求求机构尺寸",
     "description": """\
-按任务求机构：轨迹、位姿、函数，或行程、行程速比系数等要求。列出每个方案的误差、
+按任务求机构：轨迹、自由曲线、位姿、函数，或行程、行程速比系数等要求。列出每个方案的误差、
 Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆之比，并把每个方案写成模型文件。
 任务写在文件的 "synthesis" 一节，或在命令行以 KEY=VALUE 给出。""",
     "examples": """\
 linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
 linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
 linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
+linkwright synthesize free_curve file=letter.svg joints=10 --output designs --plot letter.png
 linkwright synthesize press.yaml --json""",
     "task_help": "含 synthesis 一节的文件，或任务名：{tasks}",
     "demands_help": '任务的要求，如 stroke="40 mm"；列表与文件中一样写在方括号里',
@@ -49,6 +50,7 @@ linkwright synthesize press.yaml --json""",
     "error.angle": "误差：结构误差的均方根，rad",
     "error.length": "误差：结构误差的均方根，m",
     "error.rest": "误差：停歇期间的最大偏差，rad",
+    "error.curve": "误差、最大偏差：两曲线间最近距离的双向平均与最大值，以曲线的均方根半径为单位",
     "type.crank_rocker": "曲柄摇杆",
     "type.rocker_crank": "摇杆曲柄",
     "type.double_crank": "双曲柄",
@@ -63,6 +65,10 @@ linkwright synthesize press.yaml --json""",
     "type.watt": "瓦特六杆",
     "type.geared_five_bar": "齿轮五杆",
     "type.peaucellier": "波塞利耶",
+    "type.four_bar": "四杆",
+    "type.six_bar": "六杆",
+    "type.eight_bar": "八杆",
+    "type.ten_bar": "十杆",
     "points": "点应为有限坐标对的列表；请写 [[x, y], [x, y], …]",
     "not_positive": "{name} 为 {given}；它应为有限正数",
     "negative": "{name} 为 {given}；它不应为负",
@@ -122,6 +128,19 @@ linkwright synthesize press.yaml --json""",
     "{error}",
     "function.no_movable": "精确满足各位置的 {linkage} 都有缺陷；最好的方案有：{why}",
     "function.free": "零位角：输入 {input} deg，输出 {output}",
+    "free_curve.measure": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
+    "不超过 {size} 个均方根半径。drawn_as_given：1 表示按所给点的次序画出，0 表示反向；"
+    "fastest_at_1_Hz：曲柄每秒一转时的最大速度，m/s。",
+    "free_curve.no_curve": "自由曲线需要点或文件，且只给其一；请给 points: 或 file:",
+    "free_curve.joints": "不能以至多 {given} 个运动副搜索；请给 5（四杆）至 {most}",
+    "free_curve.compiler": "自由曲线需要 llvmlite，而此处不能运行；请安装，或改用任务 path",
+    "free_curve.file": '曲线文件 "{path}" 无法读取；请给 .csv、.txt 或 .svg 文件',
+    "free_curve.line": '{path} 第 {line} 行："{text}" 不是两个数；请给 x 与 y，如 1.5, 2.0',
+    "free_curve.few": '"{path}" 不足两个点；请每行给 x 与 y',
+    "free_curve.no_path": '"{path}" 中没有可画的路径；请把曲线存为 path、polyline 或 polygon',
+    "free_curve.none": "未求得能整转、传动角不小于 {angle} deg 且在 {size} 个均方根半径以内的机构；请降低要求，"
+    "或增加秒数（列出最接近的）",
+    "free_curve.error": "未求得误差在 {given} 以内的机构；最小为 {least}（已列出）；请允许更多运动副或更多秒数",
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}":{form}',
     "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；已知：{known}',
@@ -132,6 +151,7 @@ linkwright synthesize press.yaml --json""",
     "task.form.number": "数",
     "task.form.count": "整数",
     "task.form.flag": "true 或 false",
+    "task.form.file": "文件名，相对于本文件",
     "task.form.word": "词",
     "task.form.points": "带单位的点的列表，如 [[0 mm, 10 mm], [5 mm, 12 mm]]",
     "task.form.point": "带单位的点，如 [0 mm, 10 mm]",

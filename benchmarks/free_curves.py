@@ -1,0 +1,128 @@
+"""``python -m benchmarks.free_curves``: how closely linkages draw letters and the curves of random linkages."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.threads import cores
+from linkwright.synthesis.free_curve import search as searching
+from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
+from linkwright.synthesis.free_curve.linkages import Placed
+from linkwright.synthesis.free_curve.nodes import node_paths, random_structure
+from linkwright.synthesis.free_curve.target import Target, curve_distance
+
+Curve = tuple[str, NDArray[np.complex128], bool]
+#: Strokes of letters drawn without lifting the pen, on a grid of 4 x 6; "o" after a place rounds that corner.
+STROKES = {
+    "A": "00 26 40 32 12", "B": "00 06 36o 33o 03 33o 40o 00", "C": "45 36o 06o 00o 30o 41", "D": "00 06 46o 40o 00",
+    "E": "46 06 03 33 03 00 40", "F": "00 03 33 03 06 46", "G": "45 36o 06o 00o 40o 43 23", "H": "00 06 03 43 46 40",
+    "J": "46 40o 00o 02", "K": "00 06 03 46 03 40", "L": "06 00 40", "M": "00 06 23 46 40", "N": "00 06 40 46",
+    "P": "00 06 46o 43o 03", "R": "00 06 46o 43o 03 40", "S": "45 46o 06o 03o 43o 40o 00o 01", "T": "06 46 26 20",
+    "U": "06 00o 40o 46", "V": "06 20 46", "W": "06 10 24 30 46", "Z": "06 46 00 40", "O": "20 40o 46o 06o 00o 20",
+}  # fmt: skip
+
+
+def letter(strokes: str) -> NDArray[np.complex128]:
+    """Points of a letter; rounded corners are quadratic curves between the middles of their sides."""
+    given = [(complex(int(each[0]), int(each[1])), each.endswith("o")) for each in strokes.split()]
+    points = [given[0][0]]
+    for k in range(1, len(given)):
+        corner, rounded = given[k]
+        if not rounded:
+            points.append(corner)
+            continue
+        before = given[k - 1][0] if not given[k - 1][1] else (given[k - 1][0] + corner) / 2
+        after = given[k + 1][0] if not given[k + 1][1] else (given[k + 1][0] + corner) / 2
+        t = np.linspace(0, 1, 17)[1:]
+        points += list((1 - t) ** 2 * before + 2 * t * (1 - t) * corner + t**2 * after)
+    return np.array(points)
+
+
+def linkage_curves(count: int, seed: int) -> Iterator[Curve]:
+    """Whole curves and parts of curves of random six- and eight-bars that the atlas does not have."""
+    draw = np.random.default_rng(seed)
+    while count:
+        dyads = 2 + count % 2
+        nodes = random_structure(dyads, 6 + 2 * dyads, draw)
+        x = np.concatenate([draw.normal(0.6, 0.7, 2 * (len(nodes) // 4 - 2)), np.zeros(3)])
+        closed = count % 4 < 2
+        first, span = draw.uniform(0, 6), draw.uniform(2, 5)
+        crank = np.linspace(0, 2 * np.pi, 401)[:-1] if closed else np.linspace(first, first + span, 300)
+        paths = node_paths(nodes, x, crank)[0]
+        if node_paths(nodes, x, np.linspace(0, 2 * np.pi, 361))[1] > 0.03 and np.ptp(np.abs(paths[-1])) > 0.3:
+            yield f"{2 + 2 * dyads}-bar {count}", paths[-1], closed
+            count -= 1
+
+
+def curves(names: Sequence[str]) -> Iterator[Curve]:
+    """All curves, or the letters of these names."""
+    for name, strokes in STROKES.items():
+        if not names or name in names:
+            points = letter(strokes)
+            yield name, points[:-1] if name == "O" else points, name == "O"
+    if not names:
+        yield from linkage_curves(8, 5)
+
+
+class _Cores:
+    """A clock of processor time: seconds that the process would take alone on all cores."""
+
+    @staticmethod
+    def perf_counter() -> float:
+        """Seconds."""
+        return time.process_time() / cores()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Prints a row for each curve and the means."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.free_curves", description=__doc__)
+    parser.add_argument("letters", nargs="*", help="letters; none: all, and curves of random linkages")
+    parser.add_argument("--seconds", type=float, default=15.0, help="time for each curve")
+    parser.add_argument("--angle", type=float, default=20.0, help="least transmission angle, deg")
+    parser.add_argument("--size", type=float, default=6.0, help="farthest joint, rms radii")
+    parser.add_argument("--processor", action="store_true", help="measure processor time over all cores")
+    options = parser.parse_args(arguments)
+    if options.processor:
+        searching.time = _Cores  # type: ignore[assignment]
+    for level in range(len(LEVELS)):
+        atlas(level)
+    table = []
+    for name, curve, closed in curves(options.letters):
+        row, text = measured(curve, closed, options)
+        table.append(row)
+        print(f"{name:8s}", text, flush=True)
+    print("mean    ", *(f"{each:9.5f}" for each in np.mean(table, 0)))
+    print("median  ", *(f"{each:9.5f}" for each in np.median(table, 0)))
+    return 0
+
+
+def measured(
+    curve: NDArray[np.complex128], closed: bool, options: argparse.Namespace
+) -> tuple[list[float], str]:
+    """Least errors with up to 5, 8, 10 and 12 joints within the demands, and a line of text."""
+    target = Target(curve, closed, math.radians(options.angle), options.size)
+    begin = time.process_time()
+    search = searching.Search(target, 12, options.seconds, 0)
+    designs, best = search.run(), dict.fromkeys(searching.JOINTS, (math.nan, math.nan, math.nan))
+    spent, turn = time.process_time() - begin, np.linspace(0, 2 * np.pi, 3601)
+    for each in sorted(designs, key=target.deviation, reverse=True):
+        least, size = node_paths(each.nodes, each.x, turn)[1], Placed(each, target).size()
+        angle = math.degrees(math.asin(math.sqrt(max(least, 0))))
+        if angle >= options.angle and size <= options.size:
+            drawn = Placed(each, target).curve(8000)
+            best |= {most: (curve_distance(drawn, curve, closed), angle, size)
+                     for most in searching.JOINTS if each.joints <= most}  # fmt: skip
+    cells = [f"{error:9.5f} ({angle:4.1f} deg, {size:3.1f})" for error, angle, size in best.values()]
+    return [each[0] for each in best.values()], "".join(
+        cells
+    ) + f"  {search.attempts} attempts, {spent:.0f} CPU s"
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

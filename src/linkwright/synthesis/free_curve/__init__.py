@@ -1,0 +1,1 @@
+"""Free curves: linkages of four and more bars that draw a given curve."""

@@ -1,0 +1,217 @@
+"""The atlas: curves of many random linkages, made once and kept, and how a wanted curve is looked up in it.
+
+A curve is M points even in arc length, centred, rms radius 1. The look-up is the normalised cross-correlation by fast
+Fourier transform with the wanted curve at several window lengths, forwards and backwards, mirrored or not: every
+start, direction and part of every curve is tried, and place, size and turn do not matter.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.cache import folder
+from linkwright.engine.threads import cores, spread_over
+from linkwright.synthesis.free_curve.kernels import kernels
+from linkwright.synthesis.free_curve.nodes import (
+    Complexes,
+    Design,
+    Floats,
+    Whole,
+    node_paths,
+    random_structure,
+)
+from linkwright.synthesis.free_curve.target import Target, even_points, normal
+
+#: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
+M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
+#: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
+LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
+BLOCK = 4096
+#: Joints of each level, with the dyads, structures and draws of its atlas; the last level starts from the others.
+LEVELS = ((5, 1, 1, 40000), (8, 2, 60, 1600), (10, 3, 150, 800))
+EDITION = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """Curves (N, M, 2) as bytes with their linkages: structure and row of ``x`` of each."""
+
+    structures: tuple[Whole, ...]
+    x: tuple[Floats, ...]
+    which: NDArray[np.int32]
+    curves: NDArray[np.int8]
+
+    def find(self, target: Target, count: int) -> list[Design]:
+        """The linkages whose curves, or parts of them, are most like the target."""
+        wanted = list(_windows(target))
+        filters = [
+            np.conj(np.fft.fft(np.pad(each, (0, M - len(each))))).astype(np.complex64) for _, each in wanted
+        ]
+        best = np.zeros((3, len(self.curves)), np.float32)
+
+        def match(first: int, last: int) -> None:
+            best[:, first:last] = _match(self.curves[first:last], wanted, filters, target.closed)
+
+        spread_over(len(self.curves), BLOCK, cores(), match)
+        chosen = np.argsort(-best[0], kind="stable")[:count]
+        return [self._design(i, *wanted[int(best[1, i])], int(best[2, i])) for i in chosen]
+
+    def _design(self, i: int, mirror: bool, wanted: Complexes, lag: int) -> Design:
+        structure, row = self.which[i]
+        nodes, x = self.structures[structure], self.x[structure][row].astype(float)
+        angle, length = np.linspace(0, 2 * np.pi, 145), len(wanted)
+        path = node_paths(nodes, x, angle)[0][-1]
+        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path)))]) / np.abs(np.diff(path)).sum()
+        first = float(np.interp(lag / M, along, angle))
+        span = 6.27
+        if length < M:
+            span = max((float(np.interp((lag + length) / M % 1, along, angle)) - first) % (2 * np.pi), 0.35)
+        part = np.tile(_complex(self.curves[i]), 2)[lag : lag + length]
+        turn = float(np.angle(np.sum(np.conj(part) * wanted)))
+        return Design(nodes, np.concatenate([x, [turn, first, span]]), mirror)
+
+
+def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:
+    """The target at each window length, mirrored and backwards."""
+    for length in (M,) if target.closed else WINDOWS:
+        points = normal(even_points(target.points, length, target.closed))
+        for mirror in (False, True):
+            seen = points.conj() if mirror else points
+            yield mirror, seen
+            yield mirror, seen[::-1]
+
+
+def _match(
+    curves: NDArray[np.int8], wanted: list[Any], filters: list[Any], closed: bool
+) -> NDArray[np.float32]:
+    """Greatest correlation of each curve, the number of its window, and its first point, (3, N)."""
+    from scipy import fft
+
+    z = _complex(curves).astype(np.complex64)
+    spectra = fft.fft(z, axis=1)
+    best = np.zeros((3, len(z)), np.float32)
+    rows = np.arange(len(z))
+    weights: dict[int, Any] = {M: 1.0} if closed else {}
+    for number, ((_, window), one) in enumerate(zip(wanted, filters, strict=True)):
+        product = fft.ifft(spectra * one, axis=1)
+        if len(window) not in weights:
+            weights[len(window)] = _energies(z, len(window))
+        value = (product.real**2 + product.imag**2) * weights[len(window)]
+        at = value.argmax(1)
+        better = value[rows, at] > best[0]
+        best[:, better] = np.stack([value[rows, at], np.full(len(z), number), at])[:, better]
+    return best
+
+
+def _energies(z: Any, length: int) -> Any:
+    """One over the energy of every window about its mean, from running sums."""
+    double = np.concatenate([z, z], 1)
+    zero = np.zeros((len(z), 1), np.float32)
+    sums = np.concatenate([zero, np.cumsum(double, 1)], 1)
+    squares = np.concatenate([zero, np.cumsum(np.abs(double) ** 2, 1)], 1)
+    mean = sums[:, length : length + M] - sums[:, :M]
+    energy = (squares[:, length : length + M] - squares[:, :M]) * length - np.abs(mean) ** 2
+    return 1 / np.maximum(energy, 1e-3 * length * length)
+
+
+def _complex(curves: NDArray[np.int8]) -> Complexes:
+    return np.asarray(STEP * (curves[..., 0] + 1j * curves[..., 1]))
+
+
+def make(level: int) -> Atlas:
+    """The atlas of a level, from its own seed: the same everywhere."""
+    joints, dyads, structures, draws = LEVELS[level]
+    draw = np.random.default_rng(level + 1)
+    found = [random_structure(dyads, joints, draw) for _ in range(structures)]
+    kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * structures
+    seeds = draw.integers(1 << 60, size=structures)
+
+    def work(first: int, last: int) -> None:
+        for number in range(first, last):
+            kept[number] = _draws(found[number], draws, np.random.default_rng(seeds[number]))
+
+    spread_over(structures, 1, cores(), work)
+    parts = [each for each in kept if each is not None]
+    which = np.concatenate(
+        [np.column_stack([np.full(len(x), k), np.arange(len(x))]) for k, (x, _) in enumerate(parts)]
+    )
+    curves = np.concatenate([curve for _, curve in parts])
+    return Atlas(tuple(found), tuple(x for x, _ in parts), which.astype(np.int32), curves)
+
+
+def _draws(nodes: Whole, draws: int, draw: np.random.Generator) -> tuple[Floats, NDArray[np.int8]]:
+    """Linkages of one structure that turn fully, and their curves."""
+    joints = len(nodes) // 4
+    size = 2 * (joints - 2)
+    numbers = draw.uniform(size=(draws, size))
+    x, z, radius = np.zeros((draws, size)), np.zeros((draws, M, 2)), np.zeros(draws)
+    room = np.zeros(2 * joints * POSITIONS + 16)
+    kernels()(
+        "draw_linkages", nodes.ctypes.data, joints, POSITIONS, x.ctypes.data, numbers.ctypes.data, LIMIT, M,
+        z.ctypes.data, room.ctypes.data, draws, radius.ctypes.data,
+    )  # fmt: skip
+    good = radius > RADIUS
+    return x[good].astype(np.float32), np.clip(np.round(z[good] / STEP), -127, 127).astype(np.int8)
+
+
+@cache
+def atlas(level: int) -> Atlas:
+    """The atlas of a level: from memory, from the cache folder, or made."""
+    path = _path(level)
+    if path is not None and path.is_file():
+        with suppress(OSError, ValueError, KeyError):
+            return _read(path, level)
+    made = make(level)
+    if path is not None:
+        with suppress(OSError):
+            _write(path, made)
+    return made
+
+
+def _path(level: int) -> Path | None:
+    base = folder()
+    name = "-".join(str(each) for each in (EDITION, *LEVELS[level]))
+    return None if base is None else base / f"free_curves-{name}.npz"
+
+
+def _read(path: Path, level: int) -> Atlas:
+    with np.load(path, allow_pickle=False) as file:
+        which, curves, structures, numbers = (file[key] for key in ("which", "curves", "structures", "x"))
+    count, joints = LEVELS[level][2], structures[:, 0]
+    nodes = tuple(np.ascontiguousarray(row[1 : 1 + 4 * row[0]]) for row in structures)
+    rows = np.bincount(which[:, 0], minlength=count)
+    ends = np.cumsum(rows * 2 * (joints - 2))
+    if (
+        len(nodes) != count
+        or len(curves) != len(which)
+        or curves.shape[1:] != (M, 2)
+        or ends[-1] != len(numbers)
+    ):
+        raise ValueError(path)
+    parts = np.split(numbers, ends[:-1])
+    x = tuple(part.reshape(int(row), -1) for part, row in zip(parts, rows, strict=True))
+    return Atlas(nodes, x, which, curves)
+
+
+def _write(path: Path, atlas: Atlas) -> None:
+    """Beside it, then renamed."""
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    widest = max(map(len, atlas.structures))
+    structures = np.zeros((len(atlas.structures), 1 + widest), np.int64)
+    for row, nodes in zip(structures, atlas.structures, strict=True):
+        row[0], row[1 : 1 + len(nodes)] = len(nodes) // 4, nodes
+    numbers = np.concatenate([each.ravel() for each in atlas.x])
+    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".npz")
+    with os.fdopen(handle, "wb") as file:
+        np.savez(file, structures=structures, x=numbers, which=atlas.which, curves=atlas.curves)
+    os.replace(name, path)

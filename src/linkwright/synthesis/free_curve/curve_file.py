@@ -1,0 +1,158 @@
+"""A curve from a file: two columns of numbers, or a path of an SVG."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from linkwright.synthesis.free_curve.nodes import Complexes
+from linkwright.synthesis.result import refuse
+
+_TOKEN = re.compile(r"([MmLlHhVvCcSsQqTtAaZz])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([^\s,])")
+_TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7}
+#: Points of a curved piece.
+PIECE = 24
+
+
+def read_curve(path: Path) -> Complexes:
+    """The curve of a file in the file's units; an SVG's y axis is turned upwards. Raises SynthesisError."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        raise refuse("free_curve.file", path=path) from None
+    return _svg(text, path) if path.suffix.lower() == ".svg" else _columns(text, path)
+
+
+def _columns(text: str, path: Path) -> Complexes:
+    """Two numbers a line, between commas, semicolons or blanks; lines of words before the first are headings."""
+    found: list[complex] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        parts = [part for part in re.split(r"[\s,;]+", line.strip()) if part]
+        if not parts or parts[0].startswith("#"):
+            continue
+        try:
+            x, y = (float(part) for part in parts[:2])
+        except ValueError:
+            if not found:
+                continue
+            raise refuse("free_curve.line", path=path, line=number, text=line.strip()[:40]) from None
+        found.append(complex(x, y))
+    if len(found) < 2 or not np.isfinite(found).all():
+        raise refuse("free_curve.few", path=path)
+    return np.array(found)
+
+
+def _svg(text: str, path: Path) -> Complexes:
+    """The first path, polyline or polygon."""
+    from xml.etree import ElementTree
+
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError:
+        raise refuse("free_curve.file", path=path) from None
+    for element in root.iter():
+        name = str(element.tag).rpartition("}")[2]
+        if name == "path" and element.get("d"):
+            return path_points(str(element.get("d")), path).conj()
+        if name in ("polyline", "polygon") and element.get("points"):
+            numbers = [float(each) for each in re.findall(r"[-+.\deE]+", str(element.get("points")))]
+            points = np.array(numbers[0 : len(numbers) // 2 * 2 : 2]) + 1j * np.array(numbers[1::2])
+            return np.append(points, points[0]).conj() if name == "polygon" else points.conj()
+    raise refuse("free_curve.no_path", path=path)
+
+
+def path_points(text: str, path: Path) -> Complexes:
+    """Points along the first subpath of an SVG path's data."""
+    tokens = [match.groups() for match in _TOKEN.finditer(text)]
+    if not tokens or any(wrong for _, _, wrong in tokens) or tokens[0][0] not in ("M", "m"):
+        raise refuse("free_curve.no_path", path=path)
+    pen = _Pen()
+    command, numbers = "", [float("nan")] * 0
+    for letter, number, _ in [*tokens, ("Z" if tokens[-1][0] in ("Z", "z") else "", "", "")]:
+        if number:
+            numbers.append(float(number))
+            takes = _TAKES.get(command.upper(), 0)
+            if takes and len(numbers) == takes:
+                pen.piece(command, numbers)
+                command, numbers = {"M": "L", "m": "l"}.get(command, command), []
+            continue
+        if letter in ("M", "m") and pen.points:
+            break
+        if letter in ("Z", "z") and len(pen.points) > 1:
+            pen.points.append(pen.points[0])
+            break
+        command, numbers = letter, []
+    if len(pen.points) < 2:
+        raise refuse("free_curve.no_path", path=path)
+    return np.array(pen.points)
+
+
+class _Pen:
+    """The points so far, and the last control point."""
+
+    def __init__(self) -> None:
+        self.points: list[complex] = []
+        self.control: complex | None = None
+        self.before = ""
+
+    def piece(self, command: str, n: list[float]) -> None:
+        """One piece with its numbers."""
+        at = self.points[-1] if self.points else 0j
+        base = at if command.islower() else 0j
+        kind = command.upper()
+        if kind == "H":
+            ends = [complex(n[0] + base.real, at.imag)]
+        elif kind == "V":
+            ends = [complex(at.real, n[0] + base.imag)]
+        elif kind == "A":
+            ends = [complex(n[5], n[6]) + base]
+        else:
+            ends = [complex(x, y) + base for x, y in zip(n[::2], n[1::2], strict=True)]
+        smooth = self.control if self.control is not None and self.before in _FAMILY.get(kind, "") else at
+        if kind in ("S", "T"):
+            ends = [2 * at - smooth, *ends]
+        self.control, self.before = (ends[-2] if kind in "CSQT" else None), kind
+        t = np.linspace(0, 1, PIECE + 1)[1:]
+        if kind == "A":
+            self.points += list(_arc(at, ends[-1], n))
+        elif kind in "CSQT":
+            self.points += list(_bezier(t, [at, *ends]))
+        else:
+            self.points.append(ends[-1])
+
+
+_FAMILY = {"S": "CS", "T": "QT"}
+
+
+def _bezier(t: np.ndarray[tuple[int, ...], np.dtype[np.float64]], controls: list[complex]) -> Complexes:
+    """De Casteljau's points of a Bézier curve."""
+    layer: list[Complexes] = [np.full(len(t), each) for each in controls]
+    while len(layer) > 1:
+        layer = [(1 - t) * a + t * b for a, b in pairwise(layer)]
+    return layer[0]
+
+
+def _arc(start: complex, end: complex, n: list[float]) -> Complexes:
+    """An elliptic arc from its end points (SVG 1.1, F.6.5)."""
+    rx, ry, tilt = abs(n[0]), abs(n[1]), np.exp(1j * np.radians(n[2]))
+    if start == end or not rx or not ry:
+        return np.array([end])
+
+    def unit(z: complex) -> complex:
+        turned = z / tilt
+        return complex(turned.real / rx, turned.imag / ry)
+
+    half = unit((start - end) / 2)
+    grow = max(1.0, abs(half))
+    half /= grow
+    side = 1.0 if bool(n[3]) != bool(n[4]) else -1.0
+    centre = side * np.sqrt(max(1 / abs(half) ** 2 - 1, 0.0)) * complex(half.imag, -half.real)
+    first, last = np.angle(half - centre), np.angle(-half - centre)
+    sweep = (last - first) % (2 * np.pi) if n[4] else -((first - last) % (2 * np.pi))
+    on = np.exp(1j * (first + sweep * np.linspace(0, 1, 2 * PIECE + 1)[1:])) + centre
+    place: Callable[[Complexes], Complexes] = lambda z: grow * tilt * (rx * z.real + 1j * ry * z.imag)  # noqa: E731
+    return np.asarray(place(on) + (start + end) / 2)

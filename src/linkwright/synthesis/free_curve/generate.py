@@ -1,0 +1,180 @@
+"""Free curves: linkages of four to ten bars whose last point draws a given curve."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.engine.machine_code import available
+from linkwright.synthesis.free_curve.curve_file import read_curve
+from linkwright.synthesis.free_curve.drawn import drawing
+from linkwright.synthesis.free_curve.linkages import KINDS, Placed, linkage_of
+from linkwright.synthesis.free_curve.nodes import Complexes, Design, node_paths
+from linkwright.synthesis.free_curve.search import JOINTS, Search
+from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
+from linkwright.synthesis.path_generation.generate import complex_points
+from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
+
+#: Positions of a turn at which the demands are examined, and of a candidate's curve.
+TURN, SHOWN = 1800, 721
+#: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
+ALIKE = 0.02, 0.03, 0.2
+
+
+def free_curve(
+    points: ArrayLike | None = None,
+    *,
+    file: str | Path | None = None,
+    file_unit: float = 1e-3,
+    closed: bool | None = None,
+    joints: int = 12,
+    transmission_angle: float = math.radians(20),
+    size: float = 6.0,
+    error: float = 0.0,
+    seconds: float = 15.0,
+    count: int = 6,
+    seed: int = 0,
+    progress: Callable[[float, float], None] | None = None,
+) -> Synthesis:
+    """Linkages with a turning crank that draw a curve, best first.
+
+    Args:
+        points: corners of the curve in order, (n, 2) or complex (n,), m; n ≥ 2.
+        file: the curve in a file instead: two columns of numbers (``.csv``, ``.txt``), or the first path of an
+            ``.svg``; ``file_unit``: length of one unit there, m.
+        closed: whether the last point joins the first; not given: where they are the same point.
+        joints: most joints (pivots, pins, points of links and the drawing point), 5 to 12: a four-bar has 5, a
+            six-bar up to 8, an eight-bar up to 10.
+        transmission_angle: least of every dyad over the whole turn, rad.
+        size: greatest distance of any joint from the curve's centroid over the turn, in rms radii of the curve.
+        error: an error that is good enough: linkages within it come with the fewest links first; 0: the least
+            error first.
+        seconds: time of the search on all cores; more time finds better linkages.
+        count: candidates wanted; seed: of the search. Where the clock ends the search depends on the machine, so
+            two runs may differ.
+        progress: called with the share of the time that is over and the least objective so far.
+
+    Returns:
+        Candidates none of which is beaten by another in error, number of links, transmission angle and size at
+        once. ``error``: mean nearest distance from curve to drawn curve plus that from drawn curve to curve, in rms
+        radii of the curve (both even in arc length; as they lie, the curve's centroid and rms radius kept);
+        ``worst``: the greatest nearest distance, the same unit. ``values``: joints, links, size, the share drawn in
+        the given direction, the greatest speed at one turn of the crank per second. An open curve is drawn between
+        the ends of the model's cycle; the crank turns on from there.
+
+    Raises:
+        SynthesisError: no curve, or demands out of range; none was found within the demands or within ``error``
+            (``nearest``).
+    """
+    curve, closes = _curve(points, file, file_unit, closed)
+    if not 5 <= joints <= JOINTS[-1]:
+        raise refuse("free_curve.joints", given=joints, most=JOINTS[-1])
+    if not 0 < transmission_angle < math.pi / 2:
+        raise refuse("transmission_range", given=f"{math.degrees(transmission_angle):g}")
+    for name, value in (("size", size), ("seconds", seconds), ("count", count)):
+        if not 0 < value < math.inf:
+            raise refuse("not_positive", name=name, given=value)
+    if not available():
+        raise refuse("free_curve.compiler")
+    target = Target(curve, closes, transmission_angle, size)
+    search = Search(target, joints, seconds, seed, progress)
+    return _ranked(target, search.run(), curve, error, count, search)
+
+
+def _curve(
+    points: ArrayLike | None, file: str | Path | None, unit: float, closed: bool | None
+) -> tuple[Complexes, bool]:
+    if (points is None) == (file is None):
+        raise refuse("free_curve.no_curve")
+    z = complex_points(points) if points is not None else unit * read_curve(Path(str(file)))
+    z = z[np.concatenate([[True], np.abs(np.diff(z)) > 0])]
+    if len(z) < 2 or not np.ptp(np.abs(z - z[0])) > 0:
+        raise refuse("path.one_place")
+    joined = abs(z[-1] - z[0]) < 1e-9 * np.abs(z - z[0]).max()
+    closes = joined if closed is None else closed
+    return (z[:-1] if joined and closes else z), bool(closes)
+
+
+def _ranked(
+    target: Target, designs: list[Design], curve: Complexes, error: float, count: int, search: Search
+) -> Synthesis:
+    found = [(each, _facts(each, target)) for each in designs]
+    within = [(each, facts) for each, facts in found if _keeps(target, facts)]
+    notes = [note("free_curve.measure", angle=f"{math.degrees(target.least):g}", size=f"{target.largest:g}")]
+    counts = {"attempts": search.attempts, "designs": len(found)}
+    if not within:
+        nearest = [_candidate(each, target) for each, _ in _front(found)[:count]]
+        near = (
+            Synthesis("free_curve", tuple(nearest), "curve", curve, counts, tuple(notes)) if nearest else None
+        )
+        raise refuse(
+            "free_curve.none", near, angle=f"{math.degrees(target.least):g}", size=f"{target.largest:g}"
+        )
+    front = _front(within)
+    good = sorted(
+        (each for each in front if each[1][0] <= error), key=lambda each: (each[0].links, each[1][0])
+    )
+    rest = [each for each in front if each[1][0] > error]
+    chosen = _spread(good + rest, count)
+    made = tuple(_candidate(each, target) for each, _ in chosen)
+    result = Synthesis("free_curve", made, "curve", _shown(curve, target.closed), counts, tuple(notes))
+    if error and not good:
+        raise refuse("free_curve.error", result, given=f"{error:g}", least=f"{made[0].error:.3g}")
+    return result
+
+
+Facts = tuple[float, int, float, float]
+
+
+def _facts(design: Design, target: Target) -> Facts:
+    """Error, links, negative least transmission angle (rad), size."""
+    least = node_paths(design.nodes, design.x, np.linspace(0, 2 * np.pi, TURN + 1))[1]
+    angle = math.asin(math.sqrt(max(least, 0.0)))
+    return target.deviation(design), design.links, -angle, Placed(design, target).size()
+
+
+def _keeps(target: Target, facts: Facts) -> bool:
+    return -facts[2] >= target.least and facts[3] <= target.largest
+
+
+def _front(found: list[tuple[Design, Facts]]) -> list[tuple[Design, Facts]]:
+    """Without designs that another one equals or beats in all (within ``ALIKE``), the least error first."""
+    found = sorted(found, key=lambda each: each[1])
+    kept: list[tuple[Design, Facts]] = []
+    for each in found:
+        worse = np.array(each[1]) * (1 + ALIKE[0], 1, 1, 1) + (0.0, 0.0, ALIKE[1], ALIKE[2])
+        if not any((np.array(facts) <= worse).all() for _, facts in kept):
+            kept.append(each)
+    return kept
+
+
+def _spread(front: list[tuple[Design, Facts]], count: int) -> list[tuple[Design, Facts]]:
+    """The first, the first of every other number of links, then the next in order."""
+    firsts = {facts[1]: k for k, (_, facts) in reversed(list(enumerate(front)))}
+    order = sorted(firsts.values()) + [k for k in range(len(front)) if k not in firsts.values()]
+    return [front[k] for k in sorted(order[:count])]
+
+
+def _shown(curve: Complexes, closed: bool) -> Complexes:
+    return np.append(curve, curve[0]) if closed else curve
+
+
+def _candidate(design: Design, target: Target) -> Candidate:
+    placed = Placed(design, target)
+    linkage, (_, links, angle, size) = linkage_of(placed), _facts(design, target)
+    given = target.centre + target.radius * target.points
+    mean, most = symmetric_distance(even_points(placed.curve(4 * EVEN), EVEN, target.closed), given)
+    how, curve = drawing(placed), placed.curve(SHOWN)
+    lengths = list(linkage.lengths().values())
+    values = {
+        "joints": float(design.joints), "links": float(links), "size": size, "drawn_as_given": how.along,
+        "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
+    }  # fmt: skip
+    return Candidate(
+        linkage, mean / target.radius, KINDS[links], (), True, -angle, max(lengths) / min(lengths),
+        most / target.radius, _shown(curve, target.closed), values,
+    )  # fmt: skip

@@ -1,0 +1,525 @@
+"""How far a linkage's curve lies from a wanted one, with its exact gradient, and the descent along it (kernels).
+
+A linkage is a list of nodes, four whole numbers each: kind, two earlier nodes i and j, branch. Node 0 is the crank's
+pivot in the origin, node 1 its pin at distance 1; every further node has two numbers of x: PIVOT (its place), DYAD
+(logarithms of its lengths to i and j, on the side ``branch``), POINT (complex w: Pi + w (Pj - Pi), a point of a
+link). The last node draws. After the nodes x holds the turn of the picture, the first crank angle and the range of
+the crank (the last two for open curves only).
+
+Objective: mean nearest distance from curve to target plus that from target to curve, each √(d² + ε²), after the
+curve has been laid on the target by its centroid and rms radius (weighted by arc length), plus κ times the mean over
+the whole turn of max(0, 1 - sin² μ / sin² μ₀)² of every dyad's transmission angle μ, and of max(0, (r/r₀)² - 1)² of
+every node's distance r from the centroid. Gradient backwards: nearest points (envelope theorem), alignment, weights,
+then the nodes. For a dyad with unit vectors u = (X - P)/a, v = (X - Q)/b: u·dX = u·dP + da, v·dX = v·dQ + db, so its
+adjoint needs two cross products over u × v.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import cos, exp, fabs, sin, sqrt
+
+from linkwright.engine.kernel import (
+    Kernels,
+    Reals,
+    Wholes,
+    higher,
+    least,
+    load,
+    lower,
+    mark_of,
+    marked,
+    ramp,
+    root,
+    spread,
+    store,
+    total,
+)
+
+PIVOT, DYAD, POINT = 0, 1, 2
+#: Table of nearest target points: GRID x GRID cells over [-HALF, HALF]². Most positions of one curve.
+GRID, HALF, WIDE = 256, 3.0, 512
+TURN, FAR = 6.283185307179586, 1e9
+
+
+def turn_crank(begin: int, end: int, first: float, step: float, x: Reals, y: Reals) -> None:
+    """Unit vectors at even angles, by rotation."""
+    c, s, cs, sn = cos(first), sin(first), cos(step), sin(step)
+    for t in range(begin, end):
+        x[t] = c
+        y[t] = s
+        onward = c * cs - s * sn
+        s = c * sn + s * cs
+        c = onward
+
+
+def place_crank(n: int, N: int, first: float, span: float, closed: int, x: Reals, y: Reals) -> None:
+    """Pin of the crank: n positions over the drawn range, N - n over the rest of the turn."""
+    step = span / n if closed == 1 else span / (n - 1)
+    turn_crank(0, n, first, step, x, y)
+    if n < N:
+        step = (TURN - span) / (N - n + 1)
+        turn_crank(n, N, first + span + step, step, x, y)
+
+
+def place_dyad(
+    N: int, a: float, b: float, side: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals
+) -> float:
+    """Common points of two circles; gives the least sin² of the transmission angle, negative where they miss."""
+    low = spread(1.0)
+    scale, apart = 1.0 / (4.0 * a * a * b * b), a * a - b * b
+    for t in range(0, N, 8):
+        ux = load(qx, t) - load(px, t)
+        uy = load(qy, t) - load(py, t)
+        square = ux * ux + uy * uy
+        along = square + apart
+        across = 4.0 * a * a * square - along * along
+        low = lower(low, across * scale)
+        h = side * root(higher(across, 0.0))
+        half = 0.5 / square
+        store(x, t, load(px, t) + (ux * along - uy * h) * half)
+        store(y, t, load(py, t) + (uy * along + ux * h) * half)
+    return least(low)
+
+
+def place_point(
+    N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals
+) -> None:
+    """A point of a link."""
+    for t in range(0, N, 8):
+        ux = load(qx, t) - load(px, t)
+        uy = load(qy, t) - load(py, t)
+        store(x, t, load(px, t) + a * ux - b * uy)
+        store(y, t, load(py, t) + a * uy + b * ux)
+
+
+def place(nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, X: Reals, Y: Reals) -> float:
+    """Positions (count, N) of all nodes; gives the least sin² of a transmission angle, negative: does not close."""
+    e = 2 * (count - 2)
+    first, span = x[e + 1], x[e + 2]
+    if closed == 1:
+        first = 0.0
+        span = TURN
+    for t in range(0, N, 8):
+        store(X, t, 0.0)
+        store(Y, t, 0.0)
+    place_crank(n, N, first, span, closed, X + N, Y + N)
+    low = 1.0
+    for k in range(2, count):
+        kind, a, b = nodes[4 * k], x[2 * k - 4], x[2 * k - 3]
+        i, j, own = nodes[4 * k + 1] * N, nodes[4 * k + 2] * N, k * N
+        if kind == PIVOT:
+            for t in range(0, N, 8):
+                store(X + own, t, a)
+                store(Y + own, t, b)
+        if kind == POINT:
+            place_point(N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own)
+        if kind == DYAD:
+            side = 1.0 * nodes[4 * k + 3]
+            found = place_dyad(N, exp(a), exp(b), side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
+            low = min(low, found)
+            if low < 1e-4:
+                return -1.0
+    return low
+
+
+def weigh(x: Reals, y: Reals, n: int, closed: int, steps: Reals, w: Reals) -> float:
+    """Lengths of the curve's steps and the shares of its length that belong to its points; gives its length."""
+    length = 0.0
+    last = n - 1 + closed
+    steps[n - 1] = 0.0
+    for t in range(last):
+        u = t + 1 if t + 1 < n else 0
+        dx, dy = x[u] - x[t], y[u] - y[t]
+        steps[t] = sqrt(dx * dx + dy * dy) + 1e-12
+        length += steps[t]
+    before = steps[n - 1]
+    for t in range(n):
+        w[t] = (before + steps[t]) / (2.0 * length)
+        before = steps[t]
+    return length
+
+
+def middle(x: Reals, y: Reals, w: Reals, n: int, out: Reals) -> None:
+    """Centroid and rms radius: out[0:3]."""
+    cx, cy, square = 0.0, 0.0, 0.0
+    for t in range(n):
+        cx += w[t] * x[t]
+        cy += w[t] * y[t]
+    for t in range(n):
+        square += w[t] * ((x[t] - cx) * (x[t] - cx) + (y[t] - cy) * (y[t] - cy))
+    out[0] = cx
+    out[1] = cy
+    out[2] = sqrt(square)
+
+
+def foot(px: float, py: float, ax: float, ay: float, bx: float, by: float) -> float:
+    """Where the nearest point of a segment lies, 0 to 1."""
+    ex, ey = bx - ax, by - ay
+    return min(max((ex * (px - ax) + ey * (py - ay)) / (ex * ex + ey * ey + 1e-30), 0.0), 1.0)
+
+
+def curve_to_target(
+    x: Reals, y: Reals, w: Reals, n: int, closed: int, tx: Reals, ty: Reals, m: int, near: Wholes,
+    soft: float, gx: Reals, gy: Reals, gw: Reals,
+) -> float:  # fmt: skip
+    """Mean distance of the curve's points from the target; its slopes by the points and by their weights."""
+    mean = 0.0
+    scale = GRID / (2.0 * HALF)
+    for t in range(n):
+        ux, uy = min(max(x[t], -2.99), 2.99), min(max(y[t], -2.99), 2.99)
+        j = near[int((uy + HALF) * scale) * GRID + int((ux + HALF) * scale)]
+        best, bx, by = 1e18, 0.0, 0.0
+        for o in range(2):
+            a, b = j - 1 + o, j + o
+            if a < 0:
+                a = m - 1 if closed == 1 else 0
+            if b == m:
+                b = 0 if closed == 1 else m - 1
+            s = foot(x[t], y[t], tx[a], ty[a], tx[b], ty[b])
+            qx, qy = x[t] - tx[a] - s * (tx[b] - tx[a]), y[t] - ty[a] - s * (ty[b] - ty[a])
+            square = qx * qx + qy * qy
+            if square < best:
+                best = square
+                bx = qx
+                by = qy
+        d = sqrt(best + soft)
+        mean += w[t] * d
+        gw[t] = d
+        gx[t] = w[t] * bx / d
+        gy[t] = w[t] * by / d
+    return mean
+
+
+def nearest(x: Reals, y: Reals, n: int, px: float, py: float) -> int:
+    """The nearest of the curve's points; the eight entries after the last one lie far away."""
+    low = spread(1e18)
+    for t in range(0, n, 8):
+        ux = load(x, t) - px
+        uy = load(y, t) - py
+        low = lower(low, marked(ux * ux + uy * uy, ramp(t)))
+    return mark_of(least(low))
+
+
+def target_to_curve(
+    x: Reals, y: Reals, n: int, closed: int, tx: Reals, ty: Reals, m: int, soft: float, gx: Reals, gy: Reals
+) -> float:
+    """Mean distance of the target's points from the curve; its slopes are added to gx, gy."""
+    mean = 0.0
+    for t in range(n, n + 8):
+        x[t] = 1e3
+        y[t] = 1e3
+    for j in range(m):
+        k = nearest(x, y, n, tx[j], ty[j])
+        best, bx, by, bs, first, second = 1e18, 0.0, 0.0, 0.0, 0, 0
+        for o in range(2):
+            a, b = k - 1 + o, k + o
+            if a < 0:
+                a = n - 1 if closed == 1 else 0
+            if b == n:
+                b = 0 if closed == 1 else n - 1
+            s = foot(tx[j], ty[j], x[a], y[a], x[b], y[b])
+            qx, qy = tx[j] - x[a] - s * (x[b] - x[a]), ty[j] - y[a] - s * (y[b] - y[a])
+            square = qx * qx + qy * qy
+            if square < best:
+                best = square
+                bx = qx
+                by = qy
+                bs = s
+                first = a
+                second = b
+        d = sqrt(best + soft)
+        mean += d / m
+        gx[first] -= (1.0 - bs) * bx / (d * m)
+        gy[first] -= (1.0 - bs) * by / (d * m)
+        gx[second] -= bs * bx / (d * m)
+        gy[second] -= bs * by / (d * m)
+    return mean
+
+
+def too_large(
+    X: Reals, Y: Reals, entries: int, at: Reals, limit: float, share: float, gX: Reals, gY: Reals, g: Reals
+) -> float:
+    """Penalty of nodes beyond ``limit`` rms radii; slopes by nodes, and by centroid and radius in g[0:3]."""
+    cx, cy, rho = at[0], at[1], at[2]
+    scale = 1.0 / (limit * limit * rho * rho)
+    sx, sy, sr, sum_ = spread(0.0), spread(0.0), spread(0.0), spread(0.0)
+    for t in range(0, entries, 8):
+        ax = load(X, t) - cx
+        ay = load(Y, t) - cy
+        ratio = (ax * ax + ay * ay) * scale
+        over = higher(ratio - 1.0, 0.0)
+        sum_ += over * over
+        slope = 4.0 * share * scale * over
+        store(gX, t, slope * ax)
+        store(gY, t, slope * ay)
+        sx += slope * ax
+        sy += slope * ay
+        sr += over * ratio
+    g[0] = 0.0 - total(sx)
+    g[1] = 0.0 - total(sy)
+    g[2] = -4.0 * share * total(sr) / rho
+    return total(sum_) * share
+
+
+def align_back(
+    zx: Reals, zy: Reals, yx: Reals, yy: Reals, n: int, last: int, at: Reals, w: Reals, steps: Reals,
+    kx: float, ky: float, length: float, gx: Reals, gy: Reals, gw: Reals, g: Reals,
+) -> float:  # fmt: skip
+    """Slopes by the aligned curve become slopes by the curve itself; gives the slope by the picture's turn."""
+    rho, turn, gr, gcx, gcy, even = at[2], 0.0, g[2] * at[2], g[0], g[1], 0.0
+    for t in range(n):
+        turn += gy[t] * yx[t] - gx[t] * yy[t]
+        gr -= gx[t] * yx[t] + gy[t] * yy[t]
+        vx, vy = kx * gx[t] + ky * gy[t], kx * gy[t] - ky * gx[t]
+        gx[t] = vx
+        gy[t] = vy
+        gcx -= vx
+        gcy -= vy
+    gr = gr / rho
+    for t in range(n):
+        dx, dy = zx[t] - at[0], zy[t] - at[1]
+        gx[t] += w[t] * (gr * dx / rho + gcx)
+        gy[t] += w[t] * (gr * dy / rho + gcy)
+        gw[t] += gr * (dx * dx + dy * dy) / (2.0 * rho) + gcx * zx[t] + gcy * zy[t]
+        even += gw[t] * w[t]
+    for t in range(last):
+        u = t + 1 if t + 1 < n else 0
+        v = ((gw[t] + gw[u]) * 0.5 - even) / (length * steps[t])
+        ex, ey = v * (zx[u] - zx[t]), v * (zy[u] - zy[t])
+        gx[u] += ex
+        gy[u] += ey
+        gx[t] -= ex
+        gy[t] -= ey
+    return turn
+
+
+def dyad_back(
+    N: int, a: float, b: float, kappa: float, limit: float, X: Reals, Y: Reals, gX: Reals, gY: Reals,
+    i: int, j: int, own: int, g: Reals,
+) -> float:  # fmt: skip
+    """Slopes by a dyad's point become slopes by its two ends and lengths; gives the transmission's penalty."""
+    ia, ib = 1.0 / a, 1.0 / b
+    ga, gb, miss = spread(0.0), spread(0.0), spread(0.0)
+    for t in range(0, N, 8):
+        hx = load(gX, own + t)
+        hy = load(gY, own + t)
+        ux = (load(X, own + t) - load(X, i + t)) * ia
+        uy = (load(Y, own + t) - load(Y, i + t)) * ia
+        vx = (load(X, own + t) - load(X, j + t)) * ib
+        vy = (load(Y, own + t) - load(Y, j + t)) * ib
+        over = 1.0 / (ux * vy - uy * vx)
+        along_u = (vy * hx - vx * hy) * over
+        along_v = (ux * hy - uy * hx) * over
+        cosine = ux * vx + uy * vy
+        lack = higher(limit - 1.0 + cosine * cosine, 0.0) * (1.0 / limit)
+        miss += lack * lack
+        slope = lack * cosine * (4.0 * kappa / (limit * N))
+        dx = load(X, j + t) - load(X, i + t)
+        dy = load(Y, j + t) - load(Y, i + t)
+        ends = slope * (ia * ib)
+        ga += along_u + slope * (ib - cosine * ia)
+        gb += along_v + slope * (ia - cosine * ib)
+        store(gX, i + t, load(gX, i + t) + along_u * ux + ends * dx)
+        store(gY, i + t, load(gY, i + t) + along_u * uy + ends * dy)
+        store(gX, j + t, load(gX, j + t) + along_v * vx - ends * dx)
+        store(gY, j + t, load(gY, j + t) + along_v * vy - ends * dy)
+    g[0] = total(ga) * a
+    g[1] = total(gb) * b
+    return total(miss) * kappa / N
+
+
+def point_back(
+    N: int, a: float, b: float, X: Reals, Y: Reals, gX: Reals, gY: Reals, i: int, j: int, own: int, g: Reals
+) -> None:
+    """Slopes by a point of a link become slopes by its two nodes and by its place on the link."""
+    ga, gb = spread(0.0), spread(0.0)
+    for t in range(0, N, 8):
+        hx = load(gX, own + t)
+        hy = load(gY, own + t)
+        dx = load(X, j + t) - load(X, i + t)
+        dy = load(Y, j + t) - load(Y, i + t)
+        ga += dx * hx + dy * hy
+        gb += dx * hy - dy * hx
+        rx = a * hx + b * hy
+        ry = a * hy - b * hx
+        store(gX, j + t, load(gX, j + t) + rx)
+        store(gY, j + t, load(gY, j + t) + ry)
+        store(gX, i + t, load(gX, i + t) + hx - rx)
+        store(gY, i + t, load(gY, i + t) + hy - ry)
+    g[0] = total(ga)
+    g[1] = total(gb)
+
+
+def nodes_back(
+    nodes: Wholes, count: int, N: int, x: Reals, X: Reals, Y: Reals, gX: Reals, gY: Reals,
+    kappa: float, limit: float, g: Reals,
+) -> float:  # fmt: skip
+    """Slopes by the nodes' positions become slopes by x; gives the transmission's penalty."""
+    lack = 0.0
+    for back in range(2, count):
+        k = count + 1 - back
+        kind, a, b = nodes[4 * k], x[2 * k - 4], x[2 * k - 3]
+        i, j, own = nodes[4 * k + 1] * N, nodes[4 * k + 2] * N, k * N
+        if kind == PIVOT:
+            ga, gb = spread(0.0), spread(0.0)
+            for t in range(0, N, 8):
+                ga += load(gX, own + t)
+                gb += load(gY, own + t)
+            g[2 * k - 4] = total(ga)
+            g[2 * k - 3] = total(gb)
+        if kind == POINT:
+            point_back(N, a, b, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
+        if kind == DYAD:
+            lack += dyad_back(N, exp(a), exp(b), kappa, limit, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
+    return lack
+
+
+def range_back(n: int, N: int, closed: int, X: Reals, Y: Reals, gX: Reals, gY: Reals, g: Reals) -> None:
+    """Slopes by first angle and range of the crank, g[0:2]."""
+    first, span = 0.0, 0.0
+    if closed == 0:
+        for t in range(N):
+            v = gY[N + t] * X[N + t] - gX[N + t] * Y[N + t]
+            first += v
+            span += v * t / (n - 1) if t < n else v * (1.0 - (t - n + 1.0) / (N - n + 1.0))
+    g[0] = first
+    g[1] = span
+
+
+def deviation(
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
+    options: Reals, room: Reals, g: Reals,
+) -> float:  # fmt: skip
+    """The objective and its gradient g; ``options``: sin² μ₀, r₀, κ, ε². FAR where the linkage does not turn."""
+    e = 2 * (count - 2)
+    if closed == 0 and (x[e + 2] < 0.3 or x[e + 2] > TURN):
+        return FAR
+    X, Y, gX, gY = room, room + count * N, room + 2 * count * N, room + 3 * count * N
+    if place(nodes, count, n, N, closed, x, X, Y) < 0.0:
+        return FAR
+    s = room + 4 * count * N
+    steps, w, gw, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE, s + 4 * WIDE
+    gx, gy, at, gat = s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 7 * WIDE + 8
+    own = (count - 1) * N
+    zx, zy = X + own, Y + own
+    length = weigh(zx, zy, n, closed, steps, w)
+    middle(zx, zy, w, n, at)
+    if at[2] < 1e-3:
+        return FAR
+    kx, ky = cos(x[e]) / at[2], sin(x[e]) / at[2]
+    for t in range(n):
+        dx, dy = zx[t] - at[0], zy[t] - at[1]
+        yx[t] = kx * dx - ky * dy
+        yy[t] = kx * dy + ky * dx
+    found = curve_to_target(yx, yy, w, n, closed, target, target + m, m, near, options[3], gx, gy, gw)
+    found += target_to_curve(yx, yy, n, closed, target, target + m, m, options[3], gx, gy)
+    found += too_large(X, Y, count * N, at, options[1], options[2] / (count * N), gX, gY, gat)
+    g[e] = align_back(zx, zy, yx, yy, n, n - 1 + closed, at, w, steps, kx, ky, length, gx, gy, gw, gat)
+    for t in range(n):
+        gX[own + t] += gx[t]
+        gY[own + t] += gy[t]
+    found += nodes_back(nodes, count, N, x, X, Y, gX, gY, options[2], options[0], g)
+    range_back(n, N, closed, X, Y, gX, gY, g + (e + 1))
+    return found
+
+
+def restart(H: Reals, g: Reals, d: int, step: float) -> None:
+    """The inverse Hessian of a first step."""
+    for a in range(d):
+        for b in range(d):
+            H[a * d + b] = 0.0
+        H[a * d + a] = step / (fabs(g[a]) + 1e-3)
+
+
+def update(H: Reals, s: Reals, y: Reals, Hy: Reals, d: int) -> int:
+    """The update of Broyden, Fletcher, Goldfarb and Shanno; 0 where the curvature is not positive."""
+    sy, yHy = 0.0, 0.0
+    for a in range(d):
+        sy += s[a] * y[a]
+    if sy < 1e-14:
+        return 0
+    for a in range(d):
+        v = 0.0
+        for b in range(d):
+            v += H[a * d + b] * y[b]
+        Hy[a] = v
+        yHy += v * y[a]
+    for a in range(d):
+        for b in range(d):
+            H[a * d + b] += (1.0 + yHy / sy) * s[a] * s[b] / sy - (Hy[a] * s[b] + s[a] * Hy[b]) / sy
+    return 1
+
+
+def descend(
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
+    options: Reals, room: Reals, iterations: int,
+) -> float:  # fmt: skip
+    """Quasi-Newton descent; a weak Wolfe bisection suits the kinks of a distance (Lewis and Overton 2013)."""
+    d = 2 * (count - 2) + 3
+    H, g = room, room + d * d
+    gn, s, xn, y, Hy, rest = g + d, g + 2 * d, g + 3 * d, g + 4 * d, g + 5 * d, g + 8 * d
+    f = deviation(nodes, count, n, N, closed, x, target, m, near, options, rest, g)
+    if f >= FAR:
+        return f
+    restart(H, g, d, 0.02)
+    first = 1
+    for _ in range(iterations):
+        slope, big = 0.0, 0.0
+        for a in range(d):
+            v = 0.0
+            for b in range(d):
+                v -= H[a * d + b] * g[b]
+            s[a] = v
+            slope += v * g[a]
+            big = max(big, fabs(v))
+        accepted, t, lo, hi, fn = 0, min(1.0, 0.3 / (big + 1e-300)), 0.0, -1.0, FAR
+        if slope < -1e-12:
+            for trial in range(25):
+                for a in range(d):
+                    xn[a] = x[a] + t * s[a]
+                fn = deviation(nodes, count, n, N, closed, xn, target, m, near, options, rest, gn)
+                accepted = 0
+                if fn > f + 1e-4 * t * slope:
+                    hi = t
+                    t = 0.25 * hi if trial == 0 else 0.5 * (lo + hi)
+                else:
+                    accepted = 1
+                    v = 0.0
+                    for a in range(d):
+                        v += gn[a] * s[a]
+                    if v >= 0.9 * slope or t * big > 0.5 or trial > 12:
+                        break
+                    lo = t
+                    t = 0.5 * (lo + hi) if hi > 0.0 else 2.0 * t
+                if t * big < 1e-9:
+                    break
+        if accepted == 0:
+            if first == 1:
+                break
+            restart(H, g, d, 0.003)
+            first = 1
+            continue
+        for a in range(d):
+            y[a] = gn[a] - g[a]
+            s[a] = xn[a] - x[a]
+            x[a] = xn[a]
+            g[a] = gn[a]
+        f = fn
+        if update(H, s, y, Hy, d) == 1:
+            first = 0
+    return f
+
+
+@cache
+def kernels() -> Kernels:
+    """The compiled functions."""
+    from linkwright.synthesis.free_curve.sample import SAMPLING
+
+    return Kernels(
+        [
+            turn_crank, place_crank, place_dyad, place_point, place, weigh, middle, foot, curve_to_target, nearest,
+            target_to_curve, too_large, align_back, dyad_back, point_back, nodes_back, range_back, deviation,
+            restart, update, descend, *SAMPLING,
+        ]
+    )  # fmt: skip

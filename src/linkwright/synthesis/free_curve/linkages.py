@@ -1,0 +1,97 @@
+"""From a design of the search to a named linkage that draws the curve where it was given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from string import ascii_uppercase
+
+import numpy as np
+
+from linkwright.synthesis.free_curve.kernels import DYAD, PIVOT, POINT
+from linkwright.synthesis.free_curve.nodes import Complexes, Design, Node, node_paths
+from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
+from linkwright.synthesis.linkage import Linkage
+
+KINDS = {4: "four_bar", 6: "six_bar", 8: "eight_bar", 10: "ten_bar"}
+
+
+class Placed:
+    """A design laid on its target: p ↦ z(p), m, from the crank's units to the place of the curve."""
+
+    def __init__(self, design: Design, target: Target) -> None:
+        self.design, self.target = design, target
+        even = even_points(target.curve(design), EVEN, target.closed)
+        self.middle = complex(even.mean())
+        rms = np.sqrt(np.mean(np.abs(even - self.middle) ** 2))
+        self.factor = complex(target.radius / rms * np.exp(1j * design.x[-3]))
+
+    def __call__(self, places: Complexes) -> Complexes:
+        laid = self.factor * (places - self.middle)
+        return np.asarray(self.target.centre + (laid.conj() if self.design.mirror else laid))
+
+    def curve(self, count: int) -> Complexes:
+        """The drawn curve at even crank angles in the order in which a crank that turns to the left draws it, m."""
+        curve = self(self.target.curve(self.design, count))
+        return curve[::-1] if self.design.mirror else curve
+
+    def turn(self, crank: float) -> float:
+        """Angle of the crank in the frame, rad."""
+        angle = crank + float(np.angle(self.factor))
+        return -angle if self.design.mirror else angle
+
+    def size(self) -> float:
+        """Greatest distance of a node from the curve's centroid over a turn, in rms radii."""
+        paths = node_paths(self.design.nodes, self.design.x, np.linspace(0, 2 * np.pi, 721))[0]
+        return float(np.abs(paths - self.middle).max() * abs(self.factor) / self.target.radius)
+
+
+def linkage_of(placed: Placed) -> Linkage:
+    """The linkage in the pose in which the drawn part begins."""
+    design, closed = placed.design, placed.target.closed
+    names = node_names(design.rows)
+    first, span = (0.0, 0.0) if closed else (float(design.x[-2]), float(design.x[-1]))
+    ends = sorted((placed.turn(first), placed.turn(first + span)))
+    begin = first + span if design.mirror else first
+    pose = placed(node_paths(design.nodes, design.x, np.array([begin]))[0][:, 0])
+    points = {name: complex(place) for name, place in zip(names, pose, strict=True)}
+    frame = tuple(names[k] for k, row in enumerate(design.rows) if row[0] == PIVOT and k != 1)
+    return Linkage(
+        KINDS.get(design.links, "linkage"), points, frame, _links(design.rows, names), ("crank", "O"),
+        span=None if closed else (ends[0], ends[1]),
+    )  # fmt: skip
+
+
+def _links(rows: list[Node], names: list[str]) -> dict[str, tuple[str, ...]]:
+    links: dict[tuple[int, int], list[int]] = {(0, 1): [0, 1]}
+    for k, (kind, i, j, _) in enumerate(rows):
+        if kind == DYAD:
+            links[i, k], links[j, k] = [i, k], [j, k]
+        elif kind == POINT:
+            links[i, j].append(k)
+    named = zip(_link_names(), links.values(), strict=False)
+    return {name: tuple(names[k] for k in nodes) for name, nodes in named}
+
+
+def _link_names() -> Iterator[str]:
+    yield from ("crank", "coupler", "rocker")
+    number = 4
+    while True:
+        yield f"link{number}"
+        number += 1
+
+
+def node_names(rows: list[Node]) -> list[str]:
+    """Pivots O, O2, O3 …; the crank's pin A, then B, C …; the drawing point P."""
+    letters = iter([each for each in ascii_uppercase if each not in "AOP"])
+    pivots, names = 1, []
+    for k, row in enumerate(rows):
+        if k == 0:
+            names.append("O")
+        elif k == 1:
+            names.append("A")
+        elif row[0] == PIVOT:
+            pivots += 1
+            names.append(f"O{pivots}")
+        else:
+            names.append("P" if k == len(rows) - 1 else next(letters))
+    return names

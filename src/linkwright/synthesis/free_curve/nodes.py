@@ -1,0 +1,151 @@
+"""A linkage as a list of nodes: its structure, its positions, and random structures.
+
+Each node has a kind, two earlier nodes and a branch; see ``kernels.py``. Bars = 2 + 2 dyads; joints counts all nodes:
+pivots, pins, points of links and the drawing point.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.free_curve.kernels import DYAD, FAR, PIVOT, POINT
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Whole = NDArray[np.int64]
+Node = tuple[int, int, int, int]
+Draw = np.random.Generator
+
+FOUR_BAR: tuple[Node, ...] = ((PIVOT, 0, 0, 1), (PIVOT, 0, 0, 1), (PIVOT, 0, 0, 1), (DYAD, 1, 2, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """A linkage laid on a target.
+
+    Args:
+        nodes: (4 joints,) kind, two nodes and branch of every node.
+        x: two numbers of every node after the crank's, then turn of the picture, first crank angle and range, rad.
+        mirror: it draws the target's mirror image.
+        value: the objective, or FAR.
+    """
+
+    nodes: Whole
+    x: Floats
+    mirror: bool
+    value: float = FAR
+
+    @property
+    def joints(self) -> int:
+        """Number of nodes."""
+        return len(self.nodes) // 4
+
+    @property
+    def links(self) -> int:
+        """Number of bars with the frame."""
+        return 2 + 2 * int((self.nodes[::4] == DYAD).sum())
+
+    @property
+    def rows(self) -> list[Node]:
+        """The nodes one by one."""
+        return [(int(a), int(b), int(c), int(d)) for a, b, c, d in self.nodes.reshape(-1, 4)]
+
+
+def flat(rows: list[Node]) -> Whole:
+    """Nodes as one array."""
+    return np.array(rows, dtype=np.int64).ravel()
+
+
+def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float]:
+    """Positions (joints, n) of all nodes at crank angles (n,), and the least sin² of a transmission angle.
+
+    A dyad that does not close gives a negative number and its point on the line of its ends.
+    """
+    count, least = len(nodes) // 4, 1.0
+    paths = np.zeros((count, len(crank)), complex)
+    paths[1] = np.exp(1j * crank)
+    for k in range(2, count):
+        kind, i, j, branch = nodes[4 * k : 4 * k + 4]
+        a, b = x[2 * k - 4 : 2 * k - 2]
+        if kind == PIVOT:
+            paths[k] = a + 1j * b
+        elif kind == POINT:
+            paths[k] = paths[i] + (a + 1j * b) * (paths[j] - paths[i])
+        else:
+            first, second, span = np.exp(a), np.exp(b), paths[j] - paths[i]
+            apart = np.abs(span)
+            cosine = (first**2 + second**2 - apart**2) / (2 * first * second)
+            least = min(least, float(1 - np.max(cosine**2)))
+            along = (first**2 + apart**2 - second**2) / (2 * first * apart)
+            across = np.sqrt(np.maximum(1 - along**2, 0))
+            paths[k] = paths[i] + first * span / apart * (along + 1j * branch * across)
+    return paths, least
+
+
+def links_of(rows: list[Node]) -> list[tuple[int, int]]:
+    """Moving links as pairs of nodes; the crank first."""
+    return [(0, 1)] + [(end, k) for k, row in enumerate(rows) if row[0] == DYAD for end in row[1:3]]
+
+
+def pivots_of(rows: list[Node]) -> list[int]:
+    """Nodes fixed in the frame."""
+    return [k for k, row in enumerate(rows) if row[0] == PIVOT and k != 1]
+
+
+def carriers(rows: list[Node], node: int) -> set[tuple[int, int]]:
+    """Moving links that have a node."""
+    if rows[node][0] == POINT:
+        return {(rows[node][1], rows[node][2])}
+    return {pair for pair in links_of(rows) if node in pair}
+
+
+def random_structure(dyads: int, most: int, draw: Draw) -> Whole:
+    """A four-bar with random further dyads on it, at most ``most`` nodes, the last one draws, none idle."""
+    while True:
+        rows: list[Node] | None = list(FOUR_BAR)
+        for left in range(dyads - 2, -1, -1):
+            if rows is not None:
+                rows = _with_dyad(rows, draw, most - len(rows) - left - int(draw.random() < 0.7))
+        if rows is None:
+            continue
+        if dyads == 1 or (draw.random() < 0.75 and len(rows) < most):
+            end = rows[-1][1 + (int(draw.integers(2)) if dyads > 1 else 0)]
+            rows.append((POINT, end, len(rows) - 1, 1))
+        if len(rows) <= most and len(_needed(rows)) == len(rows):
+            return flat(rows)
+
+
+def _with_dyad(rows: list[Node], draw: Draw, room: int) -> list[Node] | None:
+    """One more dyad between random points of two links; None where the draw makes no linkage."""
+    rows, ends, spare = list(rows), [], room - 1
+    moving = [k for k in range(1, len(rows)) if k not in pivots_of(rows)]
+    for side in (0, 1):
+        choice = int(draw.integers(4 if side else 2))
+        if choice == 0 and spare > 0:
+            pairs = links_of(rows)
+            rows.append((POINT, *pairs[int(draw.integers(1, len(pairs)))], 1))
+            ends.append(len(rows) - 1)
+            spare -= 1
+        elif choice == 1 or side == 0:
+            ends.append(int(draw.choice(moving)))
+        elif choice == 2 and spare > 0:
+            rows.append((PIVOT, 0, 0, 1))
+            ends.append(len(rows) - 1)
+            spare -= 1
+        else:
+            ends.append(int(draw.choice(pivots_of(rows))))
+    if ends[0] == ends[1] or carriers(rows, ends[0]) & carriers(rows, ends[1]):
+        return None
+    return [*rows, (DYAD, ends[0], ends[1], int(draw.choice([-1, 1])))]
+
+
+def _needed(rows: list[Node]) -> set[int]:
+    """Nodes on which the last one hangs."""
+    found = {0, 1, len(rows) - 1}
+    for k in range(len(rows) - 1, 1, -1):
+        if k in found and rows[k][0] != PIVOT:
+            found |= set(rows[k][1:3])
+    return found

@@ -1,0 +1,168 @@
+"""The search: fewest links first, each level from its atlas and from the designs of the levels below.
+
+A level looks its atlas up, lets many starts descend a little, the best of them on, and keeps a pool of good designs
+of different structure. Until its share of the time is over, an attempt shakes a member of the pool, or hangs one more
+dyad on a member of the pools below, and descends. At the end the best are polished at fine positions, with the
+penalties weighted so that the demands hold.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.engine.threads import cores
+from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
+from linkwright.synthesis.free_curve.kernels import FAR
+from linkwright.synthesis.free_curve.moves import shaken, with_dyad
+from linkwright.synthesis.free_curve.nodes import Design, Draw
+from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Target
+
+#: Most joints of each level, and the share of the time after which it ends, for each number of levels.
+JOINTS = (5, 8, 10, 12)
+SHARES = {1: (1.0,), 2: (0.2, 1.0), 3: (0.1, 0.45, 1.0), 4: (0.06, 0.28, 0.55, 1.0)}
+#: Starts from an atlas; those that descend on, and further on; iterations of each step.
+STARTS, HALVED, CHOSEN = 2000, 250, 50
+POOL, ATTEMPTS = 30, 48
+#: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
+POLISH = ((10.0, 0.005), (300.0, 0.005), (10000.0, 0.004))
+
+
+@dataclass
+class Pool:
+    """The best designs so far, few of one structure, none twice."""
+
+    designs: list[Design] = field(default_factory=list)
+
+    def add(self, design: Design) -> None:
+        """Takes a design in where it is good and different enough."""
+        if not design.value < self.worst:
+            return
+        kept: list[Design] = []
+        alike: dict[tuple[bytes, bool], int] = {}
+        for each in sorted([*self.designs, design], key=lambda one: one.value):
+            key = each.nodes.tobytes(), each.mirror
+            most = 12 if each.joints == JOINTS[0] else 3
+            if alike.get(key, 0) < most and not any(_same(one, each) for one in kept):
+                kept.append(each)
+                alike[key] = alike.get(key, 0) + 1
+        self.designs = kept[:POOL]
+
+    @property
+    def worst(self) -> float:
+        """What a design must better."""
+        return self.designs[-1].value if len(self.designs) == POOL else 0.9 * FAR
+
+    def pick(self, draw: Draw) -> Design:
+        """A design, the better the likelier."""
+        return self.designs[min(int(draw.exponential(6)), len(self.designs) - 1)]
+
+
+def _same(a: Design, b: Design) -> bool:
+    near = 0.01 * b.value if a.nodes.tobytes() == b.nodes.tobytes() else 1e-5
+    return abs(a.value - b.value) < near
+
+
+@dataclass
+class Search:
+    """One search for a target.
+
+    Args:
+        target: the curve with its demands.
+        joints: most joints of a design.
+        seconds: time for all of it.
+        seed: of the random draws.
+        progress: called with the share of the time that is over and the least objective so far.
+    """
+
+    target: Target
+    joints: int
+    seconds: float
+    seed: int
+    progress: Callable[[float, float], None] | None = None
+    attempts: int = 0
+
+    def run(self) -> list[Design]:
+        """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
+        limits = [each for each in JOINTS if each < self.joints] + [self.joints]
+        shares, self.begin, self.draw = (
+            SHARES[len(limits)],
+            time.perf_counter(),
+            np.random.default_rng(self.seed),
+        )
+        pools: list[Pool] = []
+        found: list[Design] = []
+        with ThreadPoolExecutor(cores()) as self.workers:
+            try:
+                for level, most in enumerate(limits):
+                    pools.append(Pool())
+                    self._level(level, most, pools, shares[level])
+                    found += self._polished(pools[-1])
+            except KeyboardInterrupt:
+                found += [each for pool in pools for each in pool.designs[:4]]
+                if not found:
+                    raise
+        return found
+
+    def _level(self, level: int, most: int, pools: list[Pool], share: float) -> None:
+        pool, below = pools[-1], [each for each in pools[max(0, level - 2) : level] if each.designs]
+        if level < len(LEVELS):
+            for each in self._starts(level):
+                pool.add(each)
+        for one in below[-1].designs[:10] if below else []:
+            pool.add(one)
+        end = self.begin + share * self.seconds
+
+        def attempt(seed: int) -> Design:
+            return self._attempt(np.random.default_rng(seed), most, pool, below)
+
+        while pool.designs and time.perf_counter() < end - 0.03 * self.seconds:
+            self.attempts += ATTEMPTS
+            for found in self.workers.map(attempt, self.draw.integers(1 << 60, size=ATTEMPTS)):
+                pool.add(found)
+            if self.progress is not None:
+                over = (time.perf_counter() - self.begin) / self.seconds
+                self.progress(min(over, 1.0), pool.designs[0].value)
+
+    def _starts(self, level: int) -> Iterable[Design]:
+        """The best of an atlas, after descents."""
+        starts = atlas(level).find(self.target, STARTS)
+        self.attempts += len(starts)
+        near = self._best(starts, 15, HALVED, COARSE)
+        return self._checked(self._best(self._best(near, 60, CHOSEN), 150, CHOSEN))
+
+    def _best(
+        self, designs: list[Design], iterations: int, count: int, fineness: object = MIDDLE
+    ) -> list[Design]:
+        grain = COARSE if fineness is COARSE else MIDDLE
+        found = self.workers.map(lambda each: self.target.descend(each, iterations, grain), designs)
+        return sorted(found, key=lambda each: each.value)[:count]
+
+    def _checked(self, designs: list[Design]) -> Iterable[Design]:
+        return self.workers.map(self.target.checked, designs)
+
+    def _attempt(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+        """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
+        design = None
+        if below and draw.random() < 0.5:
+            design = with_dyad(below[int(draw.integers(len(below)))].pick(draw), draw, most)
+        design = self.target.descend(design or shaken(pool.pick(draw), draw), 25, COARSE)
+        if design.value < 1.5 * pool.worst:
+            design = self.target.descend(design, 60)
+        if design.value < 1.1 * pool.worst:
+            return self.target.checked(self.target.descend(design, 200))
+        return Design(design.nodes, design.x, design.mirror)
+
+    def _polished(self, pool: Pool) -> list[Design]:
+        """The best of a pool, polished; the demands hold with a small margin."""
+
+        def polish(design: Design) -> Design:
+            for weight, more in POLISH:
+                design = self.target.descend(design, 150, FINE, weight=weight, more=more)
+            return self.target.checked(design)
+
+        return [each for each in self.workers.map(polish, pool.designs[:6]) if each.value < FAR]

@@ -1,0 +1,156 @@
+"""The wanted curve: even points, tables of nearest points, and how far a curve lies from it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.synthesis.free_curve.kernels import FAR, GRID, HALF, kernels
+from linkwright.synthesis.free_curve.nodes import Complexes, Design, Floats, Whole, node_paths
+
+#: Points of a curve where two are compared as the measure says.
+EVEN = 2000
+
+
+class Fineness:
+    """Positions on the drawn part and on the rest of the turn, points of the target, smoothing ε."""
+
+    def __init__(self, drawn: int, rest: int, points: int, soft: float) -> None:
+        self.drawn, self.rest, self.points, self.soft = drawn, rest, points, soft
+
+
+COARSE, MIDDLE, FINE = Fineness(48, 24, 64, 4e-3), Fineness(96, 48, 128, 2e-3), Fineness(192, 192, 400, 3e-4)
+
+
+class _Room(threading.local):
+    """Work space of one thread."""
+
+    def __init__(self) -> None:
+        self.array = np.zeros(60000)
+
+
+_ROOM = _Room()
+
+
+class Target:
+    """A curve (complex, at least two different points), closed or open, as the search sees it.
+
+    Args:
+        least: least transmission angle over the whole turn, rad.
+        largest: greatest distance of a node from the curve's centroid, in its rms radii.
+    """
+
+    def __init__(self, curve: Complexes, closed: bool, least: float, largest: float) -> None:
+        even = even_points(curve, EVEN, closed)
+        self.closed, self.least, self.largest = closed, least, largest
+        self.centre = complex(even.mean())
+        self.radius = float(np.sqrt(np.mean(np.abs(even - self.centre) ** 2)))
+        self.points = (even - self.centre) / self.radius
+        self._tables: dict[tuple[int, bool], tuple[Floats, Whole]] = {}
+        for fineness in (COARSE, MIDDLE, FINE):
+            for mirror in (False, True):
+                self._tables[fineness.points, mirror] = self._table(fineness.points, mirror)
+
+    def _table(self, count: int, mirror: bool) -> tuple[Floats, Whole]:
+        from scipy.spatial import cKDTree
+
+        points = even_points(self.points.conj() if mirror else self.points, count, self.closed)
+        cell = (np.arange(GRID) + 0.5) * (2 * HALF / GRID) - HALF
+        cells = np.column_stack([np.tile(cell, GRID), np.repeat(cell, GRID)])
+        near = cKDTree(_columns(points)).query(cells)[1]
+        return np.concatenate([points.real, points.imag]), np.ascontiguousarray(near, dtype=np.int64)
+
+    def descend(
+        self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0
+    ) -> Design:  # fmt: skip
+        """The design after a descent; ``weight``: of the penalties, ``more``: angle (rad) above the least one."""
+        points, near = self._tables[fineness.points, design.mirror]
+        x = design.x.copy()
+        limits = [np.sin(self.least + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
+        options = np.array(limits)
+        poses = fineness.drawn + (0 if self.closed else fineness.rest)
+        arrays = [each.ctypes.data for each in (x, points, near, options, _ROOM.array)]
+        value = kernels()(
+            "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, poses, int(self.closed), *arrays[:2],
+            fineness.points, *arrays[2:], iterations,
+        )  # fmt: skip
+        return replace(design, x=x, value=value)
+
+    def checked(self, design: Design) -> Design:
+        """The design with the objective at fine positions; FAR where it does not close well there."""
+        if design.value >= FAR:
+            return design
+        fine = self.descend(design, 0, FINE)
+        turn = np.linspace(0, 2 * np.pi, 361)[:-1]
+        least = node_paths(design.nodes, design.x, turn)[1]
+        return fine if least > np.sin(self.least / 2) ** 2 else replace(fine, value=FAR)
+
+    def curve(self, design: Design, count: int = 4 * EVEN) -> Complexes:
+        """The drawn curve at even crank angles, in units of the crank."""
+        paths, _ = node_paths(design.nodes, design.x, self.crank(design, count))
+        return np.asarray(paths[-1])
+
+    def crank(self, design: Design, count: int) -> Floats:
+        """Crank angles of the drawn part."""
+        if self.closed:
+            return np.linspace(0, 2 * np.pi, count + 1)[:-1]
+        return np.linspace(design.x[-2], design.x[-2] + design.x[-1], count)
+
+    def deviation(self, design: Design) -> float:
+        """Mean symmetric nearest distance at the design's own turn, in rms radii."""
+        if design.value >= FAR:
+            return FAR
+        curve = normal(even_points(self.curve(design), EVEN, self.closed)) * np.exp(1j * design.x[-3])
+        return symmetric_distance(curve, self.points.conj() if design.mirror else self.points)[0]
+
+
+def even_points(curve: Complexes, count: int, closed: bool) -> Complexes:
+    """Points even in arc length on the polyline through a curve's points."""
+    ring = np.append(curve, curve[0]) if closed else curve
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(ring)))])
+    wanted = np.linspace(0, along[-1], count + 1)[:-1] if closed else np.linspace(0, along[-1], count)
+    return np.asarray(np.interp(wanted, along, ring.real) + 1j * np.interp(wanted, along, ring.imag))
+
+
+def normal(curve: Complexes) -> Complexes:
+    """The curve with its centroid in the origin and rms radius 1."""
+    moved = curve - curve.mean()
+    return np.asarray(moved / np.sqrt(np.mean(np.abs(moved) ** 2)))
+
+
+def symmetric_distance(a: Complexes, b: Complexes) -> tuple[float, float]:
+    """Mean nearest distance from a to b plus that from b to a, and the greatest nearest distance."""
+    from scipy.spatial import cKDTree
+
+    there = cKDTree(_columns(b)).query(_columns(a))[0]
+    back = cKDTree(_columns(a)).query(_columns(b))[0]
+    return float(there.mean() + back.mean()), float(max(there.max(), back.max()))
+
+
+def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
+    """The measure: both curves even in arc length, laid on each other by centroid, rms radius and best turn.
+
+    Mean nearest distance from a to b plus that from b to a, in rms radii; mirror images are different curves.
+    """
+    from scipy.optimize import minimize_scalar
+
+    a, b = (normal(even_points(each, EVEN, closed)) for each in (a, b))
+
+    def at(turn: float, step: int = 1) -> float:
+        return symmetric_distance(a[::step] * np.exp(1j * turn), b[::step])[0]
+
+    grid = np.arange(120) * (2 * np.pi / 120)
+    rough = np.array([at(turn, 10) for turn in grid])
+    found: list[float] = []
+    for turn in grid[np.argsort(rough)[:3]]:
+        bounds: Sequence[float] = (turn - grid[1], turn + grid[1])
+        found.append(float(minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-5}).fun))
+    return min(found)
+
+
+def _columns(points: Complexes) -> NDArray[np.float64]:
+    return np.column_stack([points.real, points.imag])

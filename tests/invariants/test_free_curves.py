@@ -1,0 +1,149 @@
+"""Free curves: gradients, motion by the solver, demands, place and size, a linkage's own curve."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.engine import machine_code
+from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
+from linkwright.synthesis.free_curve.kernels import kernels
+from linkwright.synthesis.free_curve.nodes import random_structure
+from linkwright.synthesis.free_curve.target import MIDDLE, Target, curve_distance
+
+pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
+FOUR = np.array([0.9, 0.9 + 1.7j, 0.6j, 1.3 + 0.6j])  # a figure 4 in one stroke
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_gradients_are_slopes(closed: bool) -> None:
+    draw = np.random.default_rng(4)
+    target = Target(FOUR, closed, math.radians(50), 3.0)
+    points, near = target._tables[MIDDLE.points, False]
+    poses = 96 if closed else 144
+    room, options, checked = np.zeros(60000), np.array([math.sin(math.radians(50)) ** 2, 3.0, 1.0, 4e-6]), 0
+    while checked < 4:
+        nodes = random_structure(2 + checked % 2, 8 + 2 * (checked % 2), draw)
+        joints = len(nodes) // 4
+        x = np.concatenate([draw.normal(0.6, 0.7, 2 * (joints - 2)), [0.3, 0.4, 3.0]])
+
+        def value(
+            at: np.ndarray, slope: np.ndarray, nodes: np.ndarray = nodes, joints: int = joints
+        ) -> float:
+            arrays = [each.ctypes.data for each in (near, options, room, slope)]
+            found = kernels()("deviation", nodes.ctypes.data, joints, 96, poses, int(closed), at.ctypes.data,
+                              points.ctypes.data, MIDDLE.points, *arrays)  # fmt: skip
+            return float(found)
+
+        slope, unused = np.zeros(len(x)), np.zeros(len(x))
+        if value(x, slope) > 1e3:
+            continue
+        steps = 1e-6 * np.eye(len(x))
+        numeric = np.array([(value(x + h, unused) - value(x - h, unused)) / 2e-6 for h in steps])
+        assert slope == pytest.approx(numeric, abs=2e-6 * max(1.0, np.abs(numeric).max()))
+        checked += 1
+
+
+def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
+    size = 0.02
+    found = lw.free_curve(size * FOUR, seconds=2.5, joints=8, count=3)
+    assert found.best.error < 0.1 < found.candidates[-1].error
+    assert found.best.values["links"] > found.candidates[-1].values["links"] == 4
+    for each in found:
+        machine = each.mechanism()
+        motion = lw.solve_motion(machine, steps=1500)
+        path = motion.point("P").position @ [1, 1j]
+        assert curve_distance(path, size * FOUR, False) == pytest.approx(each.error, rel=0.03)
+        assert np.abs(path[0] - each.curve[0]) < 1e-4 * size
+    turning = lw.loads(found.model_text(0).split("cycle:")[0])
+    whole = lw.solve_motion(turning, steps=720)
+    places = {name: whole.point(name).position @ [1, 1j] for name in found.best.linkage.points}
+    least = min(_transmission(places, found.best.linkage.links))
+    assert least == pytest.approx(found.best.transmission_angle, abs=1e-3)
+    assert least >= math.radians(20)
+    path = motion.point("P").position @ [1, 1j]
+    curve = np.interp(np.linspace(0, 1, 4001), np.linspace(0, 1, 4), FOUR.real) + 1j * np.interp(
+        np.linspace(0, 1, 4001), np.linspace(0, 1, 4), FOUR.imag
+    )
+    weight = np.abs(np.diff(FOUR)).repeat([1333, 1334, 1333])
+    middle = np.average(0.5 * (curve[1:] + curve[:-1]), weights=weight)
+    radius = math.sqrt(np.average(np.abs(0.5 * (curve[1:] + curve[:-1]) - middle) ** 2, weights=weight))
+    reach = max(np.abs(each - size * middle).max() for each in places.values()) / (size * radius)
+    assert reach <= 6.0
+    assert found.best.values["size"] == pytest.approx(reach, rel=2e-3)
+
+
+def _transmission(places: dict, links: dict) -> list[float]:
+    """Least angle of every dyad: two links that join in a point and hang on points found before."""
+    known = {name for name in places if name[0] == "O" or name in links["crank"]}
+    least, left = [], [set(each) for name, each in links.items() if name != "crank"]
+    while left:
+        for a in left:
+            for b in left:
+                joint = (a & b) - known
+                if a is b or not joint or not a & known or not b & known:
+                    continue
+                (pin,) = joint
+                (p,), (q,) = sorted(a & known)[:1], sorted(b & known)[:1]
+                u, v = places[pin] - places[p], places[pin] - places[q]
+                sine = np.abs((u.conj() * v).imag) / np.abs(u) / np.abs(v)
+                least.append(float(np.arcsin(sine).min()))
+                known |= a | b
+                left = [each for each in left if each is not a and each is not b]
+                break
+            else:
+                continue
+            break
+        else:
+            raise AssertionError(left)
+    return least
+
+
+def test_the_curve_of_a_four_bar_is_found_again() -> None:
+    crank = np.linspace(0, 2 * np.pi, 201)[:-1]
+    pin = np.exp(1j * crank)
+    span = 3.2 - pin
+    along = (2.6**2 + np.abs(span) ** 2 - 2.4**2) / (2 * 2.6 * np.abs(span))
+    coupler = span / np.abs(span) * (along + 1j * np.sqrt(1 - along**2))
+    curve = pin + (1.1 + 0.9j) * coupler
+    found = lw.free_curve(curve, closed=True, joints=5, seconds=1.5, size=12)
+    assert found.best.error < 0.01
+    assert found.best.values["links"] == 4
+    assert found.best.values["drawn_as_given"] in (pytest.approx(1, abs=0.01), pytest.approx(0, abs=0.01))
+
+
+def test_the_measure_knows_no_place_size_or_turn() -> None:
+    draw = np.random.default_rng(2)
+    curve = np.cumsum(draw.normal(size=60) + 1j * draw.normal(size=60))
+    assert curve_distance(curve, (2 - 5j) * curve[::-1] + 7, False) < 1e-6
+    circle = np.exp(1j * np.linspace(0, 2 * np.pi, 4001)[:-1])
+    ellipse = circle.real + 0.5j * circle.imag
+    plain = np.sqrt(np.mean(np.abs(np.diff(np.append(ellipse, 1))) * np.abs(ellipse) ** 2)) / np.sqrt(
+        np.mean(np.abs(np.diff(np.append(ellipse, 1))))
+    )
+    even = np.abs(ellipse / plain)
+    weight = np.abs(np.diff(np.append(ellipse, 1)))
+    out = np.average(np.abs(even - 1), weights=weight)  # from the ellipse to the circle: along its radius
+    assert curve_distance(circle, ellipse, True) > out
+
+
+def test_curves_from_files(tmp_path: Path) -> None:
+    arc = path_points("M 1 0 A 1 1 0 0 1 -1 0 a1,1 0 0,1 2,0z", Path("x.svg"))
+    assert np.abs(arc) == pytest.approx(np.ones(len(arc)))
+    assert abs(arc[0] - arc[-1]) < 1e-12
+    bezier = path_points("m0,0 c0,1 1,1 1,0 s1-1 1 0", Path("x.svg"))
+    assert bezier[24] == pytest.approx(1)
+    assert bezier[12] == pytest.approx(0.5 + 0.75j)
+    assert bezier[36] == pytest.approx(1.5 - 0.75j)
+    quadratic = path_points("M0 0Q1 2 2 0T4 0H5V1", Path("x.svg"))
+    assert quadratic[12] == pytest.approx(1 + 1j)
+    assert quadratic[36] == pytest.approx(3 - 1j)
+    assert quadratic[-1] == 5 + 1j
+    svg = tmp_path / "a.svg"
+    svg.write_text('<svg xmlns="http://www.w3.org/2000/svg"><g><polygon points="0,0 2,0 2,1"/></g></svg>')
+    assert list(read_curve(svg)) == [0, 2, 2 - 1j, 0]
+    table = tmp_path / "a.csv"
+    table.write_text("x;y\n1;2\n\n3.5; 4e0\n")
+    assert list(read_curve(table)) == [1 + 2j, 3.5 + 4j]

@@ -1,0 +1,79 @@
+"""Kernels: what the compiled functions give is what Python's own arithmetic gives."""
+
+from math import cos, exp, fabs, log, sin, sqrt
+
+import numpy as np
+import pytest
+
+from linkwright.engine import machine_code
+from linkwright.engine.kernel import (
+    Kernels,
+    Reals,
+    Wholes,
+    least,
+    load,
+    lower,
+    mark_of,
+    marked,
+    ramp,
+    root,
+    spread,
+    store,
+    total,
+)
+
+pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
+SHIFT = 3
+
+
+def series(x: float, terms: int) -> float:
+    value, term = 0.0, 1.0
+    for k in range(terms):
+        if k % 2 == 1 and k != 0:
+            value += term
+        else:
+            value -= term if k > SHIFT or k < 1 else -term
+        term = term * x / (k + 1)
+        if fabs(term) < 1e-12:
+            break
+    return value
+
+
+def norms(n: int, x: Reals, y: Reals, order: Wholes, out: Reals) -> int:
+    low = spread(1e9)
+    total_ = spread(0.0)
+    for t in range(0, n, 8):
+        r = root(load(x, t) * load(x, t) + load(y, t) * load(y, t))
+        store(out, t, r)
+        total_ += r
+        low = lower(low, marked(r, ramp(t)))
+    out[n] = total(total_)
+    out[n + 1] = exp(log(2.0)) + sin(1.0) * cos(1.0) + sqrt(4)
+    k = 0
+    while k < n:
+        if order[k] < 0:
+            k += 1
+            continue
+        out[order[k]] = (out + 0)[order[k]] + series(0.5, k // 2)
+        k += 1
+    return mark_of(least(low))
+
+
+def test_kernels_compute_what_python_says() -> None:
+    kernels = Kernels([series, norms])
+    assert [kernels("series", 0.7, n) for n in range(9)] == pytest.approx(
+        [series(0.7, n) for n in range(9)], rel=1e-14
+    )
+    draw = np.random.default_rng(1)
+    x, y, out = draw.normal(size=24), draw.normal(size=24), np.zeros(26)
+    order = np.array(draw.permutation(24), dtype=np.int64)
+    order[::3] = -1
+    nearest = kernels("norms", 24, *(each.ctypes.data for each in (x, y, order, out)))
+    expected = np.hypot(x, y)
+    assert nearest == int(expected.argmin())
+    assert out[24] == pytest.approx(expected.sum(), rel=1e-12)
+    assert out[25] == pytest.approx(2 + np.sin(1) * np.cos(1) + 2, rel=1e-14)
+    for k, at in enumerate(order):
+        if at >= 0:
+            expected[at] += series(0.5, k // 2)
+    assert out[:24] == pytest.approx(expected, rel=1e-13)
