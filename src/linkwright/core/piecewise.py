@@ -24,6 +24,8 @@ _ORDERS = np.arange(POINTS)
 #: From values at the nodes to coefficients of Legendre polynomials, (nodes, orders); to the slope at the nodes.
 _TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
 _TO_SLOPE = _TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
+#: To the last three of these coefficients.
+TO_LAST = _TO_LEGENDRE[:, -3:]
 #: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
 _BARYCENTRIC = (-1.0) ** _ORDERS * np.sqrt((1.0 - NODES**2) * WEIGHTS)
 #: Places of a piece where it is looked at for extremes, both ends among them.
@@ -185,7 +187,57 @@ class Integral:
 
 def tails(values: Floats) -> Floats:
     """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""
-    return np.asarray(np.abs(values @ _TO_LEGENDRE[:, -3:]).max(axis=-1))
+    return np.asarray(np.abs(values @ TO_LAST).max(axis=-1))
+
+
+Peak = tuple[NDArray[np.intp], Floats, Floats, Floats]
+
+
+def largest(values: Floats, tops: Floats) -> Peak:
+    """The largest values of many functions (k, POINTS, pieces) at the Gauss points of their pieces.
+
+    ``tops``: the largest of the values in each piece, (k, pieces); the three pieces with the largest are looked at.
+    Returns the piece, the place in it (-1 to 1), the value, and the size of the last orders there, (k,) each.
+    """
+    found = _highest(values, tops)
+    rim = np.flatnonzero(np.abs(found[1]) == 1.0)
+    if not len(rim) or values.shape[2] == 1:
+        return found
+    rest = tops[rim].copy()
+    rest[np.arange(len(rim)), found[0][rim]] = -np.inf
+    beside = _highest(values[rim], rest)
+    better = beside[2] > found[2][rim]
+    for mine, other in zip(found, beside, strict=True):
+        mine[rim[better]] = other[better]
+    return found
+
+
+def _highest(values: Floats, tops: Floats) -> Peak:
+    """The same, where the extreme is that of the piece with the highest look: not so at the rim of a piece."""
+    rows = np.arange(len(values))
+    order = np.argsort(-tops, axis=1)[:, :3]
+    near = values[rows[:, None], :, order]
+    seen = np.asarray(near @ _TO_PLACES)
+    best = seen.reshape(len(values), -1).argmax(axis=1)
+    which, look = best // _LOOKS, best % _LOOKS
+    series, top = near[rows, which], seen[rows, which, look]
+    low, high = _PLACES[np.maximum(look - 1, 0)], _PLACES[np.minimum(look + 1, _LOOKS - 1)]
+    place = _zeros(series @ _TO_SLOPE, low, high, _PLACES[look])
+    found = _at(series, place)
+    place = np.where(found > top, place, _PLACES[look])
+    return order[rows, which], place, np.maximum(found, top), tails(series)
+
+
+def weights_at(place: Floats) -> Floats:
+    """Weights (k, POINTS) of the values at the Gauss points in the polynomials' values at places (k,) of a piece."""
+    return _at(np.broadcast_to(np.eye(POINTS), (len(place), POINTS, POINTS)).swapaxes(0, 1), place).T
+
+
+def weights_up_to(place: Floats) -> Floats:
+    """The same in the integrals of the polynomials from the beginning of the piece, of width 2, to places (k,)."""
+    known = np.polynomial.legendre.legvander(place, POINTS)
+    gained = (known[:, 2:] - known[:, :-2]) / (2 * _ORDERS[1:] + 1)
+    return np.asarray(np.concatenate([place[:, None] + 1.0, gained], axis=1) @ _TO_LEGENDRE.T)
 
 
 def _at(values: Floats, x: Floats) -> Floats:

@@ -162,7 +162,7 @@ class Analysis:
 
     def _summarised(self, summary: Summary) -> Extreme:
         nothing = Extreme(float("nan"), float("nan"), float("nan"), True)
-        output, kind = self._output(summary.output), summary.kind
+        output, kind = self.output(summary.output), summary.kind
         if output is not None and kind in ("argmax", "argmin", "range"):
             return self._of_limits(output, kind)
         signal = self.signal(summary.output)
@@ -187,7 +187,7 @@ class Analysis:
             return self.extreme(signal, side)
         return self.extreme(signal, side, of="forces")
 
-    def _output(self, words: str) -> Output | None:
+    def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""
         owner, _, part = words.rpartition(".")
         kind = "angle" if part == "angle" else "displacement"

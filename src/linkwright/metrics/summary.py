@@ -69,6 +69,11 @@ def one(text: str) -> Summary:
     return Summary(output, kind)
 
 
+def is_summary(name: str) -> bool:
+    """Whether a text is a summary of an output, ``driver.effort rms``."""
+    return any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
+
+
 def _one(each: str | tuple[str, str]) -> list[Summary]:
     if isinstance(each, str):
         output, _, kind = each.rpartition(" ")

@@ -13,7 +13,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.outputs import rate, second, turns_fully
 from linkwright.metrics.reactions import size
-from linkwright.metrics.summary import KINDS, wanted
+from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import IDLE, Alternative
 from linkwright.words import say
@@ -77,11 +77,6 @@ def criterion(name: str) -> Criterion:
     known = [*OWN, *METRICS]
     hint = offered(name, known)
     raise RequestError(Sentence("study.no_metric", name=name, hint=hint))
-
-
-def is_summary(name: str) -> bool:
-    """Whether a metric is a summary of an output, ``driver.effort rms``."""
-    return any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
 
 
 def _better(name: str) -> str | None:

@@ -64,7 +64,7 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     names = frozenset(name.removeprefix("load:") for name in given)
     if not given:
         return AlongInput(names, ())
-    if not _one_turn(traced, varied) or any(not name.startswith("load:") for name in given):
+    if not one_turn(traced, varied) or any(not name.startswith("load:") for name in given):
         return None
     loads = [mechanism.loads[name] for name in names]
     addresses = tuple(f"loads.{each.name}." for each in loads)
@@ -93,7 +93,7 @@ def loaded_cycle(
     return LoadedCycle(over_input, CycleProgram(tuple(stages)), known.outputs)
 
 
-def _one_turn(traced: Traced, varied: Iterable[str]) -> bool:
+def one_turn(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether the cycle is one closed turn of the only driver, of constant speed, whatever varies."""
     drivers = list(traced.mechanism.drivers.values())
     if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed):

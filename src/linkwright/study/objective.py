@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +16,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
-from linkwright.engine.trace import Scalar, Trace, absolute, atan, maximum
+from linkwright.engine.trace import Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinetostatics.named import Quantity
@@ -23,6 +24,8 @@ from linkwright.metrics.summary import KINDS, Summary, reductions, wanted
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input
+from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.terms import is_metric
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.words.sentence import Sentence
@@ -46,6 +49,71 @@ class PathError:
 Terms = str | PathError | Mapping[str | PathError, float] | Sequence[str | PathError]
 
 
+class Part(Protocol):
+    """Some terms of an objective, that depend on the dimensions ``names``."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Dimensions that it depends on."""
+        ...
+
+    def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, names)."""
+        ...
+
+    def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
+        """Values (designs,)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class OverPositions:
+    """Summaries and path errors over the positions of the cycle, as one cycle program."""
+
+    names: tuple[str, ...]
+    gradient: CycleGradient
+    arrays: Mapping[str, Floats]
+    known: Mapping[str, float]
+    backend: Backend
+
+    def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, names)."""
+        table = self._table(columns)
+        return self.gradient.evaluate(table, self.arrays, threads=threads, backend=self.backend)
+
+    def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
+        """Values (designs,)."""
+        found = self.gradient.plain.evaluate(
+            self._table(columns), self.arrays, threads=threads, backend=self.backend
+        )
+        return np.asarray(found[VALUE])
+
+    def _table(self, columns: Mapping[str, Floats]) -> Floats:
+        count = len(next(iter(columns.values())))
+        rows = [columns.get(name, self.known[name]) for name in self.gradient.cycle.dimensions]
+        return np.stack([np.broadcast_to(row, count) for row in rows], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class OverMetrics:
+    """Registered design numbers with their weights."""
+
+    names: tuple[str, ...]
+    cycle: MetricCycle
+    weights: Mapping[str, float]
+    backend: Backend
+
+    def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, names)."""
+        return self.cycle.gradient(self.weights, columns, self.names, threads=threads, backend=self.backend)
+
+    def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
+        """Values (designs,)."""
+        found = self.cycle.evaluate(columns, threads=threads, backend=self.backend)
+        total = sum(weight * found.values[name] for name, weight in self.weights.items())
+        return np.where(found.certain, total, np.nan)
+
+
 class Objective:
     """A function of dimensions with its exact gradient; made by :func:`objective`.
 
@@ -54,22 +122,10 @@ class Objective:
     does the same for (designs, k). NaN where a design does not pass its cycle.
     """
 
-    def __init__(
-        self,
-        traced: Traced,
-        names: tuple[str, ...],
-        gradient: CycleGradient,
-        targets: Mapping[str, Floats],
-        backend: Backend,
-    ) -> None:
+    def __init__(self, names: tuple[str, ...], start: Floats, parts: Sequence[Part]) -> None:
         self.names = names
-        self._gradient = gradient
-        self._backend: Backend = "llvm" if backend == "auto" and available() else backend
-        self._arrays = {**traced.positions.arrays, **targets}
-        known = {**traced.solver.nominal.parameters, **constants(traced)}
-        self.start: Floats = np.array([known[name] for name in names])
-        self._base = np.array([known[name] for name in gradient.cycle.dimensions])
-        self._columns = [gradient.cycle.dimensions.index(name) for name in names]
+        self.start: Floats = start
+        self._parts = tuple(parts)
 
     def __call__(self, values: ArrayLike) -> tuple[float, Floats]:
         """Value and gradient (k,) of one design."""
@@ -78,26 +134,28 @@ class Objective:
 
     def many(self, values: ArrayLike, *, threads: int | None = 1) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, k) of many designs (designs, k)."""
-        return self._gradient.evaluate(
-            self._table(values), self._arrays, threads=threads, backend=self._backend
-        )
+        columns, places = self._columns(values), {name: place for place, name in enumerate(self.names)}
+        count = len(columns[self.names[0]])
+        total, gradient = np.zeros(count), np.zeros((count, len(self.names)))
+        for part in self._parts:
+            found, slopes = part.many(columns, threads)
+            total += found
+            gradient[:, [places[name] for name in part.names]] += slopes
+        gradient[np.isnan(total)] = np.nan
+        return total, gradient
 
     def values(self, values: ArrayLike, *, threads: int | None = 1) -> Floats:
         """Values (designs,) alone of many designs (designs, k), for searches without gradients."""
-        found = self._gradient.plain.evaluate(
-            self._table(values), self._arrays, threads=threads, backend=self._backend
-        )
-        return np.asarray(found[VALUE])
+        columns = self._columns(values)
+        return np.asarray(sum(part.values(columns, threads) for part in self._parts))
 
-    def _table(self, values: ArrayLike) -> Floats:
+    def _columns(self, values: ArrayLike) -> dict[str, Floats]:
         given = np.asarray(values, dtype=float)
         if given.ndim != 2 or given.shape[1] != len(self.names):
             raise RequestError(
                 Sentence("study.objective_shape", names=self.names, shape=str(np.shape(values)))
             )
-        table = np.repeat(self._base[None, :], len(given), axis=0)
-        table[:, self._columns] = given
-        return table
+        return dict(zip(self.names, given.T, strict=True))
 
     def __repr__(self) -> str:
         return f"Objective({', '.join(self.names)})"
@@ -116,15 +174,16 @@ def objective(
 
     Args:
         mechanism: the design to start from; its assembly modes hold for all.
-        terms: summaries such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms, range, peak)
-            and :class:`PathError`; several with their weights in a mapping.
+        terms: design numbers (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`, exact between
+            positions), summaries such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms,
+            range, peak), and :class:`PathError`; several with their weights in a mapping.
         vary: addresses of dimensions, or names of parameters.
         steps: positions over the cycle; a path error sets them itself.
         at: inputs of the first driver, rad or m, instead of the cycle.
         backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
 
-    Extremes are those of the positions; loads that follow the input or an output's way between its limits are
-    included, limit positions with their derivatives.
+    Extremes of summaries are those of the positions; loads that follow the input or an output's way between its
+    limits are included, limit positions with their derivatives.
 
     Raises:
         LinkwrightError: unknown names; groups without closed form, friction and loads of other kinds, through which
@@ -132,6 +191,42 @@ def objective(
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
+    numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}
+    others = {term: weight for term, weight in given.items() if term not in numbers}
+    compiled: Backend = "llvm" if backend == "auto" and available() else backend
+    parts: list[Part] = []
+    if numbers or not others:
+        parts.append(_of_metrics(mechanism, names, numbers, steps, compiled))
+    if others:
+        parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
+    idle = [name for name in names if not any(name in part.names for part in parts)]
+    if idle:
+        raise RequestError(Sentence("study.objective_idle", names=tuple(idle)))
+    known = mechanism.dimensions()
+    return Objective(names, np.array([known[name] for name in names]), parts)
+
+
+def _of_metrics(
+    mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
+) -> Part:
+    cycle = metric_cycle(mechanism, names, weights, steps=steps)
+    if cycle is None:
+        raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
+    missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
+    if missing:
+        raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
+    own = tuple(name for name in names if name in cycle.dimensions)
+    return OverMetrics(own, cycle, weights, backend)
+
+
+def _of_positions(
+    mechanism: Mechanism,
+    names: tuple[str, ...],
+    given: dict[str | PathError, float],
+    steps: int,
+    at: ArrayLike | None,
+    backend: Backend,
+) -> Part:
     targets = [np.asarray(term.target, dtype=float) for term in given if isinstance(term, PathError)]
     counts = {len(target) for target in targets}
     if any(target.ndim != 2 or target.shape[1] != 2 for target in targets) or len(counts) > 1:
@@ -194,28 +289,23 @@ class _Builder:
         """The path errors with their weights."""
         return [(term, weight) for term, weight in self.terms.items() if isinstance(term, PathError)]
 
-    def built(self, backend: Backend) -> Objective:
+    def built(self, backend: Backend) -> OverPositions:
         outputs, targets = self._outputs()
         program = Program.of(
             self.traced.solver.motion.trace, {**outputs, VALID: self.traced.solver.motion.valid}
         )
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
-        stages = [
+        stages = (
             *limit_stages(self.traced, self.outputs, judged=False),
             Stage(program, made, valid=VALID, complete=True),
             Stage(self._total(), {VALUE: Reduction(VALUE, "first")}, steps=1),
-        ]
-        gradient = cycle_gradient(CycleProgram(tuple(stages)), VALUE, self._known(stages))
-        return Objective(self.traced, self.names, gradient, targets, backend)
-
-    def _known(self, stages: list[Stage]) -> tuple[str, ...]:
-        """The varied dimensions that the program depends on; raises where one has no influence."""
-        dimensions = CycleProgram(tuple(stages)).dimensions
-        idle = [name for name in self.names if name not in dimensions]
-        if idle:
-            raise RequestError(Sentence("study.objective_idle", names=tuple(idle)))
-        return self.names
+        )
+        cycle = CycleProgram(stages)
+        own = tuple(name for name in self.names if name in cycle.dimensions)
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced)}
+        arrays = {**self.traced.positions.arrays, **targets}
+        return OverPositions(own, cycle_gradient(cycle, VALUE, own), arrays, known, backend)
 
     def _outputs(self) -> tuple[dict[str, Scalar], dict[str, Floats]]:
         """What is reduced, and the targets as inputs per position."""
@@ -250,13 +340,7 @@ def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:
     if summary.kind in ("argmin", "argmax"):
         raise RequestError(Sentence("study.place_without_slope", name=summary.name))
     parts = [t.parameter(f"{summary.output}.{kind}") for kind in KINDS[summary.kind]]
-    shown = [_shown(part, quantity) for part in parts]
+    shown = [replace(quantity, carrier=part).value for part in parts]
     if summary.kind == "range":
         return shown[1] - shown[0]
     return maximum(absolute(shown[0]), absolute(shown[1])) if summary.kind == "peak" else shown[0]
-
-
-def _shown(carrier: Scalar, quantity: Quantity) -> Scalar:
-    if quantity.form == "plain":
-        return carrier
-    return quantity.reference + (2.0 if quantity.form == "half tangent" else 1.0) * atan(carrier)

@@ -15,11 +15,12 @@ from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.machine import flywheel_inertia
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
+from linkwright.metrics.summary import is_summary
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
-from linkwright.study.criteria import Criterion, NoSuchSubject, criteria, is_summary
+from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
 from linkwright.study.ranges import Range, parse_range

@@ -105,6 +105,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "its limits, so no gradient is found through them; use sensitivity, which takes them one design at a time",
     "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
     "found; use sensitivity",
+    "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
+    "it; choose another one",
     "objective_idle": "{names} has no influence on what is asked; leave it out",
     "place_without_slope": "{name!r} is a place, which has no derivative here; ask for its extreme",
     "moves_input": "{address} moves the positions of the input; derivatives are taken at fixed input, so "

@@ -90,6 +90,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_loads": "{name!r} 的载荷或摩擦不只取决于输入或输出在极限位置之间的行程，因此求不出对它们的梯度；"
     "请用 sensitivity，它逐个方案计算",
     "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；请用 sensitivity",
+    "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
     "moves_input": "{address} 会移动输入的位置；导数在固定的输入处求得，请去掉它",

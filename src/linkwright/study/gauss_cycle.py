@@ -1,0 +1,171 @@
+"""The cycle of many designs at Gauss points: exact means and extremes of signals that loads switch on and off.
+
+Every design's turn of the input is cut where its own loads begin or end to act, and each stretch into pieces with
+sixteen Gauss points: what ``metrics/cycle_grid.py`` does for one machine. The cuts are cycle values of the design
+(limit positions, ends of phases), so derivatives pass through them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.replay import inlined
+from linkwright.engine.stage import Stage
+from linkwright.engine.trace import Scalar, Trace, cos, floor, maximum, minimum, sign, sin
+from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.site import limit_name
+from linkwright.loads.base import Load
+from linkwright.loads.phases import TURN
+from linkwright.model.expressions import Expression
+from linkwright.model.signal_fields import InputPhase, SwingPhase
+from linkwright.study.traced import VALID, Traced
+
+Floats = NDArray[np.float64]
+#: Numbers of pieces of the whole turn to try, and the share of them that a stretch between two cuts has at least.
+PIECES, LEAST = (28, 56, 112), 0.25
+#: The constant that is the input where the turn begins.
+FIRST = "first input"
+#: The output that is a node's share of the cycle's time.
+SHARE = "share of the cycle"
+
+
+@dataclass(frozen=True)
+class GaussCycle:
+    """The stages that lead to signals at the Gauss points of every design.
+
+    ``cuts``: names of what gives the inputs, rad, of the cuts: cycle values and dimensions; ``wanted``: pieces.
+    """
+
+    traced: Traced
+    cuts: tuple[str, ...]
+    wanted: int
+
+    @classmethod
+    def of(cls, traced: Traced, loads: Iterable[str], wanted: int) -> GaussCycle:
+        """For the loads whose magnitudes are traced over the input."""
+        found: dict[str, None] = {}
+        for name in sorted(loads):
+            found |= dict.fromkeys(_cuts(traced.mechanism.loads[name]))
+        return cls(traced, tuple(found), wanted)
+
+    @property
+    def stretches(self) -> int:
+        """Number of stretches between cuts."""
+        return max(1, len(self.cuts))
+
+    @property
+    def pieces(self) -> int:
+        """Number of pieces of a turn."""
+        return self.stretches * self._each
+
+    @property
+    def _each(self) -> int:
+        return math.ceil(self.wanted * max(LEAST, 1.0 / self.stretches))
+
+    @property
+    def count(self) -> int:
+        """Number of Gauss points."""
+        return self.pieces * POINTS
+
+    @cached_property
+    def positions(self) -> dict[str, Floats]:
+        """Inputs (n,): the uniform turn for limit stages, and how places and widths follow from the cuts."""
+        shares = (np.arange(self.pieces)[:, None] + 0.5 + 0.5 * NODES).ravel() / self.pieces
+        first, time, speed = self.constants.values()
+        angle = first + np.sign(speed) * TURN * shares
+        (driver,) = self.traced.mechanism.drivers
+        found = {f"cos:{driver}": np.cos(angle), f"sin:{driver}": np.sin(angle), "input": angle}
+        return {**found, "time": time + shares * TURN / abs(speed), **self._along}
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """Input, rad, and time, s, at which the turn begins, and the driver's speed, rad/s."""
+        known = self.traced.positions
+        (driver,) = known.coordinates
+        q, rate, _ = known.coordinates[driver]
+        return {FIRST: float(q[0]), "first time": float(known.time[0]), f"{driver}.speed": float(rate[0])}
+
+    @property
+    def _along(self) -> dict[str, Floats]:
+        """Weights of every cut's share in a node's share of the turn and in its width; the first nodes of all pieces
+        come first, so that a function's values are (POINTS, pieces)."""
+        stretch = np.tile(np.repeat(np.arange(self.stretches), self._each), POINTS)
+        inside = (np.arange(self._each) + 0.5 + 0.5 * NODES[:, None]) / self._each
+        inside = np.tile(inside, self.stretches).ravel()
+        width = np.repeat(0.5 * WEIGHTS / self._each, self.pieces)
+        found = {}
+        for k in range(self.stretches):
+            begins, ends = stretch == k, (stretch + 1) % self.stretches == k
+            found[f"place {k}"] = np.where(begins, 1.0 - inside, 0.0) + np.where(ends, inside, 0.0)
+            found[f"width {k}"] = np.where(ends, width, 0.0) - np.where(begins, width, 0.0)
+        last = stretch == self.stretches - 1
+        found["place after"] = np.where(last, inside, 0.0)
+        found["width after"] = np.where(last, width, 0.0)
+        return found
+
+    @property
+    def gap(self) -> float:
+        """The largest step of the input between two Gauss points of the uniform turn, rad."""
+        return float(np.diff(NODES).max()) * math.pi / self.pieces * 1.01
+
+    def cutting(self) -> Stage | None:
+        """The stage that brings the cuts into order, as shares of the turn from its beginning."""
+        if not self.cuts:
+            return None
+        t = Trace()
+        (driver,) = self.traced.mechanism.drivers
+        start, sense = t.parameter(FIRST), sign(t.parameter(f"{driver}.speed"))
+        shares: list[Scalar] = []
+        for name in self.cuts:
+            share = (t.parameter(name) - start) * sense / TURN
+            shares.append(share - floor(share))
+        for end in range(len(shares) - 1, 0, -1):
+            for k in range(end):
+                shares[k], shares[k + 1] = (
+                    minimum(shares[k], shares[k + 1]),
+                    maximum(shares[k], shares[k + 1]),
+                )
+        outputs = {f"cut {k}": share for k, share in enumerate(shares)}
+        return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
+
+    def signals(self, quantities: Mapping[str, Quantity]) -> tuple[Trace, dict[str, Scalar]]:
+        """A trace over the Gauss points with the quantities, whether they are valid, and the share of the time."""
+        motion = self.traced.solver.motion
+        outputs = {name: each.value for name, each in quantities.items()}
+        source = Program.of(motion.trace, {**outputs, VALID: motion.valid})
+        t = Trace()
+        (driver,) = self.traced.mechanism.drivers
+        place: Scalar = t.position("place after")
+        width: Scalar = t.position("width after")
+        if self.cuts:
+            for k in range(self.stretches):
+                cut = t.parameter(f"cut {k}")
+                place = place + t.position(f"place {k}") * cut
+                width = width + t.position(f"width {k}") * cut
+        share = place - floor(place)
+        way = sign(t.parameter(f"{driver}.speed")) * TURN * share
+        angle = t.parameter(FIRST) + way
+        given = {f"cos:{driver}": cos(angle), f"sin:{driver}": sin(angle), "input": angle}
+        given["time"] = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
+        found = inlined(source, t, given)
+        return t, {**found, SHARE: width}
+
+
+def _cuts(load: Load) -> Iterable[str]:
+    """What gives the inputs at which a load jumps or kinks."""
+    phase, magnitude = getattr(load, "phase", None), getattr(load, "magnitude", None)
+    if isinstance(phase, InputPhase):
+        yield from (f"loads.{load.name}.phase.input.{k}" for k in (0, 1))
+    if isinstance(phase, SwingPhase):
+        yield from (limit_name(phase.output, kind) for kind in ("max", "min"))
+    if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
+        yield FIRST

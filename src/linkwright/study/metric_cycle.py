@@ -1,0 +1,385 @@
+"""Design numbers of many designs at once, with gradients: the formulas that serve one machine, as cycle values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.piecewise import NODES, POINTS, TO_LAST, WEIGHTS, largest, weights_at, weights_up_to
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.numpy_backend import numpy_program
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.replay import across_designs
+from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.threads import cores, spread_over
+from linkwright.engine.trace import Scalar, Trace, absolute, maximum, sqrt
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.site import limit_name
+from linkwright.loads.phases import TURN
+from linkwright.metrics import Analysis
+from linkwright.metrics.summary import Summary, one
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
+from linkwright.study.limit_stages import limit_stages
+from linkwright.study.loaded_cycle import along_input, one_turn
+from linkwright.study.terms import Term, all_parts, term
+from linkwright.study.traced import VALID, Traced
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+#: Polynomials whose last orders are below this share of a signal's size meet it.
+SMOOTH = 2e-11
+#: Designs whose signals are kept at the same time.
+BLOCK = 256
+VALUE = "value"
+#: Kinds of summaries that are places of an output's limit.
+_PLACES = ("argmax", "argmin")
+
+
+def metric_cycle(
+    mechanism: Mechanism,
+    varied: Iterable[str],
+    names: Iterable[str],
+    *,
+    steps: int = 360,
+    preferred: str = "",
+) -> MetricCycle | None:
+    """Registered metrics (``peak_reaction``, ``peak_reaction O5``) of all designs of a mechanism with some dimensions
+    changed, as cycle values; those that apply to it and are formulas of summaries.
+
+    ``steps``: of the motion by which it is judged what applies; ``preferred``: see ``terms.term``. None where the
+    designs cannot go side by side: the cycle is no single turn of one driver of constant speed, groups have no closed
+    form, the way passes change points, loads do not follow the input, or polynomials do not meet the machine itself.
+    """
+    given, addresses = tuple(names), tuple(varied)
+    plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
+    if plain.solver.motion.next_states or not one_turn(plain, addresses) or not plain.nominal.ok.all():
+        return None
+    if plain.nominal.modes:
+        return None
+    analysis = Analysis.of(solve_forces(plain.nominal))
+    terms = [each for name in given if (each := term(name, analysis, preferred)) is not None]
+    outputs = [part.output for part in map(one, all_parts(terms)) if part.kind not in _PLACES]
+    loads = along_input(plain, addresses, plain.program(plain.quantities(outputs)).fields)
+    if loads is None:
+        return None
+    traced = Traced(mechanism, addresses, plain.positions, along_input=loads.names)
+    nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
+    for pieces in PIECES:
+        gauss = GaussCycle.of(traced, loads.names, pieces)
+        found = MetricCycle(traced, gauss, terms, analysis, loads.outputs)
+        if found.evaluate(nominal).certain.all():
+            return found
+    return None
+
+
+@dataclass(frozen=True)
+class Found:
+    """Values (designs,) by name, and which designs' are ``certain``: cycles that are passed, and met by the Gauss
+    points."""
+
+    values: Mapping[str, Floats]
+    certain: Mask
+
+
+class MetricCycle:
+    """Terms of one mechanism's designs; made by :func:`metric_cycle`."""
+
+    def __init__(
+        self,
+        traced: Traced,
+        gauss: GaussCycle,
+        terms: Sequence[Term],
+        analysis: Analysis,
+        outputs: Iterable[Output],
+    ) -> None:
+        self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
+        self.parts = {text: one(text) for text in all_parts(terms)}
+        places = {text: analysis.output(p.output) for text, p in self.parts.items() if p.kind in _PLACES}
+        self.limited = {
+            text: limit_name(output, self.parts[text].kind.removeprefix("arg"))
+            for text, output in places.items()
+            if output is not None
+        }
+        self.outputs = tuple(
+            dict.fromkeys([*outputs, *(each for each in places.values() if each is not None)])
+        )
+        names = [part.output for text, part in self.parts.items() if text not in self.limited]
+        self.quantities = traced.quantities(names)
+
+    # values -----------------------------------------------------------------------------------------
+    def evaluate(
+        self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
+    ) -> Found:
+        """The terms of the designs with the given columns, (designs,) each."""
+        designs = len(next(iter(columns.values())))
+        values = {each.name: np.empty(designs) for each in self.terms}
+        certain = np.zeros(designs, dtype=np.bool_)
+
+        def work(first: int, end: int) -> None:
+            part = {address: column[first:end] for address, column in columns.items()}
+            found, certain[first:end] = self._block(self._table(self._forwards, part), backend)
+            for name, column in found.items():
+                values[name][first:end] = column
+
+        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        return Found(values, certain)
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """What the terms depend on."""
+        return self._forwards.dimensions
+
+    def _block(self, table: Floats, backend: Backend) -> tuple[dict[str, Floats], Mask]:
+        seen = self._seen(table, backend)
+        parts = {text: seen.summary(part) for text, part in self.parts.items() if text not in self.limited}
+        parts |= {text: seen.values[name] for text, name in self.limited.items()}
+        row = numpy_program(self._formulas).run((), parts, length=len(table))
+        with np.errstate(invalid="ignore"):
+            sure = seen.certain & np.isfinite(row).all(axis=0)
+        return dict(zip(self._formulas.output_names, row, strict=True)), sure
+
+    def _seen(self, table: Floats, backend: Backend) -> _Seen:
+        ((_, known, _),) = self._forwards.blocks(table, self._positions, threads=1, backend=backend)
+        results = {name: np.asarray(column, dtype=float) for name, column in known.values.items()}
+        fields = {name: rows.reshape(len(table), POINTS, -1) for name, rows in known.fields.items()}
+        with np.errstate(invalid="ignore"):
+            sure = results["assembled"] == self.gauss.count
+            for output in self.outputs:
+                sure &= results[f"doubt:{output}"] == 0.0
+        return _Seen(results, fields, sure)
+
+    @cached_property
+    def _positions(self) -> dict[str, Floats]:
+        return self.gauss.positions
+
+    @cached_property
+    def _formulas(self) -> Program:
+        """All terms from the summaries, the designs side by side."""
+        t = Trace()
+        parts = {text: t.parameter(text) for text in self.parts}
+        return across_designs(Program.of(t, {term.name: term.value(parts) for term in self.terms}))
+
+    @cached_property
+    def _before(self) -> list[Stage]:
+        cutting = self.gauss.cutting()
+        return [*limit_stages(self.traced, self.outputs), *([] if cutting is None else [cutting])]
+
+    @cached_property
+    def _forwards(self) -> CycleProgram:
+        """All signals at the Gauss points, kept."""
+        trace, found = self.gauss.signals(self.quantities)
+        motion = Stage(
+            Program.of(trace, found), valid=VALID, count="assembled", keep=(*self.quantities, SHARE)
+        )
+        return CycleProgram((*self._before, motion))
+
+    def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
+        known = {**self.traced.solver.nominal.parameters, **self.gauss.constants}
+        known |= {"step of the input": self.gauss.gap, "positions": float(self.gauss.count)}
+        designs = len(next(iter(columns.values())))
+        rows = [columns.get(name, known.get(name, 0.0)) for name in cycle.dimensions]
+        return (
+            np.stack([np.broadcast_to(row, designs) for row in rows], axis=1)
+            if rows
+            else np.empty((designs, 0))
+        )
+
+    # gradients --------------------------------------------------------------------------------------
+    def gradient(
+        self,
+        weights: Mapping[str, float],
+        columns: Mapping[str, Floats],
+        by: Sequence[str],
+        *,
+        threads: int | None = 1,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """A weighted sum of terms (designs,) and its gradient (designs, by); NaN where it is not certain."""
+        designs = len(next(iter(columns.values())))
+        values, slopes = np.empty(designs), np.empty((designs, len(by)))
+        backwards = self._backwards(tuple(weights.items()), tuple(by))
+        summaries = [part for text, part in self.parts.items() if text not in self.limited]
+
+        def work(first: int, end: int) -> None:
+            part = {address: column[first:end] for address, column in columns.items()}
+            seen = self._seen(self._table(self._forwards, part), backend)
+            fields: dict[str, Floats] = {}
+            for summary in summaries:
+                fields |= seen.weights(summary)
+            table = self._table(backwards.cycle, part)
+            found, slope = backwards.evaluate(table, self._positions, fields, threads=1, backend=backend)
+            found[~seen.certain], slope[~seen.certain] = np.nan, np.nan
+            values[first:end], slopes[first:end] = found, slope
+
+        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        return values, slopes
+
+    def _backwards(self, weights: tuple[tuple[str, float], ...], by: tuple[str, ...]) -> CycleGradient:
+        key = (weights, by)
+        if key not in self._kept:
+            self._kept[key] = self._differentiable(dict(weights), by)
+        return self._kept[key]
+
+    @cached_property
+    def _kept(self) -> dict[object, CycleGradient]:
+        return {}
+
+    def _differentiable(self, weights: Mapping[str, float], by: tuple[str, ...]) -> CycleGradient:
+        """The same summaries as sums over the Gauss points with known weights, whose places stay in their pieces."""
+        trace, found = self.gauss.signals(self.quantities)
+        width = found[SHARE]
+        sums: dict[str, Scalar] = {}
+        for text, part in self.parts.items():
+            if text in self.limited:
+                continue
+            signal = found[part.output]
+            if part.kind in ("mean", "rms"):
+                sums[text] = width * (signal * signal if part.kind == "rms" else signal)
+            elif part.kind == "excess":
+                sums[f"{text} mean"] = width * signal
+                sums[f"{text} all"] = width * trace.field_input(f"{part.output} excess")
+                sums[text] = width * trace.field_input(f"{part.output} excess") * signal
+            else:
+                for side in _SIDES[part.kind]:
+                    sums[f"{part.output} {side}"] = signal * trace.field_input(f"{part.output} {side}")
+        motion = Stage(
+            Program.of(trace, {**sums, VALID: found[VALID]}),
+            {name: Reduction(name, "sum") for name in sums},
+            valid=VALID,
+            complete=True,
+        )
+        t = Trace()
+        parts = {text: self._part(t, text) for text in self.parts}
+        total: Scalar = 0.0
+        for each in self.terms:
+            if each.name in weights:
+                total = total + weights[each.name] * each.value(parts)
+        last = Stage(Program.of(t, {VALUE: total}), {VALUE: Reduction(VALUE, "first")}, steps=1)
+        return cycle_gradient(CycleProgram((*self._before, motion, last)), VALUE, by)
+
+    def _part(self, t: Trace, text: str) -> Scalar:
+        """A summary from the sums."""
+        part = self.parts[text]
+        if text in self.limited:
+            return t.parameter(self.limited[text])
+        if part.kind in ("mean", "rms"):
+            return t.parameter(text) if part.kind == "mean" else sqrt(t.parameter(text))
+        if part.kind == "excess":
+            return TURN * absolute(
+                t.parameter(f"{text} mean") * t.parameter(f"{text} all") - t.parameter(text)
+            )
+        sides = [t.parameter(f"{part.output} {side}") for side in _SIDES[part.kind]]
+        if part.kind == "range":
+            return sides[0] - sides[1]
+        return maximum(absolute(sides[0]), absolute(sides[1])) if part.kind == "peak" else sides[0]
+
+
+#: From values times widths at the Gauss points to the integral from the piece's beginning up to each of them.
+_UP_TO = weights_up_to(NODES) / WEIGHTS
+_SIDES = {"max": ("max",), "min": ("min",), "range": ("max", "min"), "peak": ("max", "min")}
+
+
+class _Seen:
+    """Signals (designs, POINTS, pieces) at the Gauss points of some designs, and what is made of them.
+
+    ``certain``: of which designs all that was asked is met by polynomials.
+    """
+
+    def __init__(self, values: Mapping[str, Floats], fields: Mapping[str, Floats], certain: Mask) -> None:
+        self.values, self.fields, self.certain = values, fields, certain
+        self._known: dict[str, tuple[Floats, Floats]] = {}
+        self._places: dict[tuple[str, str], tuple[NDArray[np.intp], Floats, Floats]] = {}
+
+    @property
+    def _width(self) -> Floats:
+        """Shares of the cycle's time that the Gauss points stand for."""
+        return self.fields[SHARE]
+
+    def summary(self, part: Summary) -> Floats:
+        """A summary, (designs,)."""
+        signal = self.fields[part.output]
+        if part.kind in ("mean", "rms"):
+            power = signal * signal if part.kind == "rms" else signal
+            self._met(_roughest(power), self._size(part.output) ** (2 if part.kind == "rms" else 1))
+            mean = np.einsum("dip,dip->d", self._width, power)
+            return np.asarray(np.sqrt(mean) if part.kind == "rms" else mean)
+        if part.kind == "excess":
+            lack = (self._mean(signal) - signal) * self._width
+            return np.asarray(TURN * np.abs(np.einsum("dip,dip->d", lack, self._excess(part.output))))
+        sides = [self._extreme(part.output, side)[2] for side in _SIDES[part.kind]]
+        if part.kind == "range":
+            return sides[0] - sides[1]
+        return np.maximum(np.abs(sides[0]), np.abs(sides[1])) if part.kind == "peak" else sides[0]
+
+    def weights(self, part: Summary) -> dict[str, Floats]:
+        """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
+        means, whose weights are the widths."""
+        if part.kind == "excess":
+            return {f"{part.output} excess": self._excess(part.output).reshape(len(self.certain), -1)}
+        found: dict[str, Floats] = {}
+        for side in _SIDES.get(part.kind, ()):
+            piece, place, _ = self._extreme(part.output, side)
+            rows = np.zeros_like(self.fields[part.output])
+            rows[np.arange(len(piece)), :, piece] = weights_at(place)
+            found[f"{part.output} {side}"] = rows.reshape(len(piece), -1)
+        return found
+
+    def _extreme(self, output: str, side: str) -> tuple[NDArray[np.intp], Floats, Floats]:
+        if (output, side) not in self._places:
+            signal, (tops, bottoms) = self.fields[output], self._bounds(output)
+            if side == "max":
+                piece, place, value, rough = largest(signal, tops)
+            else:
+                piece, place, value, rough = largest(-signal, -bottoms)
+                value = -value
+            self._met(rough, self._size(output))
+            self._places[output, side] = piece, place, value
+        return self._places[output, side]
+
+    def _bounds(self, output: str) -> tuple[Floats, Floats]:
+        """The largest and the smallest value at the Gauss points of every piece, (designs, pieces) each."""
+        if output not in self._known:
+            signal = self.fields[output]
+            self._known[output] = signal.max(axis=1), signal.min(axis=1)
+        return self._known[output]
+
+    def _size(self, output: str) -> Floats:
+        tops, bottoms = self._bounds(output)
+        return np.asarray(np.maximum(tops.max(axis=1), -bottoms.min(axis=1)))
+
+    def _mean(self, signal: Floats) -> Floats:
+        return np.asarray(np.einsum("dip,dip->d", self._width, signal)[:, None, None])
+
+    def _excess(self, output: str) -> Floats:
+        """Weights with which widths times a signal's lack of its mean give the largest excess of its integral."""
+        signal = self.fields[output]
+        self._met(_roughest(signal), self._size(output))
+        gained = (self._mean(signal) - signal) * self._width
+        whole = gained.sum(axis=1)
+        work = (np.cumsum(whole, axis=1) - whole)[:, None, :] + _UP_TO @ gained
+        found = np.zeros_like(signal)
+        rows, pieces = np.arange(len(signal)), np.arange(signal.shape[2])
+        for sign in (1.0, -1.0):
+            piece, place, _, _ = largest(sign * work, (sign * work).max(axis=1))
+            found += sign * (pieces < piece[:, None])[:, None, :]
+            found[rows, :, piece] += sign * weights_up_to(place) / WEIGHTS
+        return found
+
+    def _met(self, rough: Floats, size: Floats) -> None:
+        with np.errstate(invalid="ignore"):
+            self.certain &= rough <= SMOOTH * size
+
+
+def _roughest(signal: Floats) -> Floats:
+    """Size of the last orders, (designs,), in the piece that is met worst."""
+    return np.asarray(np.abs(TO_LAST.T @ signal).max(axis=(1, 2)))

@@ -1,0 +1,99 @@
+"""Design numbers of many designs at once: those of each machine alone, and their derivatives those of differences."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.metrics import METRICS, metrics
+from linkwright.metrics.base import METRICS as REGISTRY
+from linkwright.metrics.base import Metric, Number
+from linkwright.study.metric_cycle import metric_cycle
+
+NAMES = [name for name, metric in METRICS.items() if not metric.on_request]
+
+
+@pytest.mark.parametrize(
+    ("model", "by"),
+    [
+        ("jaw_crusher_sixbar", "pitman.length"),
+        ("swing_conveyor", "rod.length"),
+        ("toggle_press", "lower.length"),
+        ("shaper_quick_return", "link.length"),
+        ("slider_crank_offset", "rod.length"),
+    ],
+)
+def test_every_number_is_that_of_the_machine_alone(model: str, by: str) -> None:
+    mechanism = lw.load(f"gallery:{model}")
+    cycle = metric_cycle(mechanism, [by], NAMES)
+    assert cycle is not None
+    columns = {by: mechanism.dimension(by) * np.array([1.0, 0.9993, 1.0007])}
+    found = cycle.evaluate(columns)
+    assert found.certain.all()
+    assert len(cycle.terms) >= 10
+    for index in (0, 2):
+        table = metrics(lw.solve_forces(mechanism.with_dimensions({by: float(columns[by][index])})))
+        for term in cycle.terms:
+            values = [row.value for row in table[term.name]]
+            better = METRICS[term.name].better
+            one = min(values) if better == "higher" else max(values, key=abs) if better else values[0]
+            assert found.values[term.name][index] == pytest.approx(one, rel=1e-11, abs=1e-9), term.name
+
+
+@pytest.mark.parametrize(
+    ("name", "by"),
+    [
+        ("peak_reaction O5", ["pitman.length", "jaw.mass"]),
+        ("rms_input_torque", ["pitman.length", "jaw.mass"]),
+        ("mean_power", ["pitman.length"]),
+        ("quick_return_ratio", ["pitman.length"]),
+        ("peak_jerk", ["pitman.length"]),
+        ("swing_angle", ["pitman.length"]),
+    ],
+)
+def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: list[str]) -> None:
+    """The crusher's load jumps at limit positions, which move with the dimensions."""
+    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    objective = lw.objective(mechanism, name, vary=by)
+    value, gradient = objective(objective.start)
+    for place, address in enumerate(by):
+        step = 1e-4 * mechanism.dimension(address)
+        around = []
+        for k in (-2, -1, 1, 2):
+            design = mechanism.with_dimensions({address: mechanism.dimension(address) + k * step})
+            table = metrics(lw.solve_forces(design), name.split(maxsplit=1)[0])
+            around.append(table.value(*name.split()))
+        difference = (around[0] - 8 * around[1] + 8 * around[2] - around[3]) / (12 * step)
+        assert gradient[place] == pytest.approx(difference, rel=1e-6, abs=1e-8 * abs(value))
+
+
+def test_a_metric_of_another_package_goes_the_same_way() -> None:
+    """Mean force on a joint times the swing of the jaw, registered as anybody may."""
+
+    @REGISTRY.register("pin_work")
+    class PinWork(Metric):
+        """A number made of two summaries."""
+
+        name = "pin_work"
+        dimension = "energy"
+        source = "a test"
+        better = "lower"
+        needs_forces = True
+
+        def numbers(self, analysis):
+            yield Number(
+                "O5", ("reaction O5 on jaw mean", "jaw.angle range"), lambda force, swing: force * swing
+            )
+
+    try:
+        mechanism = lw.load("gallery:jaw_crusher_sixbar")
+        objective = lw.objective(mechanism, {"pin_work": 2.0, "peak_power": 1e-3}, vary=["toggle.length"])
+        value, gradient = objective(objective.start)
+        table = metrics(lw.solve_forces(mechanism), ["pin_work", "peak_power"])
+        assert value == pytest.approx(
+            2 * table.value("pin_work") + 1e-3 * table.value("peak_power"), rel=1e-12
+        )
+        step = 1e-5
+        more, less = (objective(objective.start + sign * step)[0] for sign in (1, -1))
+        assert gradient[0] == pytest.approx((more - less) / (2 * step), rel=1e-6)
+    finally:
+        del REGISTRY._elements["pin_work"]
