@@ -51,6 +51,8 @@ if TYPE_CHECKING:
     from linkwright.plot.diagrams.picture import Diagram as Diagram
     from linkwright.plot.drawing.draw import draw as draw
     from linkwright.plot.drawing.picture import Drawing as Drawing
+    from linkwright.report.report import Report as Report
+    from linkwright.report.report import report as report
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure
@@ -109,6 +111,7 @@ PUBLIC = {
     "linkwright.plot.diagrams.picture": ("Diagram",),
     "linkwright.plot.drawing.draw": ("draw",),
     "linkwright.plot.drawing.picture": ("Drawing",),
+    "linkwright.report.report": ("Report", "report"),
     "linkwright.structure": ("Structure", "StructureError", "structure"),
     "linkwright.study.compare": ("Comparison", "compare"),
     "linkwright.study.designs": ("Sweep", "sweep"),

@@ -31,7 +31,7 @@ def test_a_name_that_is_not_there() -> None:
         linkwright.solve_everything  # noqa: B018
 
 
-PACKAGES = ("structure", "metrics", "export", "study", "loads", "plot", "worked")
+PACKAGES = ("structure", "metrics", "export", "study", "loads", "plot", "worked", "report")
 
 
 def test_everything_public_comes_with_a_star() -> None:
@@ -56,7 +56,7 @@ def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: st
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     parameters, refusal = done.stdout.splitlines()
-    assert parameters.split()[0] in {"mechanism", "result", "source", "text", "results", "motion"}
+    assert parameters.split()[0] in {"mechanism", "result", "source", "text", "results", "motion", "machines"}
     assert "unexpected keyword argument" in refusal or "missing" in refusal
 
 

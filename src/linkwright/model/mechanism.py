@@ -148,6 +148,7 @@ class Mechanism(Frozen):
     expressions: Mapping[str, Expression] = field(default_factory=dict)
     expected: Mapping[str, Any] = field(default_factory=dict)
     synthesis: Mapping[str, Any] = field(default_factory=dict)
+    report: Mapping[str, Any] = field(default_factory=dict)
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""

@@ -32,6 +32,7 @@ SECTIONS = (
     "source",
     "expected",
     "synthesis",
+    "report",
     "parameters",
     "frame",
     "links",
@@ -52,6 +53,7 @@ HEADER: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
+    "report": Free(doc="title, own text, order of sections and more for the command report"),
     "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
 
@@ -109,6 +111,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         expressions=reader.expressions,
         expected=header.get("expected") or {},
         synthesis=header.get("synthesis") or {},
+        report=header.get("report") or {},
     )
     check_whole(reader, root, mechanism)
     return mechanism

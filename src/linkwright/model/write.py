@@ -63,6 +63,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     }
     data["expected"] = dict(mechanism.expected)
     data["synthesis"] = dict(mechanism.synthesis)
+    data["report"] = dict(mechanism.report)
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 

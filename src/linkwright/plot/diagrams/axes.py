@@ -55,7 +55,9 @@ def wrapped(text: str, inches: float) -> str:
     """A long title in lines that fit a width."""
     import textwrap
 
-    wide = sum(2.0 if ord(c) > 0x2E7F else 1.0 for c in text) / max(len(text), 1)
+    if not text:
+        return ""
+    wide = sum(2.0 if ord(c) > 0x2E7F else 1.0 for c in text) / len(text)
     return "\n".join(textwrap.wrap(text, max(20, int(inches * 10.5 / wide)))) or text
 
 

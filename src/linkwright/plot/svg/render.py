@@ -32,7 +32,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         raise LinkwrightError(Sentence("picture.png_needs")) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
-    check_width(width, *_natural_size(svg), zoom)
+    check_width(width, *natural_size(svg), zoom)
     size: dict[str, Any] = {"width": int(width)} if width is not None else {"zoom": float(zoom)}
     try:
         return bytes(
@@ -55,11 +55,12 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
         raise RequestError(Sentence("picture.bad_width", across=across, least=LEAST_WIDTH, most=most))
 
 
-def _natural_size(svg: str) -> tuple[float, float]:
+def natural_size(svg: str) -> tuple[float, float]:
     """Width and height that an SVG's first element gives itself."""
-    head = svg[: svg.index(">")]
-    found = {name: float(value) for name, value in re.findall(r'\b(width|height)="([\d.]+)"', head)}
-    return max(found["width"], 1e-3), max(found["height"], 1e-3)
+    head = re.search(r"<svg[^>]*>", svg)
+    pairs = re.findall(r'\s(width|height)="([\d.]+)', head[0] if head else "")
+    found = {name: float(value) for name, value in pairs}
+    return max(found.get("width", 1.0), 1e-3), max(found.get("height", 1.0), 1e-3)
 
 
 def pdf(svg: str, *, fonts: Paths = ()) -> bytes:

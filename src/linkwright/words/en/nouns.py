@@ -10,6 +10,7 @@ WORDS = {
     "export_format": "export format",
     "metric": "metric",
     "symbol": "symbol",
+    "report_section": "section of reports",
     "driver": "driver",
     "load": "load",
     "joint": "joint",

@@ -9,6 +9,7 @@ WORDS = {
     "diagram": "图的种类",
     "export_format": "导出格式",
     "metric": "设计指标",
+    "report_section": "说明书的一节",
     "symbol": "符号",
     "driver": "驱动",
     "load": "载荷",

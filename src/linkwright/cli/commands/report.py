@@ -1,0 +1,82 @@
+"""``linkwright report``: the whole report of a machine, or of several."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+FORMS = ("pdf", "html", "docx")
+#: Names of the sections in their usual order.
+SECTIONS = (
+    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "torque", "limits",
+    "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+)  # fmt: skip
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("files", metavar="FILE", nargs="+", help=say("report.files_help"))
+    names = ", ".join(SECTIONS)
+    parser.add_argument(
+        "--sections", nargs="+", default=[], metavar="NAME", help=say("report.sections_help", names=names)
+    )
+    parser.add_argument("--position", default="", metavar="INPUT", help=say("report.position_help"))
+    parser.add_argument("--positions", type=whole_number, metavar="N", help=say("report.positions_help"))
+    parser.add_argument("--to", metavar="pdf|html|docx", help=say("report.to_help"))
+    parser.add_argument("--output", metavar="FILE", help=say("report.output_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Writes the report; sections that have nothing to show are named on the console."""
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+    from linkwright.cli.progress import progress
+    from linkwright.cli.source import read_model
+    from linkwright.report.report import report
+
+    path = _path(options, session.say)
+    machines = [read_model(file, session)[0] for file in options.files]
+    with progress(session.say("report.working")) as told:
+        found = report(
+            machines,
+            sources=options.files,
+            sections=options.sections,
+            language=session.language,
+            position=options.position,
+            positions=options.positions,
+            progress=told,
+        )
+        content = found.content(path.suffix.lower())
+    write_whole(path, content, force=options.force)
+    if session.json:
+        session.show(json_text({"ok": not found.broken, "file": str(path), "missing": list(found.missing)}))
+        return int(found.broken)
+    if found.missing:
+        session.tell(session.say("report.missing_title"))
+        for sentence in found.missing:
+            session.tell(f"  {sentence}")
+    session.show(session.say("cli.written", path=path))
+    return int(found.broken)
+
+
+def _path(options: argparse.Namespace, say: Say) -> Path:
+    """Where the report goes; refused before any work is done."""
+    from linkwright.cli.files import refuse_existing
+
+    if options.to is not None and options.to not in FORMS:
+        raise UsageError(say("report.bad_form", text=options.to))
+    source = Path(options.files[0].removeprefix("gallery:")).stem
+    path = Path(options.output or f"{source}-report.{options.to or 'pdf'}")
+    if path.suffix.lower().lstrip(".") not in FORMS or (
+        options.to and path.suffix.lower() != f".{options.to}"
+    ):
+        endings = f".{options.to}" if options.to else ", ".join(f".{form}" for form in FORMS)
+        raise UsageError(say("cli.bad_suffix", path=path, endings=endings))
+    refuse_existing(path, force=options.force)
+    return path

@@ -1,0 +1,17 @@
+"""Reports: what a course design or an engineering file needs, from a model and its results."""
+
+from typing import TYPE_CHECKING
+
+from linkwright.lazy import offer
+
+if TYPE_CHECKING:
+    from linkwright.report.report import Report as Report
+    from linkwright.report.report import report as report
+    from linkwright.report.section import SECTIONS as SECTIONS
+
+PUBLIC = {
+    "linkwright.report.report": ("Report", "report"),
+    "linkwright.report.section": ("SECTIONS",),
+}
+
+offer(__name__, PUBLIC)

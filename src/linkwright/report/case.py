@@ -1,0 +1,270 @@
+"""One machine of a report: its results, each found once and when a section asks for it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.cycle import Floats, at_inputs
+from linkwright.kinematics.limits import LimitPosition
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.force_names import carries
+from linkwright.report.settings import Settings
+from linkwright.structure.group import Structure
+from linkwright.units import parse
+from linkwright.words import Say, speaker
+from linkwright.words.sentence import Sentence, in_language
+
+if TYPE_CHECKING:
+    from linkwright.machine.running import SteadyRunning
+    from linkwright.metrics.table import MetricsTable
+    from linkwright.plot.diagrams.picture import Diagram
+    from linkwright.worked.solution import Worked
+
+STEPS = 360
+T = TypeVar("T")
+
+
+class Missing(LinkwrightError):
+    """Why a section, or a part of one, has nothing to show."""
+
+
+@dataclass(frozen=True)
+class Numbered:
+    """Positions of the tables, numbered from 1: a motion that passes them, and where in it they are."""
+
+    motion: Motion
+    rows: tuple[int, ...]
+    start: LimitPosition | None
+    output: str
+
+
+class Case:
+    """A machine with its settings and language; ``source``: the file's name."""
+
+    def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
+        self.mechanism, self.settings, self.language, self.source = mechanism, settings, language, source
+        self.say: Say = speaker(language)
+        #: Design numbers that the report shows.
+        self.used: dict[str, None] = {}
+
+    @cached_property
+    def structure(self) -> Structure:
+        """Mobility and groups."""
+        from linkwright.kinematics.rank import analysed
+
+        return analysed(self.mechanism)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The whole cycle; positions that are not reached are marked."""
+        found = solve_motion(self.mechanism, steps=STEPS, failures="mark")
+        if not found.ok.any():
+            raise Missing(found.outcomes[0].sentence)
+        return found
+
+    @cached_property
+    def forces(self) -> Forces:
+        """Joint forces over the cycle; raises Missing where nothing acts."""
+        if not carries(self.mechanism):
+            raise Missing(Sentence("report.no_loads"))
+        return solve_forces(self.motion)
+
+    @cached_property
+    def result(self) -> Forces | Motion:
+        """Forces where there are some, else the motion."""
+        try:
+            return self.forces
+        except LinkwrightError:
+            return self.motion
+
+    @cached_property
+    def metrics(self) -> MetricsTable:
+        """Design numbers."""
+        from linkwright.metrics import metrics
+
+        return metrics(self.result)
+
+    @cached_property
+    def running(self) -> SteadyRunning:
+        """Motor and flywheel."""
+        from linkwright.machine.running import steady_running
+
+        return steady_running(self.forces, fluctuation=self.settings.fluctuation)
+
+    @cached_property
+    def rotary(self) -> bool:
+        """Whether the first driver turns."""
+        return next(iter(self.motion.positions.rotary.values()), True)
+
+    def input_text(self, value: float) -> str:
+        """An input as the tables print it, without its unit."""
+        return f"{np.degrees(value):.2f}" if self.rotary else f"{1e3 * value:.2f}"
+
+    @property
+    def input_unit(self) -> str:
+        """Unit of inputs in tables."""
+        return "°" if self.rotary else "mm"
+
+    # the worked position ----------------------------------------------------------------------
+    @cached_property
+    def steady(self) -> bool:
+        """Whether inputs say where a position is; else the drivers follow laws in time."""
+        drivers = self.mechanism.drivers.values()
+        return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
+
+    @cached_property
+    def moment(self) -> float:
+        """Time of the worked position, s: a sixth of the cycle unless the file says another."""
+        given = self.settings.position
+        if not given:
+            reached = np.flatnonzero(self.motion.ok)
+            return float(self.motion.time[reached[len(reached) // 6]])
+        if not self.steady:
+            return parse(given, "time")
+        place = parse(given, "angle" if self.rotary else "length")
+        return float(at_inputs(self.mechanism, [place]).time[0])
+
+    @cached_property
+    def worked_result(self) -> tuple[Forces | Motion, int]:
+        """The result at the worked position, on the way of the cycle, and its index."""
+        motion, index = self.motion, 0
+        if self.mechanism.drivers:
+            motion, (index,) = self._passing([self.moment])
+        if not motion.ok[index]:
+            raise Missing(motion.outcomes[index].sentence)
+        return (solve_forces(motion) if carries(self.mechanism) else motion), index
+
+    @property
+    def worked_place(self) -> float | None:
+        """The worked position as diagrams take it: input (rad or m), or time (s); None of what is at rest."""
+        if not self.mechanism.drivers:
+            return None
+        motion, index = self.worked_motion
+        return float(motion.input[index]) if self.steady else float(motion.time[index])
+
+    @property
+    def worked_text(self) -> str:
+        """The worked position in words."""
+        place = self.worked_place
+        if place is None:
+            return ""
+        return f"q = {self.input_text(place)}{self.input_unit}" if self.steady else f"t = {place:.6g} s"
+
+    @property
+    def worked_motion(self) -> tuple[Motion, int]:
+        """The motion that passes the worked position, and its index."""
+        source, index = self.worked_result
+        return (source.motion if isinstance(source, Forces) else source), index
+
+    @cached_property
+    def worked(self) -> Worked:
+        """The worked solution of that position."""
+        from linkwright.worked.solution import worked
+
+        source, index = self.worked_result
+        return worked(source, index, language=self.language)
+
+    # numbered positions -------------------------------------------------------------------------
+    @cached_property
+    def numbered(self) -> Numbered:
+        """Equally spaced positions from a limit position of the output on (else from the start)."""
+        count, motion = self.settings.positions, self.motion
+        if not self.mechanism.drivers:
+            return Numbered(motion, (0,), None, "")
+        output, limit = self._first_limit()
+        period = motion.positions.period
+        if not motion.positions.closed or period is None:
+            reached = np.unique(np.linspace(0, motion.steps - 1, count).round().astype(int))
+            return Numbered(motion, tuple(int(i) for i in reached), None, output)
+        start = float(motion.time[0]) if limit is None else limit.time
+        wanted = [float(motion.time[0]) + (start - float(motion.time[0]) + k * period / count) % period
+                  for k in range(count)]  # fmt: skip
+        denser, rows = self._passing(wanted)
+        return Numbered(denser, tuple(rows), limit, output)
+
+    def inputs_of(self, numbered: Numbered) -> list[str]:
+        """The input at every numbered position, as tables print it."""
+        if not self.mechanism.drivers:
+            return ["–"]
+        return [self.input_text(float(value)) for value in numbered.motion.input[list(numbered.rows)]]
+
+    def _first_limit(self) -> tuple[str, LimitPosition | None]:
+        """The output that the positions are numbered by, and its limit position."""
+        from linkwright.plot.drawing.positions import limits_of
+
+        chosen = self.settings.numbered_from
+        name, _, kind = chosen.partition(" ")
+        try:
+            limits = limits_of(self.motion, name or None)
+        except LinkwrightError:
+            if chosen:
+                raise
+            return "", None
+        wanted = kind or "min"
+        found = [each for each in limits if each.kind == wanted] or list(limits)
+        return name, found[0]
+
+    def _passing(self, wanted: list[float]) -> tuple[Motion, list[int]]:
+        """The cycle's motion with further times among its own, and where they are."""
+        own = self.motion.time
+        step = abs(float(own[1] - own[0])) if len(own) > 1 else 1.0
+        times: Floats = np.unique(np.concatenate([own, wanted]))
+        apart = np.concatenate([[True], np.diff(times) > 1e-9 * step])
+        times = times[apart]
+        if len(own) > 1 and own[-1] < own[0]:
+            times = times[::-1]
+        motion = solve_motion(self.mechanism, times=times, failures="mark")
+        return motion, [int(np.argmin(np.abs(times - each))) for each in wanted]
+
+    @cached_property
+    def numbered_forces(self) -> Forces:
+        """Forces at the numbered positions."""
+        if not carries(self.mechanism):
+            raise Missing(Sentence("report.no_loads"))
+        return solve_forces(self.numbered.motion)
+
+    # pictures -----------------------------------------------------------------------------------
+    def diagram(self, kind: str, source: object = None, **options: object) -> str:
+        """A diagram as SVG text."""
+        from linkwright.plot.diagrams.diagram_by_name import plot
+
+        shown: Diagram = plot(
+            self.result if source is None else source,  # type: ignore[arg-type]
+            kind,
+            title="",
+            language=self.language,
+            **options,  # type: ignore[arg-type]
+        )
+        svg = shown.svg()
+        return re.sub(r'="([\d.]+)pt"', r'="\1"', svg[svg.index("<svg") :], count=2)
+
+    def told(self, error: LinkwrightError) -> str:
+        """What an error says, in the report's language."""
+        return error.say(self.language)
+
+    def sentence(self, text: str) -> str:
+        """A sentence in the report's language."""
+        return in_language(text, self.language)
+
+
+def attempts(*makers: Callable[[], T]) -> Iterator[T | LinkwrightError]:
+    """What each gives, or why it does not."""
+    for make in makers:
+        try:
+            yield make()
+        except LinkwrightError as error:
+            yield error
+
+
+__all__ = ["Case", "Missing", "Numbered", "RequestError", "attempts"]

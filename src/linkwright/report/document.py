@@ -1,0 +1,201 @@
+"""What a report is made of: blocks in reading order, numbered and referred to, before it has any file form.
+
+Texts may hold formulas between dollar signs (LaTeX), ``**strong**`` words and references ``[[label]]`` to what has a
+label; a dollar sign of its own is ``\\$``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from linkwright.words import Say
+
+_MARKS = re.compile(r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\])")
+_HIDDEN = {"$": "\ue000", "*": "\ue001", "`": "\ue002", "[": "\ue003", "]": "\ue004"}
+_SHOWN = {code: sign for sign, code in _HIDDEN.items()}
+
+
+def literal(text: str) -> str:
+    """A text that is printed as it is, whatever marks it holds: names, sentences, sources."""
+    return "".join(_HIDDEN.get(c, c) for c in text)
+
+
+def shown(text: str) -> str:
+    """The text behind ``literal``."""
+    return "".join(_SHOWN.get(c, c) for c in text)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading of level 1 to 4."""
+
+    text: str
+    level: int = 1
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """A paragraph; ``kind`` is empty, ``missing`` (why something is not there), ``note`` or ``bullet``."""
+
+    text: str
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An equation: LaTeX of its sides, joined by equal signs; ``number``: whether it is counted."""
+
+    sides: tuple[str, ...]
+    label: str = ""
+    number: bool = True
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table with a caption; ``align``: ``<``, ``>`` or ``^`` per column; ``key``: columns that every part repeats
+    where it is too wide for a page."""
+
+    caption: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    align: str = ""
+    label: str = ""
+    key: int = 1
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Pictures with a caption, each SVG with the share of the page's width that it takes, up to ``tallest`` mm."""
+
+    caption: str
+    pictures: tuple[tuple[str, float], ...]
+    label: str = ""
+    tallest: float = 150.0
+
+
+@dataclass(frozen=True)
+class Source:
+    """Text that is Typst already; other forms print it as it is."""
+
+    text: str
+
+
+Block = Heading | Paragraph | Formula | Table | Figure | Source
+
+
+@dataclass
+class Document:
+    """A report: title, lines under it, blocks; ``number`` counts what is counted, in reading order.
+
+    ``missing``: sentences on what is not there; ``broken``: whether an error of the program is the reason of one.
+    """
+
+    title: str
+    say: Say
+    language: str = "en"
+    lines: tuple[str, ...] = ()
+    blocks: list[Block] = field(default_factory=list)
+    missing: list[str] = field(default_factory=list)
+    broken: bool = False
+
+    def number(self) -> Numbers:
+        """Numbers of headings, formulas, tables and figures, and where labels are."""
+        return Numbers(self)
+
+
+class Numbers:
+    """``of[index]``: the number of a block, as it is printed; ``labels``: block by label."""
+
+    def __init__(self, document: Document) -> None:
+        self.of: dict[int, str] = {}
+        self.labels: dict[str, int] = {}
+        self.document = document
+        levels: list[int] = []
+        chapter, counts = 0, {Formula: 0, Table: 0, Figure: 0}
+        for index, block in enumerate(document.blocks):
+            if isinstance(block, Heading):
+                levels = [*(levels + [0] * 4)[: block.level]]
+                levels[-1] += 1
+                self.of[index] = ".".join(map(str, levels))
+                if levels[0] != chapter:
+                    chapter, counts = levels[0], dict.fromkeys(counts, 0)
+            elif isinstance(block, Formula | Table | Figure) and getattr(block, "number", True):
+                counts[type(block)] += 1
+                self.of[index] = f"{chapter}.{counts[type(block)]}"
+            if getattr(block, "label", ""):
+                self.labels[block.label] = index  # type: ignore[union-attr]
+
+    def name(self, index: int) -> str:
+        """How a block is called in a sentence: ``Table 3.1``."""
+        block, say = self.document.blocks[index], self.document.say
+        kind = type(block).__name__.lower()
+        return say(f"report.name_{kind}", number=self.of.get(index, ""))
+
+
+Span = tuple[str, str]
+
+
+def spans(text: str) -> Iterator[Span]:
+    """Parts of a text: (``text`` | ``formula`` | ``strong`` | ``code`` | ``reference``, what it holds)."""
+    for part in _MARKS.split(text):
+        if not part:
+            continue
+        if part[0] == "$" and len(part) > 2:
+            yield "formula", part[1:-1]
+        elif part.startswith("**"):
+            yield "strong", shown(part[2:-2])
+        elif part[0] == "`":
+            yield "code", shown(part[1:-1])
+        elif part.startswith("[["):
+            yield "reference", part[2:-2]
+        else:
+            yield "text", shown(part)
+
+
+def plain(text: str) -> str:
+    """A text without its marks."""
+    return "".join(part for _, part in spans(text))
+
+
+def _longest_word(text: str) -> int:
+    from linkwright.words.width import cells
+
+    return max((cells(word) for word in plain(text).split()), default=1)
+
+
+def fitted(table: Table, widest: int) -> Sequence[Table]:
+    """A table in parts that are no wider than so many characters; the key columns come in each."""
+
+    widths = [
+        2 + max(_longest_word(text) for text in (table.head[i], *(row[i] for row in table.rows)))
+        for i in range(len(table.head))
+    ]
+    key, whole = sum(widths[: table.key]), sum(widths)
+    if whole <= widest:
+        return [table]
+    room = max(widest - key, 1)
+    share = (whole - key) / -(-(whole - key) // room)
+    groups: list[list[int]] = [[]]
+    used = 0
+    for i in range(table.key, len(widths)):
+        if groups[-1] and (used + widths[i] > room or used >= share):
+            groups.append([])
+            used = 0
+        groups[-1].append(i)
+        used += widths[i]
+    keys = list(range(table.key))
+    align = table.align or "<" * len(widths)
+    return [
+        Table(
+            table.caption,
+            tuple(table.head[i] for i in keys + chosen),
+            tuple(tuple(row[i] for i in keys + chosen) for row in table.rows),
+            "".join(align[i] for i in keys + chosen),
+            table.label if number == 0 else "",
+            table.key,
+        )
+        for number, chosen in enumerate(groups)
+    ]

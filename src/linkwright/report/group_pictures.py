@@ -1,0 +1,64 @@
+"""Pictures of Assur groups, each apart from the machine, which is seen faded behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from linkwright.plot.drawing.draw import Sheet, laid_out_beside
+from linkwright.plot.drawing.machine import Part
+from linkwright.plot.drawing.names import point_labels
+from linkwright.plot.drawing.picture import bounds, document
+from linkwright.plot.drawing.positions import Shown
+from linkwright.plot.drawing.scene import Scene
+from linkwright.plot.svg.element import Floats, group
+from linkwright.plot.svg.render import natural_size
+from linkwright.report.case import Case
+from linkwright.structure.group import Group
+
+
+def group_picture(case: Case, chosen: Group) -> str:
+    """SVG of one group at the worked position, with its joints, the rest of the machine faded."""
+    motion, index = case.worked_motion
+    scene, place, _ = laid_out_beside(motion, Shown(motion, index), (), inputs=False, centres=False)
+    own = Scene(scene.machine, tuple(part for part in scene.parts if _belongs(scene, part, chosen)))
+    sheet = Sheet(own, place, index)
+    sheet.elements.append(group(scene.at(place), "lw-faded"))
+    ink = own.ink(place)
+    sheet.add(own.at(place), ink)
+    names = {connection.joint for connection in chosen.joints}
+    inside = bounds(ink)
+    sheet.more_labels = [
+        label
+        for label in point_labels(scene.machine, place)
+        if label.point.partition(".")[0] in chosen.links or label.text in names
+    ]
+    sheet.labels(False)
+    box = bounds([*_corners(inside), *sheet.extent])
+    return str(document(sheet.elements, box, chosen.name, None))
+
+
+def to_one_scale(pictures: Sequence[str]) -> tuple[tuple[str, float], ...]:
+    """Pictures with the shares of the page's width that show them all to one scale, the widest nearly half of it."""
+    widths = [natural_size(svg)[0] for svg in pictures]
+    return tuple((svg, 0.48 * width / max(widths)) for svg, width in zip(pictures, widths, strict=True))
+
+
+def _belongs(scene: Scene, part: Part, chosen: Group) -> bool:
+    """Whether a part is of the group's links, or one of its pins that another link carries."""
+    if part.carrier in chosen.links:
+        return part.layer != "marks"
+    if part.layer not in ("pins", "blocks") or not part.shape.ink:
+        return False
+    machine = scene.machine
+    pins = [machine.local(part.carrier, c.joint) for c in chosen.joints
+            if c.joint in machine.pins and part.carrier in machine.pins[c.joint].joined]  # fmt: skip
+    cloud = part.shape.ink[0]
+    middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0
+    return any(abs(middle[0] - x) < 1.0 and abs(middle[1] - y) < 1.0 for x, y in pins)
+
+
+def _corners(box: tuple[float, float, float, float]) -> list[Floats]:
+    from linkwright.plot.symbols.base import points
+
+    left, top, right, bottom = box
+    return [points([(left - 10.0, top - 10.0), (right + 10.0, bottom + 10.0)])]

@@ -1,0 +1,251 @@
+"""From models to a report: sections chosen and ordered, written as PDF, HTML or DOCX."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from pathlib import Path
+
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.model.file import load
+from linkwright.model.mechanism import Mechanism
+from linkwright.registry import listed
+from linkwright.report.case import Case
+from linkwright.report.document import (
+    Block,
+    Document,
+    Figure,
+    Formula,
+    Heading,
+    Paragraph,
+    Table,
+    fitted,
+    literal,
+)
+from linkwright.report.markdown import own_text
+from linkwright.report.section import SECTIONS, CommonSection, Section
+from linkwright.report.settings import settings
+from linkwright.whole_files import write_whole
+from linkwright.words import LANGUAGES, speaker
+from linkwright.words.sentence import Sentence
+
+#: Characters across a page in a table.
+WIDEST = 96
+ENDINGS = (".pdf", ".html", ".docx", ".typ")
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A finished report; ``missing``: sentences on sections that have nothing to show, as they stand in it."""
+
+    document: Document
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """What the report lacks, and why."""
+        return tuple(self.document.missing)
+
+    @property
+    def broken(self) -> bool:
+        """Whether a section is missing because of an error of the program."""
+        return self.document.broken
+
+    def content(self, ending: str) -> bytes:
+        """The file of an ending: ``.pdf``, ``.html``, ``.docx``, or ``.typ`` (the Typst text, without its pictures).
+
+        Raises LinkwrightError for another ending, a package or a font that is not there.
+        """
+        if ending in (".pdf", ".html"):
+            from linkwright.report.typst_pages import compiled
+
+            return compiled(self.document, ending[1:])
+        if ending == ".docx":
+            from linkwright.report.word_pages import word
+
+            return word(self.document)
+        if ending == ".typ":
+            from linkwright.report.typst_pages import pages
+
+            return pages(self.document)[0].encode()
+        raise RequestError(Sentence("report.bad_ending", ending=ending, endings=ENDINGS))
+
+    def save(self, path: str | Path) -> Path:
+        """Write it, whole or not at all; the ending of ``path`` says which form."""
+        return write_whole(path, self.content(Path(path).suffix.lower()))
+
+    def __repr__(self) -> str:
+        return f"Report({self.document.title!r}: {len(self.document.blocks)} blocks)"
+
+
+def report(
+    machines: Mechanism | str | Path | Sequence[Mechanism | str | Path],
+    *,
+    sources: Sequence[str] = (),
+    sections: Sequence[str] = (),
+    language: str = "en",
+    position: str = "",
+    positions: int | None = None,
+    progress: Progress | None = None,
+) -> Report:
+    """The report of a machine, or of several with their comparison.
+
+    Args:
+        machines: mechanisms, paths or gallery names.
+        sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
+        sections: names of sections in the order wanted; empty: what the first file says, else all that apply.
+        language: ``en`` or ``zh``.
+        position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
+            cycle.
+        positions: numbered positions of the tables, else what the file says, else 24.
+        progress: is told how many sections are done, and of how many.
+
+    Returns:
+        The report; ``save("report.pdf")``, ``.html``, ``.docx``. A section that cannot be made says so in it, and in
+        ``missing``.
+
+    Raises:
+        LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
+    """
+    if language not in LANGUAGES:
+        raise RequestError(Sentence("worked.no_language", language=language, languages=tuple(LANGUAGES)))
+    cases = _cases(machines, sources, language, position, positions)
+    chosen = _chosen(sections or cases[0].settings.sections)
+    title = cases[0].settings.title or " / ".join(dict.fromkeys(case.mechanism.name for case in cases))
+    document = Document(title, speaker(language), language, _lines(cases[0]))
+    parts = list(_parts(cases, chosen, document))
+    for done, (case, part) in enumerate(parts):
+        if progress is not None:
+            progress(done, len(parts))
+        _add(document, case, part, asked=bool(sections))
+    return Report(document)
+
+
+def _cases(
+    machines: Mechanism | str | Path | Sequence[Mechanism | str | Path],
+    sources: Sequence[str],
+    language: str,
+    position: str,
+    positions: int | None,
+) -> list[Case]:
+    given = [machines] if isinstance(machines, Mechanism | str | Path) else list(machines)
+    if not given:
+        raise RequestError(Sentence("report.no_machine"))
+    found = []
+    for index, each in enumerate(given):
+        mechanism = each if isinstance(each, Mechanism) else load(str(each))
+        source = sources[index] if index < len(sources) else "" if isinstance(each, Mechanism) else str(each)
+        own = dict(mechanism.report)
+        if position:
+            own["position"] = position
+        if positions is not None:
+            own["positions"] = positions
+        found.append(Case(mechanism, settings(own), language, source))
+    names = [case.mechanism.name for case in found]
+    for number, case in enumerate(found, 1):
+        if names.count(case.mechanism.name) > 1:
+            case.mechanism = replace(case.mechanism, name=f"{case.mechanism.name} ({number})")
+    return found
+
+
+def _chosen(names: Iterable[str]) -> list[str]:
+    """Names of sections in order; raises RequestError for one that does not exist, the nearest offered."""
+    asked = list(names)
+    if not asked:
+        return sorted(SECTIONS, key=lambda name: SECTIONS[name].rank)
+    for name in asked:
+        if name not in SECTIONS:
+            ordered = sorted(SECTIONS, key=lambda each: SECTIONS[each].rank)
+            raise RequestError(Sentence("report.no_section", name=name, hint=listed(name, ordered)))
+    return asked
+
+
+def _lines(case: Case) -> tuple[str, ...]:
+    own = case.settings
+    return tuple(line for line in (own.course, own.author, own.date) if line)
+
+
+Part = Section | CommonSection | str
+
+
+def _parts(cases: list[Case], chosen: list[str], document: Document) -> Iterator[tuple[list[Case], Part]]:
+    """Machines and section in the order of the report; a text is the heading of a machine's part."""
+    held: list[str] = []
+    for name in [*chosen, ""]:
+        if name and issubclass(SECTIONS[name], Section):
+            held.append(name)
+            continue
+        for case in cases if held else ():
+            if len(cases) > 1:
+                yield [case], case.mechanism.name
+            for own in held:
+                yield [case], SECTIONS[own]()
+        held = []
+        if name:
+            yield cases, SECTIONS[name]()
+
+
+def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> None:
+    """Adds a section; what it cannot show becomes a paragraph that says why."""
+    if isinstance(part, str):
+        document.blocks.append(Heading(literal(part), 1))
+        return
+    say, first = document.say, cases[0]
+    several = isinstance(part, Section) and any(
+        isinstance(block, Heading) and block.text == literal(first.mechanism.name)
+        for block in document.blocks
+    )
+    shift = 1 if several else 0
+    title = say(f"report.title_{part.name}")
+    found: list[Block] = [Heading(title, 1 + shift)]
+    text = first.settings.text.get(part.name, "")
+    prefix = f"{first.mechanism.name}: " if several else ""
+    try:
+        made = part.blocks(first) if isinstance(part, Section) else part.blocks(cases)
+        for block in chain(own_text(text) if text else (), made):
+            if isinstance(block, Paragraph) and block.kind == "missing":
+                document.missing.append(f"{prefix}{title}: {_unmarked(block.text)}")
+            found += [_placed(each, shift, prefix) for each in _parts_of(block, document)]
+    except LinkwrightError as error:
+        if part.optional and not asked and not text:
+            return
+        sentence = error.say(document.language)
+        found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
+        document.missing.append(f"{prefix}{title}: {sentence}")
+    except Exception as error:
+        sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
+        found.append(Paragraph(literal(sentence), "missing"))
+        document.missing.append(f"{prefix}{title}: {sentence}")
+        document.broken = True
+    document.blocks += found
+
+
+def _parts_of(block: Block, document: Document) -> Iterator[Block]:
+    """A block; of a table that is too wide for a page its parts."""
+    if not isinstance(block, Table):
+        yield block
+        return
+    first, *rest = fitted(block, WIDEST)
+    yield first
+    for part in rest:
+        yield replace(part, caption=document.say("report.continued", caption=block.caption))
+
+
+def _unmarked(text: str) -> str:
+    from linkwright.report.document import plain
+
+    return plain(text)
+
+
+def _placed(block: Block, shift: int, prefix: str) -> Block:
+    """A block of one of several machines: its headings one level down, its labels the machine's own."""
+    if isinstance(block, Heading):
+        return replace(block, level=min(block.level + shift, 4))
+    if not prefix:
+        return block
+    if isinstance(block, Formula | Table | Figure) and block.label:
+        return replace(block, label=f"{prefix}{block.label}")
+    if isinstance(block, Paragraph):
+        return replace(block, text=block.text.replace("[[", f"[[{prefix}"))
+    return block

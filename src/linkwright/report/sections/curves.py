@@ -1,0 +1,37 @@
+"""Curves over the cycle: displacement, velocity, acceleration of what the machine puts out; paths of points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.errors import LinkwrightError
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Figure, Paragraph, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.words.sentence import Sentence
+
+KINDS = ("sva", "angles", "paths")
+
+
+@SECTIONS.register("curves")
+class Curves(Section):
+    """Diagrams of the motion."""
+
+    name, rank = "curves", 7.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        if not case.mechanism.drivers:
+            raise Missing(Sentence("report.no_motion"))
+        yield Paragraph(case.say("report.curves_text"))
+        yield from pictures(case, KINDS)
+
+
+def pictures(case: Case, kinds: tuple[str, ...], share: float = 0.78) -> Iterator[Block]:
+    """A figure per kind of diagram, or why there is none."""
+    for kind in kinds:
+        try:
+            shown = case.diagram(kind, case.motion if kind in KINDS else None)
+        except LinkwrightError as error:
+            yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
+            continue
+        yield Figure(case.say(f"report.caption_{kind}"), ((shown, share),), kind)

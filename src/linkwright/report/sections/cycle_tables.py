@@ -1,0 +1,92 @@
+"""Tables over the cycle, positions numbered from a limit position."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
+from linkwright.report.case import Case
+from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.numbers import column, in_shown_unit
+from linkwright.report.section import SECTIONS, Section
+
+
+@SECTIONS.register("tables")
+class CycleTables(Section):
+    """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
+
+    name, rank = "tables", 6.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say, numbered = case.say, case.numbered
+        count = str(len(numbered.rows))
+        if numbered.start is not None:
+            place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
+            yield Paragraph(say("report.numbered_limit", count=count, input=place))
+        elif case.mechanism.drivers:
+            yield Paragraph(say("report.numbered_start", count=count))
+        columns = numbered.motion.columns()
+        for title, wanted in _motion_tables(case, columns):
+            yield table(case, say(title), columns, wanted)
+        try:
+            columns = case.numbered_forces.columns()
+        except LinkwrightError as error:
+            yield Paragraph(literal(case.told(error)), "missing")
+            return
+        sizes = [name for name in columns if name.endswith((".magnitude [N]", ".couple [N·m]"))]
+        efforts = [name for name in columns if ".effort [" in name]
+        yield table(case, say("report.reactions_table"), columns, sizes)
+        if efforts:
+            yield table(case, say("report.effort_table"), columns, [*efforts, *_starting(columns, "shaking")])
+
+
+def _motion_tables(case: Case, columns: Mapping[str, Floats]) -> Iterator[tuple[str, list[str]]]:
+    """Titles and columns: of links that turn, of guides, of points."""
+    turning = [link for link in case.mechanism.links if f"{link}.angle [rad]" in columns]
+    links = [name for link in turning for name in _starting(columns, f"{link}.angle", f"{link}.angular")
+             if _varies(columns[name])]  # fmt: skip
+    if links:
+        yield "report.links_table", links
+    ends = (".displacement [m]", ".velocity [m/s]", ".acceleration [m/s²]")
+    guides = [name for name in columns if name.endswith(ends)
+              and name.partition(".")[0] in case.mechanism.joints]  # fmt: skip
+    if guides:
+        yield "report.guides_table", guides
+    points = [name for name in columns if ".position." in name and _varies(columns[name])]
+    if points:
+        yield "report.points_table", points
+    rates = [
+        name
+        for name in columns
+        if (".velocity." in name or ".acceleration." in name) and _varies(columns[name])
+    ]
+    if rates:
+        yield "report.rates_table", rates
+
+
+def _starting(columns: Mapping[str, Floats], *starts: str) -> list[str]:
+    return [name for name in columns if name.startswith(starts)]
+
+
+def _varies(values: Floats) -> bool:
+    known = values[np.isfinite(values)]
+    return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
+
+
+def table(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence[str]) -> Table:
+    """Columns at the numbered positions, in shown units."""
+    numbered = case.numbered
+    rows = list(numbered.rows)
+    first = case.inputs_of(numbered)
+    shown = [in_shown_unit(name) for name in names]
+    printed = [column(columns[name][rows] * factor) for name, (_, factor) in zip(names, shown, strict=True)]
+    body = tuple((str(k + 1), first[k], *(each[k] for each in printed)) for k in range(len(rows)))
+    head = (
+        case.say("report.position_number"),
+        f"$q$ / {case.input_unit}",
+        *(literal(head) for head, _ in shown),
+    )
+    return Table(title, head, body, ">" * len(head), "", 2)

@@ -1,0 +1,26 @@
+"""Mistakes of the source, where the file tells of some."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.words.sentence import Sentence
+
+
+@SECTIONS.register("errata")
+class Errata(Section):
+    """What is printed in the source, what is right, and why."""
+
+    name, rank, optional = "errata", 13.0, True
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say, found = case.say, case.settings.errata
+        if not found:
+            raise Missing(Sentence("report.no_errata"))
+        yield Paragraph(say("report.errata_text", source=literal(case.mechanism.source or "–")))
+        head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
+        rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
+        yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")

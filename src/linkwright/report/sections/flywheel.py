@@ -1,0 +1,62 @@
+"""Motor and flywheel for steady running."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.machine.running import DIMENSIONS
+from linkwright.metrics.quantities import number, shown_unit
+from linkwright.report.case import Case
+from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.report.sections.curves import pictures
+
+
+@SECTIONS.register("flywheel")
+class Flywheel(Section):
+    """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
+
+    name, rank = "flywheel", 11.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say, running = case.say, case.running
+        yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
+        speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
+        numbers = (
+            rf"\frac{{{_plain(energy)}}}{{{running.required:g}\cdot {_plain(speed)}^2}} - {_plain(mean)}"
+        )
+        symbols = r"\frac{\Delta E}{\delta\,\omega_{\mathrm{m}}^2} - J_{\mathrm{e,m}}"
+        result = rf"{_plain(running.flywheel)}\,\mathrm{{kg·m²}}"
+        sides = ("J_F", symbols, numbers, result) if running.flywheel else ("J_F", symbols)
+        yield Formula(sides, "flywheel-formula")
+        if not running.flywheel:
+            yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
+        rows = tuple(
+            (
+                literal(say(f"metrics.running.{key}")),
+                number(value, DIMENSIONS[key]),
+                shown_unit(DIMENSIONS[key]),
+            )
+            for key, value in running.data().items()
+        )
+        head = (say("report.number"), say("report.value"), say("report.unit"))
+        yield Table(say("report.flywheel_table"), head, rows, "<><", "flywheel")
+        yield from _speed(case)
+        yield from pictures(case, ("energy",))
+
+
+def _speed(case: Case) -> Iterator[Block]:
+    from linkwright.errors import LinkwrightError
+    from linkwright.report.document import Figure
+
+    try:
+        shown = case.diagram("speed", case.running, fluctuation=case.settings.fluctuation)
+    except LinkwrightError as error:
+        yield Paragraph(literal(case.told(error)), "missing")
+        return
+    yield Figure(case.say("report.caption_speed"), ((shown, 0.92),), "speed")
+
+
+def _plain(value: float) -> str:
+    base, e, power = f"{value:.6g}".partition("e")
+    return rf"{base}\cdot 10^{{{int(power)}}}" if e else base

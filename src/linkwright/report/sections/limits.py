@@ -1,0 +1,69 @@
+"""Limit positions, quick-return ratio, transmission angle, and all other design numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.words.sentence import Sentence, in_words
+
+#: Numbers that other sections print.
+ELSEWHERE = ("peak_reaction", "rms_reaction")
+
+
+@SECTIONS.register("limits")
+class Limits(Section):
+    """Design numbers of the motion and the forces, with the limits that are recommended."""
+
+    name, rank = "limits", 10.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say = case.say
+        rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
+        if not rows:
+            raise Missing(Sentence("report.no_numbers"))
+        yield Paragraph(say("report.limits_text"))
+        yield from _quick_return(case, rows)
+        for metric in dict.fromkeys(row.metric for row in rows):
+            case.used[metric] = None
+        head = tuple(
+            say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
+        )
+        body = tuple(_cells(row, case.language) for row in rows)
+        yield Table(say("report.numbers_table"), head, body, "<<>< >>".replace(" ", ""), "numbers")
+        for sentence in case.metrics.warnings_in(case.language):
+            yield Paragraph(literal(sentence), "note")
+
+
+def _cells(row: MetricValue, language: str) -> tuple[str, ...]:
+    metric = METRICS[row.metric]()
+    at = "" if row.at is None else shown(row.at, row.at_dimension)
+    limit = ""
+    if metric.limit is not None:
+        limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
+    cells = (
+        metric.label_in(language), in_words(row.subject, language), number(row.value, row.dimension),
+        shown_unit(row.dimension), at, limit,
+    )  # fmt: skip
+    return tuple(literal(cell) for cell in cells)
+
+
+def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:
+    """The quick-return ratio with its formula, where the crank turns uniformly."""
+    angles = [row for row in rows if row.metric == "crank_angle_between_limits"]
+    ratios = {row.subject: row for row in rows if row.metric == "quick_return_ratio"}
+    for row in angles:
+        ratio = ratios.get(row.subject)
+        if ratio is None:
+            continue
+        theta = f"{number(row.value, 'angle')}^\\circ"
+        fraction = rf"\frac{{180^\circ + {theta}}}{{180^\circ - {theta}}}"
+        yield Paragraph(case.say("report.quick_return", subject=literal(row.subject)))
+        yield Formula(
+            ("K", r"\frac{180^\circ + \theta}{180^\circ - \theta}", fraction, f"{ratio.value:.5g}"),
+            number=True,
+        )

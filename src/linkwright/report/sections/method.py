@@ -1,0 +1,86 @@
+"""Method: loop equations of each group with this machine's symbols, and the formulas that solve them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.report.case import Case
+from linkwright.report.document import Block, Formula, Heading, Paragraph, literal
+from linkwright.report.formula import formula, width
+from linkwright.report.loops import loops
+from linkwright.report.section import SECTIONS, Section
+from linkwright.structure.group import Group
+from linkwright.worked.page import Equation, Note, Relation, Step
+
+#: Width of a line of formulas, em.
+LINE = 36.0
+
+
+@SECTIONS.register("method")
+class Method(Section):
+    """Closure of every group as vectors, then the formulas of positions, rates and forces, without numbers."""
+
+    name, rank = "method", 4.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say = case.say
+        solution = case.worked
+        for line in solution.legend[:2]:
+            yield Paragraph(literal(line))
+        for number, group in enumerate(case.structure.groups, 1):
+            links = literal(", ".join(group.links))
+            yield Heading(
+                say("report.method_group", number=number, signature=group.signature, links=links), 2
+            )
+            yield from _loops(case, group)
+            for step in solution.steps:
+                if step.group == group.name:
+                    yield from formulas(step)
+        others = [step for step in solution.steps if not step.group and step.number != "1"]
+        for step in others:
+            if step.equations:
+                yield from formulas(step)
+
+
+def _loops(case: Case, group: Group) -> Iterator[Block]:
+    found = loops(case, group)
+    if found:
+        yield Paragraph(case.say("report.loops_vector"))
+    for left, right in found:
+        yield Formula((left, right))
+
+
+def formulas(step: Step) -> Iterator[Block]:
+    """The relations and formulas of a step, its numbers left out."""
+    shown = [item for item in step.items if not isinstance(item, Equation) or item.formula]
+    if not any(isinstance(item, Equation | Relation) for item in shown):
+        return
+    yield Paragraph(f"**{literal(step.title)}**")
+    held: list[str] = []
+    for item in shown:
+        if isinstance(item, Equation):
+            held.append(f"{item.latex_symbol} = {item.latex_formula}")
+            continue
+        yield from side_by_side(held)
+        held = []
+        if isinstance(item, Note):
+            yield Paragraph(literal(item.text))
+        else:
+            left, right = item.data()["latex"].split(" = ", 1)  # type: ignore[attr-defined]
+            yield Formula((left, right))
+    yield from side_by_side(held)
+
+
+def side_by_side(formulas: list[str]) -> Iterator[Formula]:
+    """Formulas that are short enough share a line."""
+    line: list[str] = []
+    used = 0.0
+    for each in formulas:
+        wide = width(formula(each)) + 2.5
+        if line and used + wide > LINE:
+            yield Formula((r" ,\quad ".join(line),), number=False)
+            line, used = [], 0.0
+        line.append(each)
+        used += wide
+    if line:
+        yield Formula((r" ,\quad ".join(line),), number=False)

@@ -1,0 +1,55 @@
+"""References of the methods that the report used."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from inspect import getdoc
+
+from linkwright.groups.base import DYADS
+from linkwright.metrics.base import METRICS
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, CommonSection
+from linkwright.words.sentence import Sentence
+
+
+@SECTIONS.register("references")
+class References(CommonSection):
+    """Sources of the machine, of the groups' formulas and of the design numbers, each once."""
+
+    name, rank = "references", 31.0
+
+    def blocks(self, cases: Sequence[Case]) -> Iterator[Block]:
+        found: dict[str, None] = {}
+        for case in cases:
+            if case.mechanism.source:
+                found[case.mechanism.source] = None
+            for group in case.structure.groups:
+                found.update(dict.fromkeys(_of_group(group.signature)))
+        if not found:
+            raise Missing(Sentence("report.no_references"))
+        for number, source in enumerate(found, 1):
+            yield Paragraph(literal(f"[{number}] {source}"))
+        yield from _definitions(cases)
+
+
+def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
+    """Where the design numbers of the report are defined."""
+    say, language = cases[0].say, cases[0].language
+    names = dict.fromkeys(name for case in cases for name in case.used)
+    rows = tuple(
+        (literal(METRICS[name]().label_in(language)), literal(METRICS[name].source)) for name in names
+    )
+    if rows:
+        head = (say("report.number"), say("report.defined_in"))
+        yield Table(say("report.definitions"), head, rows, "<<")
+
+
+def _of_group(signature: str) -> list[str]:
+    """Sources that a group's own file names, in brackets at the end of its description."""
+    if signature not in DYADS:
+        return []
+    text = " ".join((getdoc(DYADS[signature]) or "").split())
+    quoted = re.findall(r"\(([^()]*(?:ch\.|pp?\.|§|,)[^()]*)\)\.?", text)
+    return [part.strip() for part in quoted[-1].split(";")] if quoted else []

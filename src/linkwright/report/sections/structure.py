@@ -1,0 +1,76 @@
+"""Structure analysis: mobility with the formula and its numbers, groups drawn apart, class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.kinematics.rank import rank_sentence
+from linkwright.report.case import Case
+from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
+from linkwright.report.group_pictures import group_picture, to_one_scale
+from linkwright.report.section import SECTIONS, Section
+from linkwright.structure.text import numeral
+
+
+@SECTIONS.register("structure")
+class StructureAnalysis(Section):
+    """Mobility, Assur groups in solving order, class of the mechanism."""
+
+    name, rank = "structure", 3.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say, built = case.say, case.structure
+        first, *rest = [
+            line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()
+        ]
+        yield Paragraph(literal(first) + say("report.stop"))
+        yield _mobility(case)
+        for line in rest[1:]:
+            yield Paragraph(literal(line))
+        sentence = rank_sentence(case.mechanism, case.language)
+        if sentence:
+            yield Paragraph(say("structure.rank", sentence=literal(sentence)))
+        yield _groups(case)
+        if len(built.groups) > 1:
+            pictures = to_one_scale([group_picture(case, group) for group in built.groups])
+            yield Figure(
+                say("report.groups_caption", names=literal(_names(case))), pictures, "group-pictures"
+            )
+        chain = " + ".join(group.signature for group in built.groups)
+        yield Paragraph(
+            say(
+                "report.chain",
+                chain=literal(chain),
+                level=numeral(built.mechanism_class, say),
+                table="[[groups]]",
+            )
+        )
+
+
+def _mobility(case: Case) -> Formula:
+    counts = case.structure.counts
+    n, p, w = counts["links"], counts["revolute"] + counts["prismatic"], counts["weld"]
+    symbols, numbers = "3\\,n - 2\\,p", f"3\\cdot {n} - 2\\cdot {p}"
+    if w:
+        symbols, numbers = f"{symbols} - 3\\,w", f"{numbers} - 3\\cdot {w}"
+    return Formula(("F", symbols, numbers, str(case.structure.grubler)), "mobility")
+
+
+def _groups(case: Case) -> Table:
+    say, rows = case.say, []
+    for number, group in enumerate(case.structure.groups, 1):
+        outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
+        inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
+        level = numeral(group.assur_class, say)
+        kind = say("report.driven_link") if group.assur_class == 1 and group.drivers else group.signature
+        rows.append(tuple(map(literal, (
+            str(number), kind, ", ".join(group.links), level, str(group.assur_order), outer, inner or "–",
+        ))))  # fmt: skip
+    head = tuple(
+        say(f"report.{key}") for key in ("step", "group", "of_links", "class", "order", "outer", "inner")
+    )
+    return Table(say("report.groups"), head, tuple(rows), "<<<<<<<", "groups")
+
+
+def _names(case: Case) -> str:
+    return ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))

@@ -1,0 +1,27 @@
+"""Synthesis, where the file has a task for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Paragraph, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.words.sentence import Sentence
+
+
+@SECTIONS.register("synthesis")
+class Synthesis(Section):
+    """The task and what was found for it."""
+
+    name, rank, optional = "synthesis", 12.0, True
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        from linkwright.synthesis.tasks import synthesize
+
+        if not case.mechanism.synthesis or not case.source:
+            raise Missing(Sentence("report.no_synthesis"))
+        found = synthesize(case.source)
+        for line in found.text(case.language).splitlines():
+            if line.strip():
+                yield Paragraph(literal(line.strip()))

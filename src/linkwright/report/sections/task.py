@@ -1,0 +1,108 @@
+"""Task and data: purpose, source, dimensions, masses, joints, drivers, loads."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from linkwright.model.write import to_data
+from linkwright.report.case import Case
+from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, Section
+
+_QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
+
+
+@SECTIONS.register("task")
+class Task(Section):
+    """What the machine is for, and everything that is given about it."""
+
+    name, rank = "task", 1.0
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        say, mechanism = case.say, case.mechanism
+        if mechanism.purpose:
+            yield Paragraph(literal(mechanism.purpose))
+        if mechanism.source:
+            yield Paragraph(say("report.source", source=literal(mechanism.source)))
+        data = to_data(mechanism)
+        yield _points(case)
+        yield _links(case)
+        if mechanism.parameters:
+            rows = tuple(
+                (literal(name), literal(_written(value))) for name, value in data["parameters"].items()
+            )
+            yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
+        drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
+        for title, part in (
+            ("joints", data.get("joints", {})),
+            ("drivers", drivers),
+            ("loads", data.get("loads", {})),
+        ):
+            if part:
+                rows = tuple((literal(name), literal(_written(value))) for name, value in part.items())
+                yield Table(say(f"report.{title}"), (say("report.name"), say("report.as_given")), rows, "<<")
+        if any(mechanism.gravity):
+            x, y = (f"{value:g}" for value in mechanism.gravity)
+            yield Paragraph(say("report.gravity", x=x, y=y))
+
+
+def _points(case: Case) -> Table:
+    say = case.say
+    rows = tuple(
+        (literal(name), f"{1e3 * x:.6g}", f"{1e3 * y:.6g}")
+        for name, (x, y) in case.mechanism.frame.points.items()
+    )
+    return Table(
+        say("report.frame_points"), (say("report.point"), "$x$ / mm", "$y$ / mm"), rows, "<>>", "frame"
+    )
+
+
+def _links(case: Case) -> Table:
+    say, rows = case.say, []
+    for number, (name, link) in enumerate(case.mechanism.links.items(), 1):
+        points = [f"{point} ({1e3 * x:.6g}; {1e3 * y:.6g})" for point, (x, y) in link.points.items()]
+        named = list(link.points)
+        size = ""
+        if len(named) > 1:
+            (ax, ay), (bx, by) = (link.points[each] for each in named[:2])
+            size = f"{1e3 * float(np.hypot(bx - ax, by - ay)):.6g}"
+        x, y = link.centre
+        centre = f"({1e3 * x:.6g}; {1e3 * y:.6g})" if link.mass else "–"
+        rows.append(
+            (str(number), literal(name), literal(", ".join(points)), size, _or_dash(link.mass),
+             _or_dash(link.inertia), centre)
+        )  # fmt: skip
+    head = (
+        say("report.link_number"), say("report.link"), say("report.link_points"), "$l$ / mm", "$m$ / kg",
+        "$J_G$ / kg·m²", say("report.mass_centre"),
+    )  # fmt: skip
+    return Table(say("report.links"), head, tuple(rows), "<<<>>><", "links")
+
+
+def _or_dash(value: float) -> str:
+    return f"{value:.6g}" if value else "–"
+
+
+def _written(value: Any) -> str:
+    """A value of a model file in one line."""
+    if isinstance(value, Mapping):
+        return "; ".join(f"{key}: {_written(each)}" for key, each in value.items())
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_written(each) for each in value) + "]"
+    return _rounded(str(value))
+
+
+def _rounded(text: str) -> str:
+    """A quantity with six digits, an angle in degrees; other texts as they are."""
+    found = _QUANTITY.fullmatch(text)
+    if not found:
+        return text
+    value, unit = float(found[1]), found[2]
+    if unit.strip() == "rad":
+        value, unit = math.degrees(value), "°"
+    return f"{value:.6g}{unit}"

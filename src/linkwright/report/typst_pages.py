@@ -1,0 +1,329 @@
+"""A report as Typst: the one source of its PDF and its HTML."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.plot.svg.fonts import check_fonts
+from linkwright.plot.svg.render import natural_size
+from linkwright.report.document import (
+    Block,
+    Document,
+    Figure,
+    Formula,
+    Heading,
+    Numbers,
+    Paragraph,
+    Source,
+    Table,
+    spans,
+)
+from linkwright.report.formula import Atom, Row, formula, lines, width
+from linkwright.report.typst_formula import quoted, typst
+from linkwright.words.sentence import Sentence
+
+LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
+MATHEMATICS = "New Computer Modern Math"
+#: Families with Chinese characters, the one that reads best in print first.
+CHINESE = (
+    "Noto Serif CJK SC", "Source Han Serif SC", "Noto Serif SC", "Songti SC", "SimSun", "Noto Sans CJK SC",
+    "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei", "WenQuanYi Micro Hei",
+    "WenQuanYi Zen Hei", "Droid Sans Fallback", "AR PL UMing CN",
+)  # fmt: skip
+#: Width of a line of formulas, em; and of a formula's left side beyond which its right side begins a new line.
+LINE, LEFT = 41.0, 9.0
+#: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
+SURE = 35.0
+#: Width of the text, mm, and rows of a table that stays on one page.
+TEXT, TOGETHER = 170.0, 32
+#: Warnings of Typst that say nothing about the page.
+_EXPECTED = ("html export is under active", "was ignored during HTML export", "equation was ignored")
+_HEAD = """\
+#set document(title: {title}, author: ())
+#set page(paper: "a4", margin: (x: 20mm, top: 24mm, bottom: 22mm), numbering: "1", header: context {{
+  if here().page() > 1 {{ text(8.5pt, fill: luma(90))[#{title}; #h(1fr) Linkwright] }} }})
+#set text(font: {fonts}, size: 10.5pt, lang: {language})
+#set par(justify: true, leading: 0.62em, spacing: 0.95em)
+#set heading(numbering: none)
+#show heading: set block(above: 1.3em, below: 0.7em)
+#show heading.where(level: 1): set text(15pt)
+#show heading.where(level: 2): set text(12.5pt)
+#show heading.where(level: 3): set text(11pt)
+#show math.equation: set text(font: {mathematics})
+#show math.equation.where(block: true): set block(above: 0.55em, below: 0.55em)
+#show math.equation.where(block: true): set align(left)
+#show figure: set block(above: 1.1em, below: 1.1em)
+#show figure.where(kind: table): set figure.caption(position: top)
+#show figure.caption: set text(9.5pt)
+#show figure.caption.where(kind: table): set block(sticky: true)
+#set table(
+  stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
+  inset: (x: 4.5pt, y: 3pt))
+#let lw-is-html = sys.inputs.form == "html"
+#let lw-table(columns, align, head, ..cells) = {{
+  set text(8.8pt)
+  set par(justify: false)
+  if lw-is-html {{ table(columns: columns.len(), table.header(..head), ..cells) }} else {{
+    table(columns: columns, align: align, table.header(..head), ..cells, table.hline(stroke: 0.9pt)) }}
+}}
+#let lw-row(body, number) = block(width: 100%, above: 0.6em, below: 0.6em, breakable: false,
+  grid(columns: (1fr, auto), column-gutter: 6pt, align: (left + horizon, right + horizon),
+    pad(left: 1.2em, body), number))
+#let lw-html(body, number) = html.elem("div", attrs: (class: "formula"))[
+  #html.elem("div")[#body] #html.elem("span")[#number]]
+#let lw-formula(body, number) = {{
+  if lw-is-html {{ lw-html(body, number) }} else {{ lw-row(body, number) }}
+}}
+#let lw-wide(body, number) = {{
+  if lw-is-html {{ lw-html(body, number) }} else {{
+    lw-row(layout(room => {{
+      let wide = measure(body).width
+      if wide > room.width {{
+        scale(100% * (room.width / wide), origin: left, reflow: true, body)
+      }} else {{ body }}
+    }}), number)
+  }}
+}}
+#let lw-picture(svg, share, high) = {{
+  if lw-is-html {{ image(bytes(svg), format: "svg", width: share * 100%) }} else {{
+    image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
+  }}
+}}
+#let lw-note(body) = {{
+  if lw-is-html {{ html.elem("p", attrs: (class: "note"))[#body] }} else {{
+    block(width: 100%, inset: 7pt, fill: luma(244), stroke: (left: 2pt + rgb("#c8501e")), body) }}
+}}
+"""
+_STYLE = """\
+<style>body{font:16px/1.55 "Noto Serif","Libertinus Serif","DejaVu Serif","Noto Serif CJK SC","Songti SC",serif;\
+max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}table{border-collapse:collapse;\
+font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:right}th{border-top:2px solid;\
+border-bottom:1px solid}td:first-child,th:first-child{text-align:left}tbody tr:last-child td{border-bottom:2px solid}\
+figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
+!important}figcaption{font-size:.9rem;margin:.4rem}.formula{display:flex;justify-content:space-between;align-items:\
+center;margin:.35rem 0 .35rem 1.2rem;overflow-x:auto}.note{background:#f4f4f4;border-left:3px solid #c8501e;\
+padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
+underline}@media print{figure{break-inside:avoid}}</style>"""
+
+
+def pages(document: Document) -> tuple[str, dict[str, str]]:
+    """The Typst text of a document, and the pictures that it asks for by name."""
+    writer = _Writer(document)
+    return writer.text(), writer.pictures
+
+
+def compiled(document: Document, form: str) -> bytes:
+    """The PDF or HTML of a document. Raises LinkwrightError where Typst or a font is missing."""
+    try:
+        import typst as program
+    except ImportError:
+        raise LinkwrightError(Sentence("report.needs_typst")) from None
+    text, pictures = pages(document)
+    given: Any = form
+    found, warnings = program.compile_with_warnings(
+        text.encode(), sys_inputs={**pictures, "form": form}, format=given
+    )
+    said = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
+    if said:
+        raise LinkwrightError(Sentence("report.typst_says", sentence="; ".join(dict.fromkeys(said))))
+    assert isinstance(found, bytes)
+    return found if form == "pdf" else _styled(found)
+
+
+def _styled(page: bytes) -> bytes:
+    return page.replace(b"</head>", _STYLE.encode() + b"</head>", 1)
+
+
+@lru_cache(maxsize=1)
+def _families() -> frozenset[str]:
+    import typst as program
+
+    return frozenset(program.Fonts().families())
+
+
+def fonts(language: str) -> tuple[str, ...]:
+    """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
+    known = _families()
+    chinese = tuple(name for name in CHINESE if name in known)
+    if language == "zh" and not chinese:
+        check_fonts("中", ())
+    latin = tuple(name for name in LATIN if name in known)
+    return (*latin, *chinese)
+
+
+class _Writer:
+    """Writes block after block."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.numbers: Numbers = document.number()
+        self.pictures: dict[str, str] = {}
+
+    def text(self) -> str:
+        document, families = self.document, fonts(self.document.language)
+        head = _HEAD.format(
+            title=quoted(document.title),
+            fonts=_listed(families),
+            mathematics=_listed((MATHEMATICS, *families)),
+            language=quoted(document.language),
+        )
+        title = f'#align(center)[#text(19pt, weight: "bold")[{_words(document.title)}]]\n'
+        under = "".join(f"#align(center)[{_words(line)}]\n" for line in document.lines)
+        contents = f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
+        parts = [self._block(i, block) for i, block in enumerate(document.blocks)]
+        return "\n".join([head, title, under, contents, *parts])
+
+    def _block(self, index: int, block: Block) -> str:
+        match block:
+            case Heading():
+                number = self.numbers.of[index]
+                return f"{'=' * block.level} {_words(f'{number}  {block.text}')} <{_place(index)}>\n"
+            case Paragraph():
+                return self._paragraph(block)
+            case Formula():
+                return self._formula(index, block)
+            case Table():
+                return self._table(index, block)
+            case Figure():
+                return self._figure(index, block)
+            case Source():
+                return f"{block.text}\n"
+
+    def _paragraph(self, block: Paragraph) -> str:
+        text = self.inline(block.text)
+        if block.kind == "bullet":
+            return f"- {text}"
+        if not block.kind and block.text.endswith((":", "：", "**")):
+            return f"#block(sticky: true)[{text}]\n"
+        return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
+
+    def _formula(self, index: int, block: Formula) -> str:
+        number = self.numbers.of.get(index, "")
+        shown = f"[({number}) <{_place(index)}>]" if number else "[]"
+        text, wide = aligned(block.sides)
+        return f"#lw-{'wide' if wide > SURE else 'formula'}($ {text} $, {shown})"
+
+    def _caption(self, index: int, caption: str) -> str:
+        return f"[#strong[{_words(self.numbers.name(index))}] #h(0.4em) {self.inline(caption)}]"
+
+    def _table(self, index: int, table: Table) -> str:
+        align = {"<": "left", ">": "right", "^": "center"}
+        marks = table.align or "<" * len(table.head)
+        wraps = [max(len(row[i]) for row in (table.head, *table.rows)) > 40 for i in range(len(table.head))]
+        columns = ", ".join("1fr" if each else "auto" for each in wraps)
+        sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
+        head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
+        cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
+        parted = "#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
+        return (
+            f"{parted}#figure(lw-table(({columns},), ({sides},), ({head},), {cells}), kind: table, numbering: none, "
+            f"supplement: none, caption: {self._caption(index, table.caption)}) <{_place(index)}>]\n"
+        )
+
+    def _figure(self, index: int, figure: Figure) -> str:
+        found = []
+        for svg, share in figure.pictures:
+            name = f"picture{len(self.pictures)}"
+            self.pictures[name] = svg
+            wide, high = placed(svg, share, figure.tallest)
+            found.append(f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})")
+        body = found[0] if len(found) == 1 else self._row(found)
+        return (
+            f"#figure({body}, kind: image, numbering: none, supplement: none, "
+            f"caption: {self._caption(index, figure.caption)}) <{_place(index)}>\n"
+        )
+
+    def _row(self, found: list[str]) -> str:
+        """Several pictures beside and under each other, each as wide as its share."""
+        inside = " #h(1fr, weak: true) ".join(f"#box({each})" for each in found)
+        return f"align(center)[{inside}]"
+
+    def inline(self, text: str) -> str:
+        """A text with its formulas, strong words and references."""
+        return "".join(self._spans(text))
+
+    def _spans(self, text: str) -> Iterator[str]:
+        for kind, part in spans(text):
+            if kind == "formula":
+                yield f"${typst(formula(part))}$"
+            elif kind == "strong":
+                yield f"#strong[{_words(part)}]"
+            elif kind == "code":
+                yield f"#raw({quoted(part)});"
+            elif kind == "reference":
+                index = self.numbers.labels.get(part)
+                yield (
+                    _words(part)
+                    if index is None
+                    else (f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]")
+                )
+            else:
+                yield _words(part)
+
+
+def aligned(sides: tuple[str, ...]) -> tuple[str, float]:
+    """Sides of an equation in Typst, on one line or with their equal signs below each other; the widest line, em."""
+    rows = [formula(side) for side in sides]
+    whole = sum(width(row) for row in rows) + 1.25 * (len(rows) - 1)
+    if len(rows) == 1:
+        broken = list(lines(rows[0], LINE))
+        found = [f"{'quad ' if i else ''}{typst(line)}" for i, line in enumerate(broken)]
+        return " \\\n ".join(found), max(map(width, broken))
+    if whole <= LINE:
+        return " = ".join(typst(row) for row in rows), whole
+    left, *rest = rows
+    beneath = width(left) > LEFT
+    margin = 1.5 if beneath else width(left) + 1.5
+    parts, widest = [], width(left)
+    for side in _joined(rest, LINE - margin):
+        broken = list(lines(side, LINE - margin - 1.0))
+        widest = max(widest, *(margin + width(line) for line in broken))
+        parts.append("&= " + " \\\n & quad ".join(typst(line) for line in broken))
+    return typst(left) + (" \\\n quad " if beneath else " ") + " \\\n ".join(parts), widest
+
+
+def _joined(sides: list[Row], room: float) -> Iterator[Row]:
+    """Short sides that follow each other share a line."""
+    held: Row | None = None
+    for side in sides:
+        if held is not None and width(held) + width(side) + 1.25 <= room:
+            held = Row((*held.items, Atom("sign", "="), *side.items))
+            continue
+        if held is not None:
+            yield held
+        held = side
+    if held is not None:
+        yield held
+
+
+def placed(svg: str, share: float, tallest: float) -> tuple[float, float]:
+    """Share of the width and height, mm, of a picture, smaller where it would be taller than ``tallest``."""
+    wide, high = natural_size(svg)
+    tall = share * TEXT * high / wide
+    return (share, tall) if tall <= tallest else (share * tallest / tall, tallest)
+
+
+def _words(text: str) -> str:
+    """A text as content: printed as it is, long names breakable."""
+    return f"#{quoted(breakable(text))};" if text else ""
+
+
+def breakable(text: str) -> str:
+    """Zero-width spaces where a long name may break."""
+    return re.sub(
+        r"[^\s\u2e80-\u9fff]{22,}",
+        lambda found: re.sub(r"([_.,/\\:;-]|\w{16}(?=\w))", "\\1\u200b", found[0]),
+        text,
+    )
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return "(" + "".join(f"{quoted(name)}, " for name in names) + ")"
+
+
+def _place(index: int) -> str:
+    return f"b{index}"

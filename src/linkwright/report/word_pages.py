@@ -1,0 +1,189 @@
+"""A report as a Word file: headings, equations and tables that can be edited, pictures."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.report.document import (
+    Block,
+    Document,
+    Figure,
+    Formula,
+    Heading,
+    Numbers,
+    Paragraph,
+    Source,
+    Table,
+    spans,
+)
+from linkwright.report.formula import formula
+from linkwright.report.word_formula import equation
+from linkwright.words.sentence import Sentence
+
+#: Width of the text, inches; pictures' dots per inch.
+TEXT, DOTS = 6.3, 160.0
+#: Fonts by language: of Latin letters, of Chinese characters.
+FONTS = ("Cambria", "SimSun")
+
+
+def word(document: Document) -> bytes:
+    """The Word file of a document; raises LinkwrightError where python-docx is missing."""
+    try:
+        import docx
+    except ImportError:
+        raise LinkwrightError(Sentence("report.needs_word")) from None
+    writer = _Writer(document, docx.Document())
+    return writer.content()
+
+
+class _Writer:
+    """Adds block after block."""
+
+    def __init__(self, document: Document, file: Any) -> None:
+        self.document, self.file = document, file
+        self.numbers: Numbers = document.number()
+        self.mark = 0
+
+    def content(self) -> bytes:
+        self._page()
+        self.file.add_heading(self.document.title, 0)
+        for line in self.document.lines:
+            self.file.add_paragraph(line)
+        for index, block in enumerate(self.document.blocks):
+            self._block(index, block)
+        self.file.core_properties.title = self.document.title[:255]
+        self.file.core_properties.author = ""
+        stream = io.BytesIO()
+        self.file.save(stream)
+        return stream.getvalue()
+
+    def _page(self) -> None:
+        from docx.oxml.ns import qn
+        from docx.shared import Mm, Pt
+
+        section = self.file.sections[0]
+        section.page_width, section.page_height = Mm(210), Mm(297)
+        section.left_margin = section.right_margin = Mm(25)
+        section.top_margin = section.bottom_margin = Mm(22)
+        for name in ("Normal", "Title", "Heading 1", "Heading 2", "Heading 3", "Heading 4", "Caption"):
+            style = self.file.styles[name]
+            style.font.name = FONTS[0]
+            style.element.get_or_add_rPr().get_or_add_rFonts().set(qn("w:eastAsia"), FONTS[1])
+        self.file.styles["Normal"].font.size = Pt(10.5)
+
+    def _block(self, index: int, block: Block) -> None:
+        match block:
+            case Heading():
+                shown = self.file.add_heading(level=block.level)
+                shown.add_run(f"{self.numbers.of[index]}  ")
+                self._inline(shown, block.text)
+                self._bookmark(shown, index)
+            case Paragraph():
+                style = {"bullet": "List Bullet", "missing": "Intense Quote", "note": "Intense Quote"}
+                self._inline(self.file.add_paragraph(style=style.get(block.kind)), block.text)
+            case Formula():
+                self._formula(index, block)
+            case Table():
+                self._table(index, block)
+            case Figure():
+                self._figure(index, block)
+            case Source():
+                self.file.add_paragraph(block.text)
+
+    def _formula(self, index: int, block: Formula) -> None:
+        from docx.enum.text import WD_TAB_ALIGNMENT
+        from docx.shared import Inches
+
+        line = self.file.add_paragraph()
+        line.paragraph_format.left_indent = Inches(0.3)
+        line.paragraph_format.tab_stops.add_tab_stop(Inches(TEXT), WD_TAB_ALIGNMENT.RIGHT)
+        line._p.append(equation(*(formula(side) for side in block.sides)))
+        number = self.numbers.of.get(index, "")
+        if number:
+            line.add_run(f"\t({number})")
+            self._bookmark(line, index)
+
+    def _caption(self, index: int, text: str) -> None:
+        line = self.file.add_paragraph(style="Caption")
+        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table)
+        line.add_run(f"{self.numbers.name(index)}  ")
+        self._inline(line, text)
+        self._bookmark(line, index)
+
+    def _table(self, index: int, block: Table) -> None:
+        from docx.enum.text import WD_ALIGN_PARAGRAPH
+        from docx.oxml.ns import qn
+        from docx.shared import Pt
+
+        sides = {"<": WD_ALIGN_PARAGRAPH.LEFT, ">": WD_ALIGN_PARAGRAPH.RIGHT, "^": WD_ALIGN_PARAGRAPH.CENTER}
+        self._caption(index, block.caption)
+        grid = self.file.add_table(rows=1 + len(block.rows), cols=len(block.head))
+        grid.style = "Light Shading"
+        align = block.align or "<" * len(block.head)
+        for cells, row in zip((block.head, *block.rows), grid._tbl.tr_lst, strict=True):
+            for text, cell, mark in zip(cells, row.tc_lst, align, strict=True):
+                line = self._cell(cell)
+                line.alignment = sides[mark]
+                self._inline(line, text)
+                for run in line.runs:
+                    run.font.size = Pt(8)
+        repeated = grid.rows[0]._tr.get_or_add_trPr()
+        repeated.append(repeated.makeelement(qn("w:tblHeader"), {}))
+        self.file.add_paragraph()
+
+    def _cell(self, cell: Any) -> Any:
+        from docx.text.paragraph import Paragraph as Line
+
+        return Line(cell.p_lst[0], self.file)
+
+    def _figure(self, index: int, block: Figure) -> None:
+        from docx.shared import Inches, Mm
+
+        from linkwright.plot.svg.render import png
+
+        line = self.file.add_paragraph()
+        line.paragraph_format.keep_with_next = True
+        for svg, share in block.pictures:
+            wide = TEXT * min(share, 1.0)
+            picture = line.add_run().add_picture(
+                io.BytesIO(png(svg, width=int(wide * DOTS))), width=Inches(wide)
+            )
+            tallest = Mm(block.tallest)
+            if picture.height > tallest:
+                picture.width, picture.height = int(picture.width * tallest / picture.height), tallest
+        self._caption(index, block.caption)
+
+    def _inline(self, line: Any, text: str) -> None:
+        for kind, part in spans(text):
+            if kind == "formula":
+                line._p.append(equation(formula(part)))
+            elif kind == "reference" and part in self.numbers.labels:
+                self._link(line, self.numbers.labels[part])
+            else:
+                run = line.add_run(_written(part))
+                run.bold = True if kind == "strong" else None
+
+    def _link(self, line: Any, index: int) -> None:
+        from docx.oxml.ns import qn
+
+        link = line._p.makeelement(qn("w:hyperlink"), {qn("w:anchor"): f"b{index}"})
+        run = line.add_run(self.numbers.name(index))
+        link.append(run._r)
+        line._p.append(link)
+
+    def _bookmark(self, line: Any, index: int) -> None:
+        from docx.oxml.ns import qn
+
+        self.mark += 1
+        number = str(self.mark)
+        begin = line._p.makeelement(qn("w:bookmarkStart"), {qn("w:id"): number, qn("w:name"): f"b{index}"})
+        end = line._p.makeelement(qn("w:bookmarkEnd"), {qn("w:id"): number})
+        line._p.append(begin)
+        line._p.append(end)
+
+
+def _written(text: str) -> str:
+    """A text without characters that XML forbids."""
+    return "".join(c for c in text if c in "\t\n" or " " <= c <= "\ud7ff" or c >= "\ue000")

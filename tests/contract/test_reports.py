@@ -1,0 +1,150 @@
+"""Reports of every kind of model, in every form; a section that is missing says so, and nothing else is lost."""
+
+import io
+import itertools
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.errors import LinkwrightError
+from linkwright.report.case import Case
+from linkwright.report.document import Formula, Heading, Paragraph, Table, plain
+from linkwright.report.report import report
+from linkwright.report.section import SECTIONS
+from linkwright.report.settings import settings
+from linkwright.words import LANGUAGES, has, say
+
+typst = pytest.importorskip("typst")
+LIGHT = ["task", "structure", "method", "tables", "torque", "limits", "appendix", "references"]
+MODELS = (
+    "jaw_crusher_sixbar",
+    "shaper_quick_return",
+    "dyad_prp",
+    "triad",
+    "excavator",
+    "truss",
+    "kite",
+    "fourbar_lecture",
+)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_report_of_every_kind_of_machine(name: str) -> None:
+    language = LANGUAGES[len(name) % 2]
+    found = report(f"gallery:{name}", sections=LIGHT, language=language)
+    assert not found.broken
+    titles = [plain(b.text) for b in found.document.blocks if isinstance(b, Heading) and b.level == 1]
+    assert titles == [say(f"report.title_{each}", language) for each in LIGHT]
+
+
+def test_every_section_has_a_title_and_the_command_knows_all() -> None:
+    from linkwright.cli.commands.report import SECTIONS as OFFERED
+
+    assert all(has(f"report.title_{name}") for name in SECTIONS)
+    assert list(OFFERED) == sorted(SECTIONS, key=lambda name: SECTIONS[name].rank)
+
+
+def test_mobility_stands_with_its_numbers_and_both_torques_agree() -> None:
+    found = report("gallery:jaw_crusher_sixbar", sections=["structure", "torque"])
+    (mobility, *_) = [b for b in found.document.blocks if isinstance(b, Formula)]
+    assert mobility.sides[1:] == ("3\\,n - 2\\,p", "3\\cdot 5 - 2\\cdot 7", "1")
+    table = next(b for b in found.document.blocks if isinstance(b, Table) and b.label == "torque-both")
+    assert len(table.rows) == 24 and all(row[2] == row[3] for row in table.rows)
+
+
+def test_positions_are_numbered_from_the_limit_position_in_equal_steps_of_the_crank() -> None:
+    case = Case(lw.load("gallery:swing_conveyor"), settings({"numbered_from": "rocker max"}), "en")
+    numbered = case.numbered
+    assert numbered.start is not None and numbered.start.kind == "max"
+    inputs = [float(numbered.motion.input[i]) for i in numbered.rows]
+    assert inputs[0] == pytest.approx(4.0430566, abs=2e-6)  # 231.650° of the published limit position
+    turned = [(b - a) % 6.283185307179586 for a, b in itertools.pairwise(inputs)]
+    assert turned == pytest.approx([6.283185307179586 / 24] * 23, abs=1e-9)
+
+
+def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    from linkwright.report.sections import method
+
+    def refuse(case: Case, group: object) -> list[tuple[str, str]]:
+        raise LinkwrightError("no worked formulas for this joint")
+
+    monkeypatch.setattr(method, "loops", refuse)
+    found = report("gallery:crank_rocker", sections=["task", "method", "limits"])
+    assert any("no worked formulas for this joint" in sentence for sentence in found.missing)
+    assert [b.text for b in found.document.blocks if isinstance(b, Heading)][
+        -1
+    ] == "Limit positions and design numbers"
+
+
+def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    from linkwright.report.sections.limits import Limits
+
+    def broken(self: Limits, case: Case) -> object:
+        raise ZeroDivisionError("float division")
+
+    monkeypatch.setattr(Limits, "blocks", broken)
+    found = report("gallery:crank_rocker", sections=["limits", "structure"])
+    assert found.broken and "ZeroDivisionError" in found.missing[0]
+    assert any(isinstance(b, Heading) and b.text == "Structure analysis" for b in found.document.blocks)
+
+
+def test_own_text_and_hostile_names_come_out_as_written() -> None:
+    crank = lw.load("gallery:crank_rocker")
+    hostile = '#panic("x") $\\alpha *_ [[a]] <b> & "' + "Überlang_" * 12
+    own = {
+        "text": {"task": "**Strong** and $\\frac{a}{b}$\n\n- one\n\n| a | b |\n|---|--:|\n| 1 | 2 |"},
+        "errata": [{"where": hostile, "printed": "1", "right": "2"}],
+    }
+    found = report(replace(crank, name=hostile, source=hostile, report=own), sections=["task", "errata"])
+    assert not found.missing
+    page = found.content(".html").decode()
+    assert "#panic(" in page and "<strong>Strong</strong>" in page and "<mfrac>" in page
+    assert any(isinstance(b, Paragraph) and b.kind == "bullet" for b in found.document.blocks)
+
+
+def test_pdf_html_and_word_hold_the_same_sections() -> None:
+    docx = pytest.importorskip("docx")
+    found = report("gallery:crank_rocker", sections=["task", "structure", "method", "drawing"])
+    assert found.content(".pdf").startswith(b"%PDF")
+    page = found.content(".html").decode()
+    file = docx.Document(io.BytesIO(found.content(".docx")))
+    heads = [p.text.split("  ", 1)[1] for p in file.paragraphs if p.style.name == "Heading 1"]
+    assert heads == ["Task and data", "Structure analysis", "Method", "Kinematic drawing"]
+    assert all(head in page for head in heads)
+    assert len(file.tables) == sum(isinstance(b, Table) for b in found.document.blocks)
+    formulas = sum(isinstance(b, Formula) for b in found.document.blocks)
+    archive = zipfile.ZipFile(io.BytesIO(found.content(".docx"))).read("word/document.xml").decode()
+    assert archive.count("<m:oMath ") + archive.count("<m:oMath>") >= formulas > 10
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"positoins": 3}, "did you mean"),
+        ({"positions": 1}, "no number of positions"),
+        ({"fluctuation": "many"}, "no coefficient"),
+        ({"sections": "task"}, "give a list"),
+        ({"errata": [{"where": "here"}]}, "printed is missing"),
+    ],
+)
+def test_settings_that_make_no_sense_are_refused(given: dict[str, object], sentence: str) -> None:
+    with pytest.raises(LinkwrightError, match=sentence):
+        settings(given)
+
+
+def test_the_command_writes_says_what_is_missing_and_refuses(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    call = ["report", "gallery:crank_rocker", "--sections", "structure", "torque", "--to", "html"]
+    assert main(call) == 0
+    said = capsys.readouterr()
+    assert (tmp_path / "crank_rocker-report.html").exists() and "no forces arise" in said.err
+    assert main(call) == 2  # the file is there already
+    assert main(["report", "gallery:crank_rocker", "--sections", "strucutre"]) == 2
+    assert "structure" in capsys.readouterr().err
+    assert main(["report", "gallery:crank_rocker", "--to", "odt"]) == 2

@@ -1,0 +1,60 @@
+"""Formulas of reports: Typst compiles them, Word's form says the same, lines are broken where they may be."""
+
+import pytest
+
+from linkwright.errors import LinkwrightError
+from linkwright.report.formula import Row, formula, lines, width
+from linkwright.report.typst_formula import typst
+from linkwright.report.word_formula import SPACE, equation
+
+FORMULAS = {
+    r"\frac{a}{b}": "frac(a, b)",
+    r"\sqrt{4\,l_{AB}^2\,d^2 - t^2}": "sqrt(4 thin l_(A B)^(2) thin d^(2) − t^(2))",
+    r"\ddot{s}_{\mathrm{guide\_1}}": 'accent(s, dot.double)_("guide_1")',
+    r"\operatorname{atan2}\left(y, x\right)": '"atan2" lr((y \\, x))',
+    r"-12.5\cdot 10^{-3}\,\mathrm{kg·m²}": '− 12.5 ⋅ 10^(− 3) thin "kg·m²"',
+    r"F_{B,3\to 4y}": "F_(B \\, 3 → 4 y)",
+    r"\mathrm{曲柄}": '"曲柄"',
+}
+
+
+@pytest.mark.parametrize(("latex", "wanted"), FORMULAS.items())
+def test_typst_of_a_formula(latex: str, wanted: str) -> None:
+    assert typst(formula(latex)) == wanted
+
+
+def test_typst_itself_takes_them() -> None:
+    program = pytest.importorskip("typst")
+    text = "\n".join(f"$ {typst(formula(latex))} $" for latex in FORMULAS)
+    found = program.compile(text.encode(), format="svg")
+    assert found
+
+
+def said(element: object) -> str:
+    return "".join(t.text or "" for t in element.iter(f"{{{SPACE}}}t"))  # type: ignore[attr-defined]
+
+
+def test_word_has_every_sign_and_the_nesting_of_the_formula() -> None:
+    pytest.importorskip("docx")
+    found = equation(formula(r"\rho"), formula(r"\sqrt{\frac{x_{A}^2}{\dot{s}_B}} + \left(y\right)"))
+    assert said(found) == "ρ=xA2sB+y"
+    names = [element.tag.removeprefix(f"{{{SPACE}}}") for element in found.iter()]
+    assert [name for name in names if name in ("rad", "f", "sSubSup", "acc", "sSub", "d")] == [
+        "rad", "f", "sSubSup", "sSub", "acc", "d",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("latex", [r"\hat{x}", r"\frac{a", "}", r"\left(x"])
+def test_what_is_no_formula_of_ours_is_refused(latex: str) -> None:
+    with pytest.raises(LinkwrightError, match="no form of the report can print"):
+        formula(latex)
+
+
+def test_long_formulas_come_in_lines_that_fit_and_lose_nothing() -> None:
+    row = formula(
+        r"-\left(" + " + ".join(rf"\left(x_{{{i}}} - y\right)\,F_{{{i}}}" for i in range(20)) + r"\right)"
+    )
+    found = list(lines(row, 30.0))
+    assert len(found) > 2 and all(width(line) <= 30.0 for line in found)
+    joined = typst(Row(tuple(item for line in found for item in line.items)))
+    assert joined.replace("\\(", "").replace("\\)", "").split().count("+") == 19
