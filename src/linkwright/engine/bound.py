@@ -55,6 +55,9 @@ class BoundPlan:
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
         self._design_numbers = np.empty(len(self._numbers_at))
         self._design_truths = np.empty(len(self._truths_at), dtype=np.bool_)
+        self._design_places = {i: self._design_truths[k, ...] for k, i in enumerate(self._truths_at)} | {
+            i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
+        }
         self._arrays = self._lay_out(registers)
         self._calls = self._calls_for([i for i, x in enumerate(lines.lines) if x.varies and x.is_operation])
         self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
@@ -75,7 +78,7 @@ class BoundPlan:
             elif line.op == "constant":
                 array = np.array(line.constant)
             elif self._single and not line.varies:
-                array = self._design_place(index)
+                array = self._design_places.get(index, _ZERO)
             elif line.is_input:
                 array = np.empty(self._shapes[line.op])
             else:
@@ -84,13 +87,6 @@ class BoundPlan:
                 self.inputs[line.op].append(array)
             arrays.append(array)
         return arrays
-
-    def _design_place(self, index: int) -> NDArray[Any]:
-        if index in self._truths_at:
-            return self._design_truths[self._truths_at.index(index), ...]
-        if index in self._numbers_at:
-            return self._design_numbers[self._numbers_at.index(index), ...]
-        return _ZERO
 
     def _calls_for(self, chosen: list[int]) -> list[Call]:
         calls: list[Call] = []

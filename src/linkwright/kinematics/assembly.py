@@ -66,12 +66,15 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
     groups = modal_groups(structure)
     modes: dict[str, float] = {}
     problems: list[str] = []
+    of_joint: dict[str, tuple[Group, tuple[str, str]]] = {}
+    for entry in groups.values():
+        for connection in entry[0].inner_joints:
+            of_joint.setdefault(connection.joint, entry)
     for joint, word in mechanism.assembly.items():
-        named = [entry for entry in groups.values() if joint in (c.joint for c in entry[0].inner_joints)]
-        if not named:
+        if joint not in of_joint:
             problems.append(_no_such_joint(joint, groups))
             continue
-        group, words = named[0]
+        group, words = of_joint[joint]
         if word not in words:
             offer = nearest(word, list(words))
             hint = Sentence("motion.write_mode", first=words[0], second=words[1])

@@ -216,6 +216,10 @@ class Motion:
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
         return self.rows.fetch(names, self.evaluate)
 
+    def evaluate_together(self, names: Iterable[str]) -> None:
+        """Evaluates outputs that are about to be asked for in one program, by their names in it."""
+        self._fetch(tuple(dict.fromkeys(names)))
+
     def evaluate(self, names: tuple[str, ...]) -> Floats:
         """Outputs of the program by name, (names, n); NaN where the position is not solved."""
         values = self.solver.evaluate(names, self.positions, self.states, self.modes, self.design)

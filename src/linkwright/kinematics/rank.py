@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -90,8 +90,11 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     mechanism = motion.mechanism
     system = ConstraintSystem(mechanism)
     here = coordinates(motion, index)
-    rank, redundant = _rank(system, here, ZERO)
     guides = motion.structure.redundant
+    if _regular_in_groups(mechanism, motion.structure, here):
+        rank, redundant = len(system.rows(here)), tuple[Sentence, ...]()
+    else:
+        rank, redundant = _rank(system, here, ZERO)
     special, links = False, tuple[str, ...]()
     if system.freedoms - rank > motion.structure.mobility:
         special = not _moves(system, here, rank)
@@ -135,10 +138,14 @@ def analysed(mechanism: Mechanism) -> Structure:
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
     """What the rank of the Jacobian at the start of the cycle says about the mobility; empty if it cannot be had."""
-    from linkwright.kinematics.solve import solve_motion
+    from linkwright.kinematics.cycle import over_cycle
+    from linkwright.kinematics.solve import MotionRun
+    from linkwright.kinematics.solver import MotionSolver
 
     try:
-        motion = solve_motion(mechanism, steps=1, failures="mark")
+        ends = replace(over_cycle(mechanism, 1), cycle=False)
+        outputs = (*_pose_outputs(mechanism), "outcome")
+        motion = MotionRun(MotionSolver(mechanism), ends).solve("mark", outputs)
     except LinkwrightError:
         return ""
     good = np.flatnonzero(motion.ok)
@@ -149,19 +156,23 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
 class ConstraintSystem:
     """Equations of the joints of a mechanism, perhaps ``without`` some links, over (x, y, θ) of every link.
 
+    A pin of several links holds each of them to the first one, in the ``order`` given or that of the file.
+
     Works on complex numbers as well, for exact derivatives by complex steps.
     """
 
-    def __init__(self, mechanism: Mechanism, without: Iterable[str] = ()) -> None:
-        left = frozenset(without)
+    def __init__(
+        self, mechanism: Mechanism, without: Iterable[str] = (), order: Mapping[str, int] | None = None
+    ) -> None:
+        left, number = frozenset(without), order or {}
         self.mechanism = mechanism
         self.links = [name for name in mechanism.links if name not in left]
         self.size = mechanism_size(mechanism)
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
         self._joints = [
-            (joint, kept)
+            (joint, tuple(sorted(kept, key=lambda link: number.get(link, 0))))
             for joint in mechanism.joints.values()
-            if len(kept := tuple(link for link in joint.joined if link not in left)) > 1
+            if len(kept := [link for link in joint.joined if link not in left]) > 1
         ]
 
     @property
@@ -265,20 +276,31 @@ class _Pose:
 def coordinates(motion: Motion, index: int) -> Floats:
     """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
     mechanism, found = motion.mechanism, []
-    size = mechanism_size(mechanism)
-    places = {
-        name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()
-    }
-    wanted = [vector_names(*each) for name, key in places.items() for each in (("e", name), ("p", key))]
-    motion.rows.fetch(
-        tuple(dict.fromkeys(name for pair in wanted for name in pair)), motion.evaluate
-    )  # all in one program
+    size, places = mechanism_size(mechanism), _first_points(mechanism)
+    motion.rows.fetch(_pose_outputs(mechanism), motion.evaluate)  # all in one program
     for name, link in mechanism.links.items():
         c, s = motion.link(name).direction[index]
         px, py = next(iter(link.points.values()))
         x, y = motion.point_of(places[name]).position[index]
         found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, math.atan2(s, c)]
     return np.array(found)
+
+
+def _first_points(mechanism: Mechanism) -> dict[str, str]:
+    """The first point of every link."""
+    return {
+        name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()
+    }
+
+
+def _pose_outputs(mechanism: Mechanism) -> tuple[str, ...]:
+    """Names of the outputs that tell where every link is."""
+    wanted = [
+        vector_names(*each)
+        for name, key in _first_points(mechanism).items()
+        for each in (("e", name), ("p", key))
+    ]
+    return tuple(dict.fromkeys(name for pair in wanted for name in pair))
 
 
 def _drawn(mechanism: Mechanism) -> Floats | None:
@@ -299,6 +321,29 @@ def _drawn(mechanism: Mechanism) -> Floats | None:
 
 
 # rank ---------------------------------------------------------------------------------------------
+def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> bool:
+    """Whether every group alone is regular, its drivers held: then no equation of the whole implies another.
+
+    Ordered as the groups are solved, the Jacobian of the joints and drivers has the groups' own ones on its diagonal
+    and nothing above them.
+    """
+    turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
+    system = ConstraintSystem(mechanism, order={"frame": -1, **turn})
+    rows = [*system.rows(x), *(system.driver_row(name, x) for name in mechanism.drivers)]
+    of_group: list[list[Row]] = [[] for _ in built.groups]
+    for row in rows:
+        of_group[max(turn.get(link, -1) for link in row.parts)].append(row)
+    for group, own in zip(built.groups, of_group, strict=True):
+        if len(own) != 3 * len(group.links):
+            return False
+        matrix = [
+            [entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own
+        ]
+        if _numeric_rank(np.array(matrix, dtype=float), ZERO) < len(own):
+            return False
+    return True
+
+
 def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[Sentence, ...]]:
     """Rank, and the equations that those before them imply (the last ones of each dependence)."""
     rows = system.rows(x)

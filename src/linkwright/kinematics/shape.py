@@ -46,8 +46,8 @@ def _known(value: float) -> int | None:
 
 
 def _link(link: Link) -> Hashable:
-    places = list(link.points.values())
-    same = tuple(places.index(place) for place in places)
+    first: dict[Hashable, int] = {}
+    same = tuple(first.setdefault(place, i) for i, place in enumerate(link.points.values()))
     return link.name, link.geometry, tuple(link.points), same, link.mass_centre is None
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.names import vector_names
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 def columns(motion: Motion) -> dict[str, Floats]:
     """Time, inputs, links, guides and points of a motion, by column names such as ``jaw.angle [rad]``."""
     found: dict[str, Floats] = {"time [s]": motion.time}
+    motion.evaluate_together(name for link in motion.mechanism.links for name in vector_names("e", link))
     for name, q in motion.inputs.items():
         found[f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"] = q
     for name in motion.mechanism.links:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.names import canonical, vector_names
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -27,6 +30,8 @@ def balance_residual(forces: Forces) -> Floats:
         for c in p
     )
     worst = np.zeros(forces.steps)
+    forces.motion.evaluate_together(_motion_outputs(forces))
+    forces.fetch(tuple(name for link in mechanism.links for name in _load_outputs(link)))
     for link in mechanism.links:
         force, moment = _joints(forces, link)
         for driven in (_drivers(forces, link), _loads(forces, link), _inertia(forces, link)):
@@ -37,6 +42,27 @@ def balance_residual(forces: Forces) -> Floats:
 
 
 Pair = tuple[Floats, Floats]
+
+
+def _motion_outputs(forces: Forces) -> Iterator[str]:
+    """Names of what the balance takes from the motion."""
+    mechanism = forces.mechanism
+    keys = [canonical(mechanism, *_seat(joint)) for joint in mechanism.joints.values()]
+    yield from (name for key in keys for name in vector_names("p", key))
+    for link in mechanism.links:
+        for prefix in ("p",) if forces.static else ("p", "a"):
+            yield from vector_names(prefix, f"{link}.@centre")
+
+
+def _load_outputs(link: str) -> tuple[str, str, str]:
+    return f"on:{link}.x", f"on:{link}.y", f"on:{link}.m"
+
+
+def _seat(joint: Joint) -> tuple[str, str]:
+    """A link of a joint, and its point there."""
+    if isinstance(joint, PrismaticJoint):
+        return joint.block, joint.at
+    return joint.joined[-1], getattr(joint, "at", joint.name)
 
 
 def _cross(place: Floats, force: Floats) -> Floats:
@@ -59,11 +85,7 @@ def _joints(forces: Forces, link: str) -> Pair:
 
 
 def _place(forces: Forces, name: str) -> Floats:
-    joint = forces.mechanism.joints[name]
-    if isinstance(joint, PrismaticJoint):
-        return forces.motion.point(f"{joint.block}.{joint.at}").position
-    point = getattr(joint, "at", name)
-    return forces.motion.point(f"{joint.joined[-1]}.{point}").position
+    return forces.motion.point(".".join(_seat(forces.mechanism.joints[name]))).position
 
 
 def _drivers(forces: Forces, link: str) -> Pair:
@@ -82,8 +104,7 @@ def _drivers(forces: Forces, link: str) -> Pair:
 
 def _loads(forces: Forces, link: str) -> Pair:
     """Loads and friction on a link, about the frame's origin."""
-    names = (f"on:{link}.x", f"on:{link}.y", f"on:{link}.m")
-    fx, fy, moment = forces.fetch(names)
+    fx, fy, moment = forces.fetch(_load_outputs(link))
     return np.stack([fx, fy], axis=1), moment
 
 

@@ -17,6 +17,8 @@ from linkwright.model.plain_reader import NAME, Place
 from linkwright.model.reader import Reader
 from linkwright.words.sentence import Sentence, together
 
+#: Links of a model, at most; more than that no machine has, and none is answered quickly.
+MOST_LINKS = 1000
 _PAIR = Quantities("length", ("x", "y"))
 
 
@@ -179,6 +181,10 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
             Sentence("model.add_link"),
             "missing-key",
         )
+    if len(mapping.entries) > MOST_LINKS:
+        said = Sentence("model.too_many_links", count=len(mapping.entries), most=MOST_LINKS)
+        reader.error(node, "links", said, Sentence("model.split_up"), "many")
+        return {}
     links: dict[str, Link] = {}
     seen = {**frame.points, **drawing}
     for entry in mapping.entries:

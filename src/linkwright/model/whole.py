@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.model.mechanism import Link, Mechanism, Vec
@@ -58,8 +59,12 @@ def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) 
 
 
 def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    of_link: dict[str, list[Joint]] = {name: [] for name in ("frame", *mechanism.links)}
+    for joint in mechanism.joints.values():
+        for name in dict.fromkeys(joint.joined):
+            of_link[name].append(joint)
     for name, link in mechanism.links.items():
-        joints = [joint for joint in mechanism.joints.values() if name in joint.joined]
+        joints = of_link[name]
         key, node = f"links.{name}", _link_node(root, name)
         if not joints:
             points = ", ".join(link.points)
@@ -111,8 +116,9 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
     for point in everywhere:
         folded.setdefault(point.casefold(), set()).add(point)
     for name, link in mechanism.links.items():
+        own = set(link.points)
         for point in link.points:
-            alike = sorted(folded[point.casefold()] - {point} - set(link.points))
+            alike = sorted(folded[point.casefold()] - own)
             if alike and reader.names.owners(point) == [name]:
                 reader.error(
                     _link_node(root, name),

@@ -199,6 +199,8 @@ WORDS = {
     "share_point": "name a shared point alike on both links, or remove the link",
     "lone_point": 'the link "{name}" has one point and is in no prismatic joint',
     "second_point": "add a second point with a length, or a prismatic joint with it as block",
+    "too_many_links": "a model of {count} links; at most {most} are read",
+    "split_up": "split it up into machines of their own",
     "unconnected": "{links} are not connected to the frame",
     "connect": "share a point with the frame or with a link that is connected",
     "lone_spelling": '"{point}" is on this link only, and there is a point "{alike}"',

@@ -198,6 +198,8 @@ WORDS = {
     "share_point": "请在两个构件上给共用的点取同样的名称，或删去该构件",
     "lone_point": "构件“{name}”只有一个点，又不在任何移动副中",
     "second_point": "请加上第二个点和长度，或加上以它为滑块的移动副",
+    "too_many_links": "模型有 {count} 个构件；最多读取 {most} 个",
+    "split_up": "请拆成几个独立的机构",
     "unconnected": "{links} 没有与机架连接",
     "connect": "请与机架或已连接的构件共用一个点",
     "lone_spelling": "“{point}”只在此构件上，而另有点“{alike}”",
