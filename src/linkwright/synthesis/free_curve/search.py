@@ -20,7 +20,7 @@ from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad
 from linkwright.synthesis.free_curve.nodes import Design, Draw
-from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Target
+from linkwright.synthesis.free_curve.target import COARSE, FINE, Target
 
 #: Most joints of each level, and the share of the time after which it ends, for each number of levels.
 JOINTS = (5, 8, 10, 12)
@@ -132,15 +132,12 @@ class Search:
         """The best of an atlas, after descents."""
         starts = atlas(level).find(self.target, STARTS)
         self.attempts += len(starts)
-        near = self._best(starts, 15, HALVED, COARSE)
-        return self._checked(self._best(self._best(near, 60, CHOSEN), 150, CHOSEN))
+        near = self._best(starts, lambda each: self.target.descend(each, 15, COARSE), HALVED)
+        nearer = self._best(near, lambda each: self.target.eased(each, 60), CHOSEN)
+        return self._checked(self._best(nearer, lambda each: self.target.eased(each, 150), CHOSEN))
 
-    def _best(
-        self, designs: list[Design], iterations: int, count: int, fineness: object = MIDDLE
-    ) -> list[Design]:
-        grain = COARSE if fineness is COARSE else MIDDLE
-        found = self.workers.map(lambda each: self.target.descend(each, iterations, grain), designs)
-        return sorted(found, key=lambda each: each.value)[:count]
+    def _best(self, designs: list[Design], descent: Callable[[Design], Design], count: int) -> list[Design]:
+        return sorted(self.workers.map(descent, designs), key=lambda each: each.value)[:count]
 
     def _checked(self, designs: list[Design]) -> Iterable[Design]:
         return self.workers.map(self.target.checked, designs)
@@ -151,10 +148,11 @@ class Search:
         if below and draw.random() < 0.5:
             design = with_dyad(below[int(draw.integers(len(below)))].pick(draw), draw, most)
         design = self.target.descend(design or shaken(pool.pick(draw), draw), 25, COARSE)
-        if design.value < 1.5 * pool.worst:
-            design = self.target.descend(design, 60)
-        if design.value < 1.1 * pool.worst:
-            return self.target.checked(self.target.descend(design, 200))
+        design = self.target.descend(design, 10)
+        if design.value < 2 * pool.worst:
+            design = self.target.eased(design, 60)
+        if design.value < 1.2 * pool.worst:
+            return self.target.checked(self.target.eased(design, 200))
         return Design(design.nodes, design.x, design.mirror)
 
     def _polished(self, pool: Pool) -> list[Design]:

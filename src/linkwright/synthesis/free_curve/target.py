@@ -23,7 +23,9 @@ class Fineness:
         self.drawn, self.rest, self.points, self.soft = drawn, rest, points, soft
 
 
-COARSE, MIDDLE, FINE = Fineness(48, 24, 64, 4e-3), Fineness(96, 48, 128, 2e-3), Fineness(192, 192, 400, 3e-4)
+#: A descent begins where the distances are smooth: their kinks slow it down (Nesterov 2005).
+COARSE, ROUND = Fineness(48, 24, 64, 0.04), Fineness(96, 48, 128, 0.015)
+MIDDLE, FINE = Fineness(96, 48, 128, 2e-3), Fineness(192, 192, 400, 3e-4)
 
 
 class _Room(threading.local):
@@ -79,6 +81,10 @@ class Target:
             fineness.points, *arrays[2:], iterations,
         )  # fmt: skip
         return replace(design, x=x, value=value)
+
+    def eased(self, design: Design, iterations: int) -> Design:
+        """The design after a descent that begins smooth, with the objective of ``MIDDLE``."""
+        return self.descend(self.descend(design, iterations // 2, ROUND), iterations - iterations // 2)
 
     def checked(self, design: Design) -> Design:
         """The design with the objective at fine positions; FAR where it does not close well there."""
