@@ -40,7 +40,8 @@ const PAGE = 65536;
 // Places of the call block, 64 bits each.
 const BLOCK = { designs: 0, length: 1, count: 2, fullEnd: 3, tailStart: 4, tailLow: 5, tailHigh: 6, parameters: 7, out: 8, starts: 9 };
 const INPUTS = 10;
-const LANES = 2;
+// Positions that a kernel takes at a time.
+const LANES = 4;
 
 /** Value or derivative of a piecewise cubic; the numbers of a table: pieces, start, span, periodic, drift, breaks, rows. */
 export function look(table: Float64Array, x: number, order: number): number {

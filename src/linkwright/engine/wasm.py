@@ -1,9 +1,10 @@
 """Programs as one WebAssembly module for browsers, by the same text that native code is made of.
 
-Vectors have two numbers (SIMD128). Square roots, absolute values and floors are instructions; the other functions are
-imported from the host (``env.linkwright_sin`` …), as native code takes them from the C library. The only other import
-is the memory. Function ``kernelN`` takes the address of program N's call block (see ``ir_kernel.Block``; 64 bits per
-place, addresses below 2³²).
+Positions are taken in vectors of four numbers (two of SIMD128 at a time); a program with states has one design.
+Square roots, absolute values and floors are instructions; the other functions are imported from the host
+(``env.linkwright_sin`` …), as native code takes them from the C library. The only other import is the memory.
+Function ``kernelN`` takes the address of program N's call block (see ``ir_kernel.Block``; 64 bits per place,
+addresses below 2³²).
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.wasm_module import linked
 
 _TRIPLE = "wasm32-unknown-unknown"
-WIDTH = 2
+#: Positions in one step of a loop; programs that carry states have one design.
+WIDTH = 4
 _DEFINED = re.compile(r"define (?:internal )?[^@]*@(\w+)\(")
 
 
@@ -34,7 +36,7 @@ def wasm_module(programs: Sequence[Program]) -> bytes | None:
     bodies: list[str] = []
     level = 3
     for number, program in enumerate(programs):
-        text, wanted = kernel(Lines.of(program), WIDTH, None)
+        text, wanted = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None)
         text = text.replace(f"@{ENTRY}(", f"@kernel{number}(").replace(f"@{LOOKUP}", f"@{LOOKUP}_{number}_")
         level = min(level, wanted)
         for line in text.splitlines():

@@ -60,6 +60,18 @@ class Document:
             )
         )
 
+    def place(self, address: str) -> tuple[int, int] | None:
+        """Where the value at an address stands in the text: its first offset and the one behind it; None where the
+        file has no such place."""
+        root, _ = compose(self.text.removeprefix("\ufeff"))
+        assert isinstance(root, Mapping)
+        offset = 1 if self.text.startswith("\ufeff") else 0
+        for path in _paths(address, root):
+            node, rest = _follow(root, path)
+            if not rest and isinstance(node, Scalar):
+                return node.start + offset, node.end + offset
+        return None
+
     def save(self, path: str | Path) -> None:
         """Write the text to a file, whole or not at all; raises LinkwrightError where it cannot be written."""
         write_whole(path, self.text.encode())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,18 +12,20 @@ from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
-NAMES = ("csv", "dxf", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
+NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",
-    "timestep", "indent", "compression", "width", "size",
+    "timestep", "indent", "compression", "width", "size", "beside",
 )  # fmt: skip
 
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The command's options."""
     parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--output", metavar="FILE", required=True, help=say("export.output_help"))
+    parser.add_argument(
+        "--output", "--to", dest="output", metavar="FILE", required=True, help=say("export.output_help")
+    )
     parser.add_argument(
         "--format", choices=NAMES, metavar="FORMAT", help=say("export.format_help", names=", ".join(NAMES))
     )
@@ -43,6 +46,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     parser.add_argument("--compression", metavar="NAME", help=say("export.compression_help"))
     parser.add_argument("--width", type=whole_number, metavar="N", help=say("export.width_help"))
     parser.add_argument("--size", type=float, metavar="N", help=say("export.size_help"))
+    parser.add_argument("--beside", nargs="+", metavar="FILE", help=say("export.beside_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
 
 
@@ -57,6 +61,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     chosen, form = _checked(path, options)
     refuse_existing(path, force=options.force)
     mechanism, _ = read_model(options.file, session)
+    if chosen == "html":
+        form |= _of_page(options.file, options.beside or ())
     export(
         mechanism,
         path,
@@ -71,6 +77,14 @@ def run(options: argparse.Namespace, session: Session) -> int:
     else:
         session.show(session.say("cli.written", path=path))
     return 0
+
+
+def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
+    """The text of the file, which the page gives back changed, and the files of the machines beside it."""
+    from linkwright.model.file import read_document
+    from linkwright.model.source import read_source
+
+    return {"text": read_source(file)[0], "beside": [read_document(each) for each in beside]}
 
 
 def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, Any]]:

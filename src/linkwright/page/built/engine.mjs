@@ -10,7 +10,7 @@ var e = {
 	parameters: 7,
 	out: 8,
 	starts: 9
-}, t = 10, n = 2;
+}, t = 10, n = 4;
 function r(e, t, n) {
 	let r = e[0], i = 5 + r + 1, a = Math.floor((t - e[1]) / e[2]), o = e[3] === 0 ? t : t - a * e[2], s = 0;
 	for (let t = r; t > 1;) {

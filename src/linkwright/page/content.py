@@ -1,0 +1,172 @@
+"""The file of a living page: model, kernels, words and front end in one text."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Sequence
+from functools import cache
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.engine.javascript import javascript
+from linkwright.engine.portable import Kernels
+from linkwright.engine.wasm import wasm_module
+from linkwright.kinematics.motion import Motion
+from linkwright.model.document import Document
+from linkwright.model.file import dump, read_text
+from linkwright.page.dimensions import dimensions
+from linkwright.page.glyphs import glyphs
+from linkwright.page.programs import PagePrograms
+from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
+from linkwright.plot.drawing.machine import Machine
+from linkwright.plot.drawing.view import fitted, placements
+from linkwright.words import LANGUAGES, catalogue, say
+
+Plain = dict[str, Any]
+#: Areas of the catalogue that pages carry.
+_AREAS = ("page", "outcome")
+_TAGS = {"en": "en", "zh": "zh-CN"}
+
+
+def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:
+    """The text of a page with machines side by side, each with its motion and the text of its file."""
+    data, text = page_data(models, language)
+    name = ", ".join(dict.fromkeys(motion.mechanism.name for motion, _ in models))
+    return document(data, text, say("page.title", language, name=name), language)
+
+
+def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
+    """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
+    found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
+    words = {
+        each: {f"{area}.{key}": text for area in _AREAS for key, text in catalogue(area, each).items()}
+        for each in LANGUAGES
+    }
+    data = {"language": language, "words": words, "models": [each for each, _ in found]}
+    return data, "\n".join(text for _, text in found)
+
+
+def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
+    text = dump(motion.mechanism) if text is None else text
+    programs = PagePrograms(motion)
+    kernels = Kernels()
+    main = kernels.number(programs.main)
+    stages = kernels.stages(programs.cycle) if programs.stages else []
+    module = wasm_module(kernels.programs)
+    names = [f"m{number}k{place}" for place in range(len(kernels.programs))]
+    script = ""
+    if module is None:
+        pieces = [javascript(each, name) for each, name in zip(kernels.programs, names, strict=True)]
+        script = "\n".join([*pieces, f"(globalThis.kernels??=[])[{number}]=[{','.join(names)}];"])
+    values = programs.values()
+    known = signals(programs)
+    data = {
+        **_said(motion, text),
+        "module": None if module is None else base64.b64encode(module).decode(),
+        "programs": kernels.described(),
+        "main": main,
+        "stages": stages,
+        "values": values,
+        "dimensions": [each.data() for each in dimensions(Document(text, "model", read_text), set(values))],
+        "positions": _positions(programs),
+        "fields": {name: _packed(row) for name, row in programs.fields().items()},
+        "starts": programs.starts if programs.iterated else {},
+        "held": {"loads": programs.held.loads, "friction": programs.held.friction},
+        "groups": _groups(programs),
+        "signals": known,
+        "numbers": numbers(programs, known),
+        "curves": usual_curves(programs, known),
+        "points": point_keys(programs),
+        "glyphs": glyphs(_machine(motion), int(np.argmax(motion.ok))),
+        "masses": [name for name, link in motion.mechanism.links.items() if link.mass],
+    }
+    return data, script
+
+
+def _said(motion: Motion, text: str) -> Plain:
+    mechanism = motion.mechanism
+    return {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source, "text": text}
+
+
+def _machine(motion: Motion) -> Machine:
+    placed = placements(motion)
+    return Machine(motion, placed, fitted(motion, placed))
+
+
+def _packed(row: Any) -> str:
+    """Numbers as base64 of their 64-bit floats."""
+    return base64.b64encode(np.ascontiguousarray(row, dtype="<f8").tobytes()).decode()
+
+
+def _positions(programs: PagePrograms) -> Plain:
+    """Inputs per position; a single driver of constant speed is said by its law."""
+    positions, mechanism = programs.motion.positions, programs.mechanism
+    modes = list(programs.motion.modes)
+    arrays = programs.arrays()
+    found: Plain = {
+        "count": positions.count, "closed": positions.closed, "period": positions.period, "steady": None,
+        "modes": {name: float(programs.traced.solver.assembly.modes[name.removeprefix("mode:")]) for name in modes},
+    }  # fmt: skip
+    drivers = list(mechanism.drivers.values())
+    if len(drivers) == 1 and isinstance(drivers[0].law, ConstantSpeed):
+        name = drivers[0].name
+        q = positions.coordinates[name][0]
+        step = float(q[1] - q[0]) if len(q) > 1 else 0.0
+        found["steady"] = {
+            "driver": name, "turns": positions.rotary[name], "start": float(q[0]), "step": step,
+            "speed": drivers[0].law.speed, "begin": float(positions.time[0]),
+        }  # fmt: skip
+        arrays = {each: row for each, row in arrays.items() if each in modes}
+    found["time"] = None if found["steady"] else _packed(positions.time)
+    found["arrays"] = {name: _packed(row) for name, row in arrays.items()}
+    found["inputs"] = [
+        {"name": name, "turns": positions.rotary[name], "values": _packed(rows[0])}
+        for name, rows in positions.coordinates.items()
+    ]
+    return found
+
+
+def _groups(programs: PagePrograms) -> list[Plain]:
+    placed = programs.traced.solver.motion.placed
+    return [
+        {"name": each.name, "signature": each.signature, "links": list(each.links),
+         "facts": list(placed[each.name].facts), "dyad": f"quality:{each.name}" in programs.main.output_names}
+        for each in programs.traced.solver.structure.groups
+    ]  # fmt: skip
+
+
+def document(data: Plain, kernels: str, title: str, language: str) -> str:
+    """The page's text; its own scripts and styles are the only ones that may run, by their hashes."""
+    script, style = _built("page.js"), _built("page.css")
+    scripts = [each for each in (kernels, script) if each]
+    hashes = " ".join(f"'sha256-{_hash(each)}'" for each in scripts)
+    policy = (
+        f"default-src 'none'; script-src {hashes} 'wasm-unsafe-eval'; style-src 'sha256-{_hash(style)}'; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+    content = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    marks = "\n".join(f"<script>{each}</script>" for each in scripts)
+    return (
+        f'<!doctype html>\n<html lang="{_TAGS[language]}">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f'<meta name="color-scheme" content="light dark">\n<title>{escape(title)}</title>\n'
+        f'<style>{style}</style>\n</head>\n<body>\n<div id="page"></div>\n'
+        f'<script type="application/json" id="data">{content}</script>\n{marks}\n</body>\n</html>\n'
+    )
+
+
+@cache
+def _built(name: str) -> str:
+    """A built file of the front end."""
+    return (files("linkwright") / "page" / "built" / name).read_text(encoding="utf-8").strip()
+
+
+def _hash(text: str) -> str:
+    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

@@ -1,0 +1,181 @@
+"""The kinematic drawing as data: standard symbols tied to points and directions that the page's programs find.
+
+A *stamp* is a symbol of fixed size, as SVG about (0, 0) with x along its direction; bars, plates, rails, rods,
+cylinders and springs reach between points and are drawn by the page. Points are named by the keys of the outputs
+``p:KEY``, directions by the names of outputs (``e:LINK``, ``d:GUIDE``), or given as an angle on the paper (rad,
+clockwise).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from linkwright.joints.weld import WeldJoint
+from linkwright.kinematics.names import canonical
+from linkwright.loads.base import Load
+from linkwright.model.mechanism import Link
+from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
+from linkwright.plot.drawing.inputs import input_arrows
+from linkwright.plot.drawing.loads import named_points
+from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
+from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec
+
+Plain = dict[str, Any]
+_LENGTHS = 2
+
+
+def glyphs(machine: Machine, index: int) -> list[Plain]:
+    """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
+    found = [*_links(machine), *_guides(machine), *_pins(machine), *_welds(machine)]
+    found += [_tied(machine, part) for part in input_arrows(machine, index)]
+    found += [glyph for load in machine.motion.mechanism.loads.values() for glyph in _load(machine, load)]
+    found += [
+        _stamp("marks", f"{link.name}.@centre", 0.0, SYMBOLS["mass_centre"](), role="centre")
+        for link in machine.motion.mechanism.links.values()
+        if link.mass
+    ]
+    return found
+
+
+def key_of(machine: Machine, link: str, point: str) -> str:
+    """The key of a point's outputs."""
+    return canonical(machine.motion.mechanism, link, point)
+
+
+def _stamp(layer: str, at: str, along: str | float, shape: Shape, **more: Any) -> Plain:
+    svg = "".join(str(each) for each in shape.elements)
+    return {"kind": "stamp", "layer": layer, "at": at, "along": along, "svg": svg, **more}
+
+
+def _links(machine: Machine) -> Iterator[Plain]:
+    for link in machine.motion.mechanism.links.values():
+        keys = [key_of(machine, link.name, point) for point in link.points]
+        ends = _ends(machine, link)
+        if ends is None:
+            yield {"kind": "plate", "layer": "bodies", "points": keys}
+        elif len(ends) == _LENGTHS:
+            yield {"kind": "bar", "layer": "bodies", "points": [keys[end] for end in ends]}
+    for part in bodies(machine):
+        if part.layer == "pins":
+            carrier, point = _nearest(machine, part)
+            yield _stamp("pins", key_of(machine, carrier, point), 0.0, SYMBOLS["point"]())
+
+
+def _ends(machine: Machine, link: Link) -> list[int] | None:
+    """Numbers of the two points at the ends of a straight link; all points (one or none) of a short one, None where
+    they span an area."""
+    cloud = machine.cloud(link.name)
+    ends = flat(cloud)
+    if ends is None:
+        return None
+    if len(ends) < _LENGTHS or np.hypot(*(ends[1] - ends[0])) <= 1.0:
+        return []
+    return [int(np.hypot(*(cloud - end).T).argmin()) for end in ends]
+
+
+def _nearest(machine: Machine, part: Part) -> tuple[str, str]:
+    """The point of its carrier at which a part stands."""
+    link = machine.motion.mechanism.link(part.carrier)
+    middle = part.shape.ink[0][:-1].mean(axis=0)
+    places = [machine.local(part.carrier, point) for point in link.points]
+    return part.carrier, list(link.points)[int(np.hypot(*(np.array(places) - middle).T).argmin())]
+
+
+def _guides(machine: Machine) -> Iterator[Plain]:
+    for name, joint in machine.guides.items():
+        ends = {"joint": name, "at": key_of(machine, joint.block, joint.at)}
+        through = key_of(machine, joint.guide, joint.through)
+        if is_cylinder(machine, name):
+            yield {"kind": "cylinder", "layer": "blocks", **ends, "through": through, **_tube(machine, name)}
+            continue
+        shift = clear_shift(machine, name, joint)
+        if joint.guide == "frame":
+            yield {
+                "kind": "rail",
+                "layer": "ground",
+                **ends,
+                "shift": shift,
+                "side": ground_side(machine, joint),
+            }
+        else:
+            carried = len(machine.motion.mechanism.link(joint.guide).points) > 1
+            reach = [key_of(machine, joint.guide, point) for point in joint.direction_points or ()]
+            yield {
+                "kind": "rod", "layer": "bodies", **ends,
+                "reach": [*reach, *([through] if carried or joint.offset else [])], "tie": through,
+            }  # fmt: skip
+        if shift:
+            yield {"kind": "stub", "layer": "bodies", **ends, "shift": shift}
+        yield _stamp("blocks", ends["at"], f"d:{name}", SYMBOLS["slider"](), shift=shift)
+
+
+def _tube(machine: Machine, name: str) -> Plain:
+    """Lengths of barrel and piston rod, m."""
+    short, longest = travel(machine, name)
+    length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
+    piston = max(longest - 0.92 * length, short - length + 10.0)
+    return {"barrel": length / machine.view.scale, "piston": piston / machine.view.scale}
+
+
+def _pins(machine: Machine) -> Iterator[Plain]:
+    for name, joint in machine.pins.items():
+        if "frame" in joint.links:
+            x, y = support_direction(machine, name, joint)
+            support = SYMBOLS["fixed_pivot"](toward=(1.0, 0.0))
+            yield _stamp("ground", name, math.atan2(y, x), support)
+        yield _stamp("pins", name, 0.0, SYMBOLS["pin"]())
+        for link in joint.links:
+            ends = _ends(machine, machine.motion.mechanism.link(link)) if link != "frame" else None
+            if ends and list(machine.motion.mechanism.link(link).points).index(name) not in ends:
+                keys = [key_of(machine, link, point) for point in machine.motion.mechanism.link(link).points]
+                yield {"kind": "passing", "layer": "tops", "at": name, "points": [keys[end] for end in ends],
+                       "length": 1.3 * PIN}  # fmt: skip
+
+
+def _welds(machine: Machine) -> Iterator[Plain]:
+    joints = [j for j in machine.motion.mechanism.joints.values() if isinstance(j, WeldJoint)]
+    for joint, part in zip(joints, welds(machine), strict=True):
+        yield _tied(machine, part, joint.at)
+
+
+def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
+    """A part in its carrier's axes, tied to one of the carrier's points."""
+    names = list(machine.motion.mechanism.link(part.carrier).points)
+    if point is None:
+        middle = np.concatenate(part.shape.ink).mean(axis=0)
+        places = np.array([machine.local(part.carrier, name) for name in names])
+        point = names[int(np.hypot(*(places - middle).T).argmin())]
+    along = 0.0 if part.carrier == "frame" else f"e:{part.carrier}"
+    at = machine.local(part.carrier, point)
+    return _stamp(
+        part.layer, key_of(machine, part.carrier, point), along, _shifted(part.shape, at), role="input"
+    )
+
+
+def _shifted(shape: Shape, at: Vec) -> Shape:
+    from linkwright.plot.svg.element import group
+
+    return Shape((group(shape.elements, transform=f"translate({-at[0]:.2f} {-at[1]:.2f})"),))
+
+
+def _load(machine: Machine, load: Load) -> Iterator[Plain]:
+    ends = [key_of(machine, each.link, each.point) for each in named_points(machine, load)]
+    if load.kind in ("spring", "damper") and len(ends) == _LENGTHS:
+        yield {"kind": load.kind, "layer": "bodies", "points": ends}
+    elif load.kind in SYMBOLS and ends:
+        yield _stamp("marks", ends[0], 0.0, SYMBOLS[load.kind]())
+    elif load.kind in SYMBOLS:
+        pin = _common_pin(machine, load)
+        if pin is not None:
+            yield _stamp("marks", pin, 0.0, SYMBOLS[load.kind]())
+    elif load.kind != "torque":
+        yield {"kind": "load", "layer": "marks", "load": load.name}
+
+
+def _common_pin(machine: Machine, load: Load) -> str | None:
+    links = {str(name) for name in (getattr(load, "links", None) or ())}
+    return next((name for name, joint in machine.pins.items() if links and links <= set(joint.links)), None)

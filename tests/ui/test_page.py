@@ -1,0 +1,322 @@
+"""Living pages in Chromium: opened and dragged, their numbers against the solver's; limits, languages, access."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.ui.browser import Opened, browser, needs_chromium
+
+import linkwright as lw
+from linkwright.model.mechanism import Mechanism
+from linkwright.page import content
+
+pytestmark = needs_chromium
+STEPS = 72
+CLOSE = 1e-12
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with browser() as started:
+        yield started
+
+
+@pytest.fixture
+def opened(chromium: Any) -> Iterator[Opened]:
+    context = chromium.new_context(viewport={"width": 1280, "height": 900}, offline=True)
+    yield Opened(context.new_page())
+    context.close()
+
+
+def made(folder: Path, name: str, steps: int = STEPS, **options: Any) -> tuple[Mechanism, Path]:
+    """The page of a gallery file."""
+    document = lw.read_document(f"gallery:{name}")
+    motion = lw.solve_motion(document.mechanism, steps=steps)
+    path = lw.export(motion, folder / f"{name}.html", text=document.text, force=True, **options)
+    return document.mechanism, path
+
+
+def agrees(page: Opened, mechanism: Mechanism, *, forces: bool, tolerance: float = CLOSE) -> None:
+    """Points and reactions of the page against the solver, to a share of the largest of their kind."""
+    motion = lw.solve_motion(mechanism, steps=STEPS)
+    keys = list(motion.point_names())
+    got = page.rows([f"{kind}:{key}.{axis}" for kind in "pva" for key in keys for axis in "xy"])
+    for place, kind in enumerate("pva"):
+        points = [motion.point(key) for key in keys]
+        want = np.array([(p.position, p.velocity, p.acceleration)[place] for p in points])
+        found = np.array([np.stack([got[f"{kind}:{key}.x"], got[f"{kind}:{key}.y"]], axis=1) for key in keys])
+        np.testing.assert_allclose(found, want, rtol=0, atol=tolerance * (np.abs(want).max() + 1e-9))
+    if forces and page.run("s => s.model.forces && s.data.signals.some(x => x.id === 'shake')"):
+        solved = lw.solve_forces(motion)
+        names = page.run("s => s.data.signals.filter(x => x.id.startsWith('r:')).map(x => x.id)")
+        got = page.rows([f"{name}.{axis}" for name in names for axis in "xy"])
+        want = np.array([_reaction(solved, name) for name in names])
+        found = np.array([np.stack([got[f"{name}.x"], got[f"{name}.y"]], axis=1) for name in names])
+        np.testing.assert_allclose(found, want, rtol=0, atol=tolerance * np.abs(want).max())
+
+
+@pytest.fixture(scope="module")
+def kept_open(chromium: Any) -> Iterator[Opened]:
+    """One tab for many pages."""
+    context = chromium.new_context(viewport={"width": 1280, "height": 900}, offline=True)
+    yield Opened(context.new_page())
+    context.close()
+
+
+def _reaction(solved: lw.Forces, name: str) -> np.ndarray:
+    joint, link = name.removeprefix("r:").split("|")
+    return solved.reaction(joint, on=link)
+
+
+#: One of every kind; ``python -m tests.ui.gallery`` takes all of them.
+KINDS = ("jaw_crusher_sixbar", "shaper_quick_return", "triad", "excavator", "theo_jansen_leg", "two_bars_equilibrium",
+         "parallelogram", "dyad_prp")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_gallery_files_are_opened_and_dragged(kept_open: Opened, tmp_path: Path, name: str) -> None:
+    opened_and_dragged(kept_open, tmp_path, name)
+
+
+def opened_and_dragged(opened: Opened, folder: Path, name: str) -> None:
+    """At first and after a drag the page has the solver's numbers; groups without closed form to 1e-9."""
+    mechanism, path = made(folder, name)
+    opened.open(path)
+    tolerance = 1e-9 if opened.run("s => s.model.iterated") else CLOSE
+    agrees(opened, mechanism, forces=True, tolerance=tolerance)
+    before = opened.values()
+    keys = opened.run("s => s.data.points.filter(p => p.moved.length).map(p => p.key)")
+    opened.drag(keys[len(keys) // 2], 5.0, -4.0)
+    after = opened.values()
+    assert after != before or opened.status.startswith(("Limit", "No dimension", "Every"))
+    changed = {address: value for address, value in after.items() if value != before[address]}
+    agrees(opened, mechanism.with_dimensions(changed), forces=True, tolerance=max(tolerance, 1e-11))
+    assert opened.errors == []
+
+
+def test_design_numbers_equal_closed_forms(opened: Opened, tmp_path: Path) -> None:
+    """The shaper's stroke and quick-return ratio, between the positions as well (gallery file: closed form)."""
+    _, path = made(tmp_path, "shaper_quick_return")
+    opened.open(path)
+    numbers = opened.run("s => s.model.numbers()")
+    theta = 2 * math.asin(110 / 380)
+    assert numbers["ratio:angle:lever"] == pytest.approx((math.pi + theta) / (math.pi - theta), rel=1e-12)
+    assert numbers["range:s:guide"] == pytest.approx(2 * 0.54 * 110 / 380, rel=1e-12)
+    assert numbers["range:angle:lever"] == pytest.approx(theta, rel=1e-12)
+
+
+def test_design_numbers_equal_those_of_the_command_line(opened: Opened, tmp_path: Path) -> None:
+    """Extremes of the continuous cycle, of a machine with a load between two limit positions."""
+    mechanism, path = made(tmp_path, "jaw_crusher_fourbar")
+    opened.open(path)
+    numbers = opened.run("s => s.model.numbers()")
+    rows = {
+        (row.metric, row.subject): row.value
+        for row in lw.metrics(lw.solve_forces(lw.solve_motion(mechanism)))
+    }
+    smallest = min(value for (metric, _), value in rows.items() if metric == "transmission_angle")
+    assert numbers["least:m:coupler+jaw"] == pytest.approx(smallest, rel=1e-9)
+    swing = next(value for (metric, _), value in rows.items() if metric == "swing_angle")
+    assert numbers["range:angle:jaw"] == pytest.approx(swing, rel=1e-9)
+
+
+def test_a_limit_is_a_wall(opened: Opened, tmp_path: Path) -> None:
+    """A crank that grows stops at the Grashof sum, with a sentence, and every position stays assembled."""
+    mechanism, path = made(tmp_path, "crank_rocker")
+    opened.open(path)
+    field = opened.tab.get_by_label("Value of crank.length")
+    field.fill("1000")
+    field.press("Enter")
+    got = opened.values()["crank.length"]
+    lengths = {link: mechanism.dimension(f"{link}.length") for link in ("coupler", "rocker")}
+    base = math.dist(*mechanism.frame.points.values())
+    sides = sorted([*lengths.values(), base])
+    closes = [sides[0] + sides[1] - sides[2], sides[0] + sides[2] - sides[1]]
+    grashof = min(closes) if got <= sides[0] else max(closes)
+    assert got == pytest.approx(grashof, rel=1e-6)
+    assert got <= grashof * (1 + 1e-9)
+    assert opened.status.startswith("Limit at driver = ")
+    assert opened.run("s => s.model.main.row('ok').every(x => x === 1)")
+
+
+def test_an_unreachable_drag_stops_and_comes_back(opened: Opened, tmp_path: Path) -> None:
+    mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
+    opened.open(path)
+    before = opened.values()
+    opened.drag("B", 260.0, -150.0, steps=12)
+    assert opened.status.startswith("Limit at driver")
+    assert "cannot be assembled" in opened.status
+    assert opened.run("s => s.model.main.row('ok').every(x => x === 1)")
+    changed = {a: v for a, v in opened.values().items() if v != before[a]}
+    assert set(changed) <= {"pitman.length", "rocker.length", "toggle.length"}
+    lw.solve_motion(mechanism.with_dimensions(changed), steps=STEPS)
+    opened.tab.get_by_role("button", name="Undo").click()
+    assert opened.values() == before
+    opened.tab.get_by_role("button", name="Redo").click()
+    assert opened.values() == pytest.approx({**before, **changed}, rel=1e-6)
+
+
+def test_locked_dimensions_stay(opened: Opened, tmp_path: Path) -> None:
+    made_of, path = made(tmp_path, "jaw_crusher_sixbar")
+    opened.open(path)
+    for address in ("pitman.length", "toggle.length"):
+        opened.tab.get_by_role("button", name=f"Lock {address}").click()
+    opened.drag("B", 6.0, 3.0)
+    changed = {a for a, v in opened.values().items() if v != made_of.dimension(a)}
+    assert changed == {"rocker.length"}
+    opened.tab.get_by_role("button", name="Lock rocker.length").click()
+    opened.drag("B", 6.0, 3.0)
+    assert opened.status == "Every dimension that could move B is locked."
+
+
+def test_loads_and_speed_are_solved_again(opened: Opened, tmp_path: Path) -> None:
+    """The crusher's ramp, its speed and a mass, with limit positions found again after a change of the linkage."""
+    mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
+    opened.open(path)
+    changes = {"loads.crushing.ramp.1": 120e3, "driver.speed": -20.0, "jaw.mass": 700.0, "toggle.length": 1.2}
+    opened.run("(s, changes) => s.take({...s.model.values, ...changes})", changes)
+    changed = mechanism.with_dimensions(changes)
+    agrees(opened, changed, forces=True, tolerance=1e-11)
+    want = lw.solve_forces(lw.solve_motion(changed, steps=STEPS)).input_torque
+    got = opened.rows(["effort:driver"])["effort:driver"]
+    np.testing.assert_allclose(got, want, rtol=0, atol=1e-10 * np.abs(want).max())
+
+
+def test_held_loads_are_said_and_forces_left_out(opened: Opened, tmp_path: Path) -> None:
+    _, path = made(tmp_path, "jaw_crusher_sixbar_as_reported")
+    opened.open(path)
+    assert opened.run("s => s.model.forces")
+    opened.drag("C", 5.0, 0.0)
+    assert opened.run("s => s.model.row('effort:driver').every(Number.isNaN)")
+    assert "Forces are shown for the original only" in opened.tab.locator(".note").first.inner_text()
+
+
+def test_the_changed_file_keeps_comments_and_units(opened: Opened, tmp_path: Path) -> None:
+    mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
+    opened.open(path)
+    opened.run("s => s.take({...s.model.values, 'pitman.length': 1.2, 'driver.speed': -8.9011791851710809})")
+    with opened.tab.expect_download() as waiting:
+        opened.tab.get_by_role("button", name="Download the model").click()
+    saved = tmp_path / "saved.yaml"
+    waiting.value.save_as(saved)
+    original, text = lw.read_document("gallery:jaw_crusher_sixbar").text, saved.read_text(encoding="utf-8")
+    differing = [(a, b) for a, b in zip(original.splitlines(), text.splitlines(), strict=True) if a != b]
+    assert len(differing) == 2
+    assert "speed: -85 rpm" in text
+    assert "# mass centre mid-length unless given" in text
+    assert lw.load(saved).dimension("pitman.length") == 1.2
+    assert lw.load(saved).dimension("toggle.length") == mechanism.dimension("toggle.length")
+
+
+def test_a_link_carries_the_dimensions(opened: Opened, tmp_path: Path) -> None:
+    _, path = made(tmp_path, "crank_rocker")
+    opened.open(path)
+    start = opened.values()["crank.length"]
+    opened.run("s => s.take({...s.model.values, 'crank.length': s.model.values['crank.length'] * 0.9})")
+    opened.tab.get_by_role("button", name="Copy the link").click()
+    hash = opened.tab.evaluate("location.hash")
+    opened.open(path, hash)
+    assert opened.values()["crank.length"] == start * 0.9
+    opened.open(path, "#0.crank.length=nonsense&7.x=1&0.%E0%A4%A=2&0.unknown=3")
+    assert opened.values()["crank.length"] == start
+
+
+def test_both_languages(opened: Opened, tmp_path: Path) -> None:
+    _, path = made(tmp_path, "crank_rocker", language="zh")
+    opened.open(path)
+    assert opened.tab.evaluate("document.documentElement.lang") == "zh-CN"
+    assert "设计指标" in opened.tab.locator("table").inner_text()
+    opened.tab.get_by_role("button", name="English").click()
+    assert opened.tab.evaluate("document.documentElement.lang") == "en"
+    assert "Design numbers" in opened.tab.locator("table").inner_text()
+    opened.run("s => s.take({...s.model.values, 'crank.length': 10})")
+    assert opened.status.startswith("Limit")
+    opened.tab.get_by_role("button", name="中文").click()
+    assert opened.status.startswith("极限")
+
+
+def test_keyboard(opened: Opened, tmp_path: Path) -> None:
+    _, path = made(tmp_path, "crank_rocker")
+    opened.open(path)
+    before, start = opened.values(), opened.middle("B")
+    opened.tab.locator('.handle[data-key="B"]').focus()
+    opened.tab.keyboard.press("Shift+ArrowRight")
+    assert opened.values() != before
+    assert opened.middle("B")[0] == pytest.approx(start[0] + 10, abs=0.6)
+    opened.tab.keyboard.press("Control+z")
+    assert opened.values() == before
+    opened.tab.keyboard.press("Space")
+    opened.tab.wait_for_timeout(400)
+    assert opened.tab.evaluate("linkwright.phase.value") > 0
+
+
+def test_touch(chromium: Any, tmp_path: Path) -> None:
+    """A small screen with fingers: a joint is dragged by touch events."""
+    _, path = made(tmp_path, "crank_rocker")
+    context = chromium.new_context(
+        viewport={"width": 390, "height": 800}, has_touch=True, is_mobile=True, offline=True
+    )
+    page = Opened(context.new_page())
+    page.open(path)
+    before, (x, y) = page.values(), page.middle("B")
+    session = context.new_cdp_session(page.tab)
+    for kind, dx in (("touchStart", 0), ("touchMove", 4), ("touchMove", 9), ("touchEnd", 9)):
+        points = [] if kind == "touchEnd" else [{"x": x + dx, "y": y}]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    page.tab.evaluate("() => new Promise(requestAnimationFrame)")
+    assert page.values() != before
+    assert page.tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    context.close()
+
+
+def test_machines_side_by_side(opened: Opened, tmp_path: Path) -> None:
+    other = lw.read_document("gallery:chebyshev_lambda")
+    _, path = made(tmp_path, "crank_rocker", beside=[other, lw.load("gallery:fourbar_lecture")])
+    opened.open(path)
+    assert opened.tab.locator("svg.machine").count() == 3
+    opened.run(
+        "s => { s.keep(); s.take({...s.model.values, 'crank.length': 0.8 * s.model.values['crank.length']}); }"
+    )
+    assert opened.tab.get_by_role("columnheader", name="Variant 1").count() == 1
+
+
+def test_without_webassembly_the_same_numbers(
+    opened: Opened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(content, "wasm_module", lambda programs: None)
+    mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
+    opened.open(path)
+    agrees(opened, mechanism, forces=True)
+    assert "JavaScript" in opened.tab.locator(".note").first.inner_text()
+
+
+def test_names_are_no_markup_and_nothing_is_fetched(opened: Opened, tmp_path: Path) -> None:
+    """Script injection by names of a model; the page asks for nothing but itself."""
+    text = lw.read_document("gallery:crank_rocker").text
+    nasty = "</script><script>window.broken=1</script><img src=x onerror=window.broken=1>"
+    mechanism = lw.loads(text.replace("name: ", f"name: '{nasty}' #", 1))
+    path = lw.export(mechanism, tmp_path / "nasty.html", steps=36)
+    opened.open(path)
+    assert opened.tab.locator("h1").inner_text() == nasty
+    assert opened.tab.evaluate("window.broken") is None
+    assert [url for url in opened.requests if not url.startswith("file:")] == []
+    assert opened.tab.evaluate("fetch('data:,x').then(() => 'fetched', () => 'refused')") == "refused"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing(chromium: Any, tmp_path: Path, scheme: str) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    _, path = made(tmp_path, "jaw_crusher_sixbar")
+    context = chromium.new_context(
+        viewport={"width": 1280, "height": 900}, color_scheme=scheme, bypass_csp=True
+    )
+    page = Opened(context.new_page())
+    page.open(path)
+    found = axe.Axe().run(page.tab)
+    assert [(each["id"], each["nodes"][0]["html"]) for each in found.response["violations"]] == []
+    context.close()

@@ -1,0 +1,13 @@
+import { createHash } from "node:crypto";
+import { readdirSync, readFileSync } from "node:fs";
+
+/** One hash of everything that the built files are made of; tests/ui/test_built_files.py finds it again. */
+export function fingerprint(folder: string): string {
+  const hash = createHash("sha256");
+  const names = readdirSync(`${folder}/src`).sort().map((name) => `src/${name}`);
+  for (const name of [...names, "package-lock.json", "vite.config.ts", "vite.engine.config.ts"]) {
+    hash.update(name + "\n");
+    hash.update(readFileSync(`${folder}/${name}`));
+  }
+  return hash.digest("hex");
+}

@@ -1,0 +1,134 @@
+// Curves over the input, and hodographs, as SVG paths.
+import { element } from "./view";
+import { digits } from "./words";
+
+const W = 360, H = 132, LEFT = 50, RIGHT = 8, TOP = 8, BOTTOM = 20;
+
+export interface Curve {
+  style: string;
+  values: ArrayLike<number>;
+}
+
+/** One diagram: curves over x, a scale of its own, a line at the position that is shown. */
+export class Chart {
+  readonly svg: SVGElement;
+  private readonly paths = new Map<number, SVGElement>();
+  private readonly marks: { grid: SVGElement; low: SVGElement; high: SVGElement; left: SVGElement; right: SVGElement; cursor: SVGElement; dot: SVGElement };
+  private low = 0;
+  private high = 1;
+  private x: ArrayLike<number> = [0, 1];
+
+  constructor(host: HTMLElement) {
+    this.svg = element("svg", { class: "chart", viewBox: `0 0 ${W} ${H}`, role: "img" }, host);
+    const text = (x: number, y: number, anchor: string) => element("text", { x, y, "text-anchor": anchor, class: "tick" }, this.svg);
+    this.marks = {
+      grid: element("path", { class: "grid" }, this.svg),
+      low: text(LEFT - 5, H - BOTTOM + 3, "end"),
+      high: text(LEFT - 5, TOP + 9, "end"),
+      left: text(LEFT, H - 5, "start"),
+      right: text(W - RIGHT, H - 5, "end"),
+      cursor: element("path", { class: "cursor" }, this.svg),
+      dot: element("circle", { class: "dot", r: 3.5 }, this.svg),
+    };
+  }
+
+  label(text: string): void {
+    this.svg.setAttribute("aria-label", text);
+  }
+
+  /** The last curve is the current one; values are in units of `factor`. */
+  set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string]): void {
+    this.x = x;
+    let [low, high] = [Infinity, -Infinity];
+    for (const { values } of curves)
+      for (let i = 0; i < values.length; i++) {
+        if (values[i] < low) low = values[i];
+        if (values[i] > high) high = values[i];
+      }
+    if (!(high >= low)) [low, high] = [0, 1];
+    if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
+    [this.low, this.high] = [low, high];
+    curves.forEach(({ style, values }, k) => {
+      const path = this.paths.get(k) ?? element("path", {}, this.svg);
+      this.paths.set(k, path);
+      path.setAttribute("class", `curve ${style}`);
+      path.setAttribute("d", this.data(values));
+    });
+    for (const [k, path] of this.paths) if (k >= curves.length) { path.remove(); this.paths.delete(k); }
+    const zero = low < 0 && high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
+    this.marks.grid.setAttribute("d", `M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`);
+    this.marks.low.textContent = digits(low / factor, 3);
+    this.marks.high.textContent = digits(high / factor, 3);
+    [this.marks.left.textContent, this.marks.right.textContent] = ends;
+    this.svg.append(this.marks.cursor, this.marks.dot);
+  }
+
+  cursor(i: number, value: number): void {
+    const u = this.u(this.x[i]);
+    this.marks.cursor.setAttribute("d", `M${u.toFixed(1)} ${TOP}V${H - BOTTOM}`);
+    const seen = Number.isFinite(value);
+    this.marks.dot.setAttribute("visibility", seen ? "visible" : "hidden");
+    if (seen) {
+      this.marks.dot.setAttribute("cx", u.toFixed(1));
+      this.marks.dot.setAttribute("cy", this.v(value).toFixed(1));
+    }
+  }
+
+  /** The place among n positions under a point of the screen. */
+  index(clientX: number): number {
+    const box = this.svg.getBoundingClientRect(), u = ((clientX - box.left) * W) / box.width;
+    const share = (u - LEFT) / (W - LEFT - RIGHT);
+    return Math.min(this.x.length - 1, Math.max(0, Math.round(share * (this.x.length - 1))));
+  }
+
+  private u(x: number): number {
+    const a = this.x[0], b = this.x[this.x.length - 1];
+    return LEFT + ((x - a) / (b - a || 1)) * (W - LEFT - RIGHT);
+  }
+
+  private v(y: number): number {
+    return TOP + ((this.high - y) / (this.high - this.low)) * (H - TOP - BOTTOM);
+  }
+
+  private data(values: ArrayLike<number>): string {
+    let d = "", down = false;
+    for (let i = 0; i < values.length; i++) {
+      const y = values[i];
+      if (!(y === y)) {
+        down = false;
+        continue;
+      }
+      d += `${down ? "L" : "M"}${this.u(this.x[i]).toFixed(1)} ${this.v(y).toFixed(1)}`;
+      down = true;
+    }
+    return d;
+  }
+}
+
+/** The tip of a velocity vector over the cycle, to equal scales, with the vector of the position shown. */
+export class Hodograph {
+  readonly svg: SVGElement;
+  private readonly path: SVGElement;
+  private readonly vector: SVGElement;
+  private scale = 1;
+
+  constructor(host: HTMLElement) {
+    this.svg = element("svg", { class: "chart hodograph", viewBox: "-90 -90 180 180", role: "img" }, host);
+    element("path", { class: "grid", d: "M-86 0H86M0-86V86" }, this.svg);
+    this.path = element("path", { class: "curve now" }, this.svg);
+    this.vector = element("path", { class: "lw-velocity-line" }, this.svg);
+  }
+
+  set(label: string, x: ArrayLike<number>, y: ArrayLike<number>, closed: boolean): void {
+    this.svg.setAttribute("aria-label", label);
+    let largest = 0, d = "";
+    for (let i = 0; i < x.length; i++) largest = Math.max(largest, Math.abs(x[i]), Math.abs(y[i]));
+    this.scale = 80 / (largest || 1);
+    for (let i = 0; i < x.length; i++) d += `${i ? "L" : "M"}${(x[i] * this.scale).toFixed(1)} ${(-y[i] * this.scale).toFixed(1)}`;
+    this.path.setAttribute("d", d + (closed ? "Z" : ""));
+  }
+
+  cursor(x: number, y: number): void {
+    this.vector.setAttribute("d", `M0 0L${(x * this.scale).toFixed(1)} ${(-y * this.scale).toFixed(1)}`);
+  }
+}

@@ -1,0 +1,121 @@
+// What a page carries, as the Python side writes it.
+import type { Program, Stage } from "./engine";
+
+export type Language = "en" | "zh";
+export type Said = Record<Language, string>;
+
+export interface Dimension {
+  address: string;
+  value: number;
+  unit: string;
+  factor: number;
+  span: [number, number] | null;
+  positive: boolean;
+  geometry: boolean;
+}
+
+export interface Signal {
+  id: string;
+  form: "row" | "angle" | "size";
+  rows: string[];
+  kind: string;
+  name: Said;
+}
+
+export interface Figure {
+  id: string;
+  kind: "range" | "ratio" | "least" | "largest" | "rms";
+  signal: string;
+  quantity: string;
+  name: Said;
+}
+
+export interface Group {
+  name: string;
+  signature: string;
+  links: string[];
+  facts: string[];
+  dyad: boolean;
+}
+
+export interface Point {
+  key: string;
+  fixed: boolean;
+  moved: string[];
+}
+
+export interface Glyph {
+  kind: "stamp" | "bar" | "plate" | "rail" | "rod" | "stub" | "cylinder" | "passing" | "spring" | "damper" | "load";
+  layer: string;
+  at?: string;
+  along?: string | number;
+  svg?: string;
+  shift?: number;
+  role?: string;
+  points?: string[];
+  joint?: string;
+  through?: string;
+  tie?: string;
+  reach?: string[];
+  side?: number;
+  length?: number;
+  barrel?: number;
+  piston?: number;
+  load?: string;
+}
+
+export interface Steady {
+  driver: string;
+  turns: boolean;
+  start: number;
+  step: number;
+  speed: number;
+  begin: number;
+}
+
+export interface ModelData {
+  name: string;
+  purpose: string;
+  source: string;
+  text: string;
+  module: string | null;
+  programs: Program[];
+  main: number;
+  stages: Stage[];
+  values: Record<string, number>;
+  dimensions: Dimension[];
+  positions: {
+    count: number;
+    closed: boolean;
+    period: number | null;
+    steady: Steady | null;
+    modes: Record<string, number>;
+    time: string | null;
+    arrays: Record<string, string>;
+    inputs: { name: string; turns: boolean; values: string }[];
+  };
+  fields: Record<string, string>;
+  starts: Record<string, number | string>;
+  held: { loads: string[]; friction: boolean };
+  groups: Group[];
+  signals: Signal[];
+  numbers: Figure[];
+  curves: string[];
+  points: Point[];
+  glyphs: Glyph[];
+  masses: string[];
+}
+
+export interface PageData {
+  language: Language;
+  words: Record<Language, Record<string, string>>;
+  models: ModelData[];
+}
+
+export function bytes(packed: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
+}
+
+export function floats(packed: string): Float64Array {
+  return new Float64Array(bytes(packed).buffer);
+}

@@ -1,0 +1,144 @@
+// One machine with what its user has done to it: history, variants, what is shown.
+import { signal } from "@preact/signals";
+import type { ModelData } from "./data";
+import { type Design, Model, type Values } from "./model";
+import type { Code } from "./engine";
+import type { Shown, View } from "./view";
+
+export interface Variant {
+  number: number;
+  design: Design;
+}
+
+const SHARE = 0.2;
+const SWEEP = 41;
+
+export class Session {
+  readonly model: Model;
+  readonly shown: Shown;
+  readonly version = signal(0);
+  readonly curves = signal<string[]>([]);
+  readonly variants = signal<Variant[]>([]);
+  readonly swept = signal<string | null>(null);
+  readonly hodograph = signal<string>("");
+  view: View | null = null;
+  private past: Values[] = [];
+  private future: Values[] = [];
+  private counted = 0;
+
+  constructor(readonly data: ModelData, code: Code, readonly number: number) {
+    this.model = new Model(data, code);
+    this.curves.value = data.curves;
+    const free = data.points.filter(({ key, fixed }) => !fixed && key.includes("."));
+    this.shown = {
+      paths: new Set(free.slice(0, 2).map(({ key }) => key)),
+      names: true, velocities: false, accelerations: false, forces: false, centres: false,
+    };
+  }
+
+  touched(): void {
+    this.version.value++;
+  }
+
+  /** A change begins: what was before can be had back. */
+  begin(): void {
+    this.past.push({ ...this.model.values });
+    this.future = [];
+  }
+
+  /** A change has ended; one that changed nothing leaves no step behind. */
+  end(): void {
+    const before = this.past[this.past.length - 1];
+    if (before && same(before, this.model.values)) this.past.pop();
+    if (this.view?.outside) this.view.fit();
+    this.sweep(this.swept.value);
+    this.touched();
+  }
+
+  get undoable(): boolean {
+    return this.past.length > 0;
+  }
+
+  get redoable(): boolean {
+    return this.future.length > 0;
+  }
+
+  undo(): void {
+    this.step(this.past, this.future);
+  }
+
+  redo(): void {
+    this.step(this.future, this.past);
+  }
+
+  private step(from: Values[], to: Values[]): void {
+    const values = from.pop();
+    if (!values) return;
+    to.push({ ...this.model.values });
+    this.go(values);
+  }
+
+  /** Takes given values as a step of its own. */
+  take(values: Values): void {
+    this.begin();
+    this.go(values);
+  }
+
+  private go(values: Values): void {
+    this.model.change({ ...values });
+    this.view?.fit();
+    this.sweep(this.swept.value);
+    this.touched();
+  }
+
+  keep(): void {
+    this.variants.value = [...this.variants.value, { number: ++this.counted, design: this.model.design() }];
+  }
+
+  forget(number: number): void {
+    this.variants.value = this.variants.value.filter((each) => each.number !== number);
+  }
+
+  /** Paths of the shown points while a dimension varies about its present value, as far as the machine can. */
+  sweep(address: string | null): void {
+    this.swept.value = address;
+    const rows: { x: Float64Array; y: Float64Array }[] = [];
+    if (address) {
+      const { model } = this, here = model.values[address], reach = SHARE * (Math.abs(here) || model.size);
+      for (let k = 0; k < SWEEP; k++) {
+        const tried = { ...model.values, [address]: here + reach * ((2 * k) / (SWEEP - 1) - 1) };
+        if (model.evaluate(tried)) continue;
+        for (const key of this.shown.paths)
+          rows.push({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() });
+      }
+      model.evaluate(model.values);
+    }
+    this.view?.ghosts(rows);
+  }
+
+  /** The model's text with the changed numbers in their places, and the names of those that have none. */
+  text(): { text: string; missing: string[] } {
+    let { text } = this.data;
+    const missing: string[] = [];
+    const changed = this.data.dimensions.filter((d) => this.model.values[d.address] !== d.value);
+    for (const d of [...changed].sort((a, b) => (b.span?.[0] ?? 0) - (a.span?.[0] ?? 0))) {
+      if (!d.span) missing.push(d.address);
+      else text = splice(text, d.span, written(this.model.values[d.address] / d.factor));
+    }
+    return { text, missing };
+  }
+}
+
+/** Offsets count characters beyond the basic plane as one, as Python does. */
+function splice(text: string, [start, end]: [number, number], by: string): string {
+  const all = [...text];
+  return all.slice(0, start).join("") + by + all.slice(end).join("");
+}
+
+function written(value: number): string {
+  return String(Number(value.toPrecision(10)));
+}
+
+function same(a: Values, b: Values): boolean {
+  return Object.keys(b).every((name) => a[name] === b[name]);
+}
