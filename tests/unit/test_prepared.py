@@ -1,5 +1,7 @@
 """A prepared mechanism gives what solving each design by itself gives."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -70,3 +72,69 @@ driver: {turn: crank, about: O, speed: 10 rad/s}
     found = lw.prepare(mechanism, vary=["alpha"]).solve({"alpha": 1.0})
     alone = lw.solve_motion(mechanism.with_dimensions({"alpha": 1.0}))
     assert found.motion.point("B").position == pytest.approx(alone.point("B").position, abs=1e-12)
+
+
+GAP = Path(__file__).parents[1] / "reference" / "faults" / "gap_between_samples.yaml"
+
+
+@pytest.mark.parametrize("steps", [5, 360])
+def test_a_gap_between_two_positions_bars_what_lies_beyond(steps: int) -> None:
+    mechanism = lw.load(GAP)
+    address = next(a for a in mechanism.dimensions() if a.startswith("coupler") and a.endswith("length"))
+    prepared = lw.prepare(mechanism, vary=[address], steps=steps)
+    for change in (0.0, 1e-4, -1e-4):
+        changes = {address: mechanism.dimension(address) + change}
+        alone = lw.solve_motion(mechanism.with_dimensions(changes), steps=steps, failures="mark")
+        found = prepared.solve(changes, failures="mark").motion
+        assert found.ok.tolist() == alone.ok.tolist()
+        assert list(found.notes) == list(alone.notes)
+
+
+PARALLELOGRAM = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [2 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 0.9 m}
+  coupler: {points: [A, B], length: 2 m}
+  rocker: {points: [O2, B], length: 1 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 1 rad/s, start: 20 deg}
+"""
+
+
+@pytest.mark.parametrize("steps", [45, 359])
+def test_a_design_that_becomes_a_parallelogram_stays_one(steps: int) -> None:
+    prepared = lw.prepare(lw.loads(PARALLELOGRAM), vary=["crank.length"], steps=steps)
+    motion = prepared.solve({"crank.length": 1.0}, failures="mark").motion
+    turn = motion.link("rocker").angle - motion.link("crank").angle
+    assert np.nanmax(np.abs(turn)) < 2e-9
+    assert len([note for note in motion.notes if "the motion goes on smoothly" in note]) == 2
+
+
+def test_designs_of_a_sweep_that_cannot_pass_between_two_positions_fail() -> None:
+    """The gap opens where the rocker is shorter than 0.7 m: at the frame line A comes to 0.2 m of O2."""
+    mechanism = lw.load(GAP)
+    lengths = np.array([0.69, 0.695, 0.6999, 0.7001, 0.72])
+    found = lw.sweep(mechanism, {"rocker.length": lengths}, outputs=[("B.velocity", "max")], steps=5)
+    alone = [
+        lw.solve_motion(mechanism.with_dimensions({"rocker.length": x}), steps=5, failures="mark").ok
+        for x in lengths
+    ]
+    assert found.ok.tolist() == [False, False, False, True, True] == [bool(ok.all()) for ok in alone]
+    assert found.assembled.tolist() == [int(ok.sum()) for ok in alone]
+    values = found["B.velocity", "max"]
+    assert np.isfinite(values).tolist() == found.ok.tolist()
+    said = " ".join(failure.example for failure in found.failures())
+    assert "cannot be assembled in a short stretch" in said
+
+
+def test_designs_whose_guides_become_parallel_fail() -> None:
+    from tests.failures.test_guides_become_parallel import RPP, model
+
+    swing = model(RPP, 'position: "-0.5 rad + 0.4 rad * sin(2*pi*t/(1 s))"', "duration: 1 s")
+    moved = swing.with_dimensions({"inner.direction": 0.2})
+    assert not lw.solve_motion(moved, steps=40, failures="mark").ok.all()
+    found = lw.sweep(
+        swing, {"inner.direction": np.array([0.0, 0.05, 0.2])}, outputs=[("A.velocity", "max")], steps=40
+    )
+    assert found.ok.tolist() == [True, True, False]

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.search import ends, lowest
 from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.size import mechanism_size
@@ -96,15 +97,28 @@ def passages(solver: MotionSolver, positions: Positions, followed: Followed | No
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not is_way(positions):
         return []
-    parts = _parts(solver, positions)
-    if parts == 1:
+    count = parts(solver, positions)
+    if count == 1:
         return _Search(solver, positions, followed).found()
-    divided = _divided(solver, positions, parts)
+    divided = _divided(solver, positions, count)
     followed = None if followed is None else solver.follow(divided)
-    return _Search(solver, divided, followed, parts).found_between()
+    return _Search(solver, divided, followed, count).found_between()
 
 
-def _parts(solver: MotionSolver, positions: Positions) -> int:
+def nearness(solver: MotionSolver) -> Scalar:
+    """How near the dyads are to what :func:`passages` finds, traced: the least quality, or squared distance of outer
+    pins over the size. Above :data:`NEAR` and what it changes by in one step nothing lies between two positions."""
+    size = mechanism_size(solver.mechanism)
+    found: Scalar = 1.0
+    for placed in solver.motion.placed.values():
+        if placed.dyad is not None:
+            found = minimum(found, placed.quality)
+        if "distance²" in placed.facts:
+            found = minimum(found, placed.facts["distance²"] * (1.0 / size**2))
+    return found
+
+
+def parts(solver: MotionSolver, positions: Positions) -> int:
     """How often the steps of a cycle must be divided, so that no driver moves farther than :data:`FINE` in one."""
     if not positions.cycle or not positions.coordinates:
         return 1

@@ -24,7 +24,8 @@ class Failure:
     """Designs that fail for one reason.
 
     ``group``: the first group that fails (None where it is a load, or cannot be told); ``kind``: ``unreachable``,
-    ``singular``, ``load`` or ``followed``; ``designs``: their numbers; ``example``: what happens to the first one.
+    ``singular``, ``barred`` (between two positions), ``load`` or ``followed``; ``designs``: their numbers;
+    ``example``: what happens to the first one.
     """
 
     group: str | None
@@ -78,7 +79,12 @@ def _by_group(
     sums = np.stack([np.asarray(results[reduction.name], dtype=float) for reduction in wanted])
     worst = np.argmax(sums, axis=0)
     found = []
-    for place in np.unique(worst):
+    between = np.flatnonzero(sums.max(axis=0) == 0)
+    if len(between):
+        sentence = sentence_of(traced, changes_of(columns, int(between[0])))
+        found.append(Failure(None, "barred", numbers[between], sentence))
+        worst[between] = -1
+    for place in np.unique(worst[worst >= 0]):
         mine = np.flatnonzero(worst == place)
         kind, _, group = wanted[place].output.partition(":")
         sentence = sentence_of(traced, changes_of(columns, int(mine[0])))

@@ -96,7 +96,7 @@ def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
 def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
     """Why a design cannot pass its cycle."""
     try:
-        motion = OneByOne(traced).motion(changes)
+        motion = OneByOne(traced, flipping=True).motion(changes)
     except LinkwrightError as error:
         return error.sentence
     if motion.ok.all():

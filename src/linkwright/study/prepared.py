@@ -10,12 +10,13 @@ import numpy as np
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.change_points import NEAR, is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.rows import Rows
+from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces
@@ -23,6 +24,9 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
+
+#: The row of how near a group is to a change point or a gap.
+NEAREST = "nearest change point"
 
 Backend = Literal["auto", "numpy", "llvm"]
 
@@ -67,7 +71,7 @@ class Prepared:
         self.solver = MotionSolver(mechanism, Manner(frozenset(vary)))
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
-        self._names = (*motion[:-1], *forces, "outcome")
+        self._names = (*motion[:-1], *forces, NEAREST, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
@@ -75,6 +79,7 @@ class Prepared:
         self._base = np.array([nominal[name] for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         self._plain = not (self.program.fields or self.program.states)
+        self._fine = is_way(positions) and parts(self.solver, positions) == 1
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[object, ...]]:
         return Prepared, (self.mechanism, self.vary, self.positions, self.backend)
@@ -82,7 +87,13 @@ class Prepared:
     def _trace(self) -> Program:
         motion, forces = self.solver.outputs, self.force_solver.outputs
         stored = set(motion.standard())
-        values = {name: (motion if name in stored else forces).value(name) for name in self._names}
+        values = {
+            name: (motion if name in stored else forces).value(name)
+            for name in self._names
+            if name != NEAREST
+        }
+        values[NEAREST] = nearness(self.solver)
+        values["outcome"] = values.pop("outcome")
         return Program.of(self.solver.motion.trace, values)
 
     def _evaluator(self, backend: Backend) -> Callable[[Floats], Floats]:
@@ -107,14 +118,13 @@ class Prepared:
             PositionError: a position cannot be reached, and ``failures`` is ``raise``.
         """
         design = Design(self.mechanism, self.solver.assembly.modes, changes)
-        if not self._plain:
+        if not (self._plain and self._fine):
             return self._solve_in_turn(design, failures)
         values = self._evaluate(self._table(changes))
+        near = values[-2]
+        if np.count_nonzero(values[-1]) or near.min() < NEAR + np.abs(near[1:] - near[:-1]).max():
+            return self._solve_in_turn(design, failures)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
-        if np.count_nonzero(values[-1]):
-            if failures == "raise":
-                raise refusal(motion)
-            values[:-1, values[-1] != 0.0] = np.nan
         return Forces(motion, self.force_solver, {}, False, motion.rows)
 
     def _table(self, changes: Mapping[str, float]) -> Floats:
@@ -133,22 +143,8 @@ class Prepared:
             raise RequestError(Sentence("study.zero_not_named", address=address))
 
     def _solve_in_turn(self, design: Design, failures: str) -> Forces:
-        """Motion first, as loads or iterations need it."""
+        """Motion first: where loads or iterations need it, or change points and gaps may lie between positions."""
         for address in set(design.changes) - set(self.vary):
             self._refuse_fixed(address)
-        followed = self.solver.follow(self.positions, design)
-        states = {} if followed is None else followed.states
-        names = tuple(self.solver.outputs.standard())
-        values = self.solver.evaluate(names, self.positions, states, {}, design)
-        index = {name: i for i, name in enumerate(names)}
-        barred = np.zeros(self.positions.count)
-        for row in states.values():
-            barred = np.where(np.isfinite(row), barred, 1.0)
-        motion = Motion(
-            self.solver, design, self.positions, states, {}, Rows(values, index), (), barred, followed
-        )
-        if not motion.ok.all():
-            if failures == "raise":
-                raise refusal(motion)
-            values[:-1, ~motion.ok] = np.nan
-        return run_forces(motion, False, self.force_solver)
+        solver = self.solver.for_design(design)
+        return run_forces(MotionRun(solver, self.positions).solve(failures), False)

@@ -15,14 +15,13 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend, Progress, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.threads import chunks
-from linkwright.kinematics.change_points import NEAR
 from linkwright.kinematics.cycle import Positions
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import MARGIN, Following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.study.loads import OneByOne
-from linkwright.study.touching import Touching
+from linkwright.study.loads import OneByOne, changes_of
+from linkwright.study.touching import Touching, near_enough
 from linkwright.study.traced import NEAREST, VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -157,20 +156,30 @@ class SweepRun:
         return OneByOne(Traced(self.mechanism, self.columns, self.positions, flipping=True), flipping=True)
 
     def _through_change_points(self, results: Results, part: Mapping[str, Floats], first: int) -> Results:
-        """The same results, those of designs that touch a change point between two positions done again."""
+        """The same results, those of designs that touch a change point between two positions done again.
+
+        Designs that cannot pass there count the positions that they reach, and have no summaries.
+        """
         with np.errstate(invalid="ignore"):
             near = np.flatnonzero(
-                (np.asarray(results[f"{NEAREST}.min"]) < NEAR)
+                (np.asarray(results[f"{NEAREST}.min"]) < near_enough(self.positions))
                 & (results["valid.count"] == self.positions.count)
             )
         if not len(near) or self.program.states or self.positions.count < 3:
             return results
         touching = near[self._touching.designs({a: c[near] for a, c in part.items()})]
+        reached = {k: int(self._flipping.motion(changes_of(part, k)).ok.sum()) for k in touching.tolist()}
+        barred = [k for k, count in reached.items() if count < self.positions.count]
+        touching = np.setdiff1d(touching, barred)
         if len(touching):
             found = self._one_by_one(self._flipping, {a: c[touching] for a, c in part.items()})
             again = self._noted(found, first + touching)
             for name, column in again.items():
                 results[name][touching] = column
+        for column in results.values():
+            if column.dtype.kind == "f":
+                column[barred] = np.nan
+        results["valid.count"][barred] = [reached[k] for k in barred]
         return results
 
     def _reduced(

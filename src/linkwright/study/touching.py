@@ -1,7 +1,8 @@
-"""Which of many designs touch a change point between two positions.
+"""Which of many designs touch a change point between two positions, or cannot pass there.
 
-There the square under a dyad's root comes down to zero and rises again. Small minima over the positions are refined
-in all designs together, by sections of the stretch between the neighbouring positions.
+At a change point the square under a dyad's root comes down to zero and rises again, in a gap it falls below. Small
+minima over the positions are refined in all designs together, by sections of the stretch between the neighbouring
+positions. Where guides become parallel their sine changes its sign.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import NEAR, TOUCH
+from linkwright.kinematics.cycle import Positions
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -23,6 +25,18 @@ Numbers = NDArray[np.intp]
 
 #: Designs whose positions are evaluated together.
 BLOCK = 4096
+#: How much the quality of a group rises, at most, over the square of the way from its zero, 1/rad².
+STEEP = 25.0
+
+
+def near_enough(positions: Positions) -> float:
+    """The quality of a group below which it may come to zero on the way to a neighbouring position."""
+    steps = [
+        np.abs(np.diff(q)).max(initial=0.0)
+        for name, (q, *_) in positions.coordinates.items()
+        if positions.rotary[name]
+    ]
+    return max(NEAR, STEEP * max(steps, default=0.0) ** 2)
 
 
 class Touching:
@@ -34,12 +48,14 @@ class Touching:
         self.groups = tuple(modal_groups(traced.solver.structure))
         qualities = {name: placed[name].quality for name in self.groups}
         program = Program.of(traced.solver.motion.trace, qualities)
+        sines = {name: each.facts["sine"] for name, each in placed.items() if "sine" in each.facts}
+        self.sines = NumpyProgram(Program.of(traced.solver.motion.trace, sines)) if sines else None
         nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in program.nodes)
         self.along = NumpyProgram(program)
         self.anywhere = NumpyProgram(Program(nodes, program.outputs))
 
     def designs(self, columns: Mapping[str, Floats]) -> Numbers:
-        """Numbers of the designs that touch a change point between two positions."""
+        """Numbers of the designs that touch a change point, or may not pass, between two positions."""
         count = len(next(iter(columns.values())))
         found = [
             first + self._block({a: column[first : first + BLOCK] for a, column in columns.items()})
@@ -48,19 +64,38 @@ class Touching:
         return np.concatenate(found) if found else np.empty(0, dtype=np.intp)
 
     def _block(self, columns: Mapping[str, Floats]) -> Numbers:
+        return np.union1d(self._low(columns), self._parallel(columns))
+
+    def _parallel(self, columns: Mapping[str, Floats]) -> Numbers:
+        """Designs in which guides become parallel between two positions."""
+        if self.sines is None:
+            return np.empty(0, dtype=np.intp)
+        positions = self.traced.positions
+        table = self.traced.table(self.sines.program, columns)
+        sign = np.sign(self.sines.run_designs(table, positions.arrays, length=positions.count))
+        following = (
+            np.roll(sign, -1, axis=2) if positions.closed else sign[:, :, [*range(1, sign.shape[2]), -1]]
+        )
+        return np.flatnonzero((sign * following < 0.0).any(axis=(1, 2)))
+
+    def _low(self, columns: Mapping[str, Floats]) -> Numbers:
+        if not self.groups:
+            return np.empty(0, dtype=np.intp)
         table = self.traced.table(self.along.program, columns)
         quality = self.along.run_designs(
             table, self.traced.positions.arrays, length=self.traced.positions.count
         )
         before, after = np.roll(quality, 1, axis=2), np.roll(quality, -1, axis=2)
-        valleys = (np.abs(quality) < NEAR) & (quality <= before) & (quality < after)
+        valleys = (
+            (np.abs(quality) < near_enough(self.traced.positions)) & (quality <= before) & (quality < after)
+        )
         if not self.traced.positions.closed:
             valleys[:, :, [0, -1]] = False
         design, group, place = np.nonzero(valleys)
         if not len(design):
             return design
         least = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
-        return np.unique(design[np.abs(least) <= TOUCH])
+        return np.unique(design[least <= TOUCH])
 
     def _refined(self, table: Floats, group: Numbers, place: Numbers) -> Floats:
         """The smallest value of each group's quality between the neighbours of a position."""

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Mask, Scalar, minimum, select
+from linkwright.engine.trace import Mask, Scalar, select
 from linkwright.errors import RequestError
 from linkwright.kinematics.assembly import modal_groups
+from linkwright.kinematics.change_points import nearness
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner, motion_programs
@@ -94,12 +95,8 @@ class Traced:
 
     @cached_property
     def nearest(self) -> Scalar:
-        """The smallest closeness of all dyads with two assembly modes, as a traced value."""
-        placed = self.solver.motion.placed
-        found: Scalar = 1.0
-        for name in modal_groups(self.solver.structure):
-            found = minimum(found, placed[name].quality)
-        return found
+        """How near the dyads are to a change point or a gap, as a traced value."""
+        return nearness(self.solver)
 
     def numbers(self, program: Program) -> Floats:
         """The nominal values of the program's parameters."""
