@@ -66,6 +66,30 @@ def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: lis
         assert gradient[place] == pytest.approx(difference, rel=1e-6, abs=1e-8 * abs(value))
 
 
+def test_a_study_of_many_designs_equals_the_design_alone() -> None:
+    """Numbers of the shared output and the flywheel among them; a design that cannot move is left out."""
+    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    names = [
+        "travel",
+        "output_acceleration",
+        "pivot_reaction",
+        "flywheel",
+        "energy_fluctuation",
+        "peak_reaction",
+    ]
+    lengths = mechanism.dimension("rocker.length") * np.array([*np.linspace(0.99, 1.01, 11), 30.0])
+    many = lw.study(mechanism, {"rocker.length": lengths}, metrics=names, fluctuation=0.05)
+    assert many.ok.tolist() == [True] * 11 + [False]
+    one = lw.study(many.design(3), {"jaw.mass": "200 kg"}, metrics=names, fluctuation=0.05)
+    same = lw.study(many.design(3), {"gravity.x": [0.0]}, metrics=names, fluctuation=0.05)
+    for name in names:
+        assert many[name][3] == pytest.approx(same[name][0], rel=1e-11), name
+        assert np.isnan(many[name][11])
+    assert one["flywheel"][0] != same["flywheel"][0]
+    running = lw.steady_running(lw.solve_forces(many.design(3)), fluctuation=0.05)
+    assert many["flywheel"][3] == pytest.approx(running.flywheel, rel=1e-9)
+
+
 def test_a_metric_of_another_package_goes_the_same_way() -> None:
     """Mean force on a joint times the swing of the jaw, registered as anybody may."""
 

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.piecewise import POINTS, Piecewise, nodes
 from linkwright.core.search import lowest
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
@@ -168,6 +169,8 @@ class Analysis:
         signal = self.signal(summary.output)
         if kind in ("mean", "rms"):
             return replace(nothing, value=(self.mean_of if kind == "mean" else self.rms_of)(signal))
+        if kind == "excess":
+            return replace(nothing, value=self._excess(signal))
         if kind in ("max", "min"):
             return self._extreme(signal, kind) or replace(nothing, exact=False)
         high, low = self._extreme(signal, "max"), self._extreme(signal, "min")
@@ -180,6 +183,16 @@ class Analysis:
             return replace(largest, value=abs(largest.value))
         found = high if kind == "argmax" else low
         return replace(found, value=found.input)
+
+    def _excess(self, signal: Callable[[Motion | Forces], Floats]) -> float:
+        """Largest difference of the integral over the first driver's way of a signal's lack of its mean."""
+        if self.grid is None:
+            return float("nan")
+        curve = self.grid.curve(signal, "forces", halve=True)
+        mean = curve.total / (self.grid.end - self.grid.start)
+        work = Piecewise(curve.edges, mean - curve.values).integral()
+        energy = Piecewise(curve.edges, work(nodes(curve.edges).ravel()).reshape(-1, POINTS))
+        return float(abs(self.input_rate[0])) * (energy.extreme("max").value - energy.extreme("min").value)
 
     def _extreme(self, signal: Callable[[Motion | Forces], Floats], kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"

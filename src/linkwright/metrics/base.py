@@ -104,6 +104,13 @@ class Number:
     dimension: str | None = None
     at: Callable[..., float] = _first
 
+    def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
+        """Value, place, and whether it is exact between the positions, of one machine."""
+        parts = [analysis.part(part) for part in self.parts]
+        found = self.formula(*(part.value for part in parts))
+        assert isinstance(found, float)
+        return float(found), self.at(*parts), all(part.exact for part in parts)
+
 
 class Metric(ABC):
     """One design number of a mechanism, from ``numbers`` or, where it is no formula of summaries, from ``values``.
@@ -175,11 +182,7 @@ class Metric(ABC):
         numbers = tuple(self.numbers(analysis))
         analysis.ask(part for number in numbers for part in number.parts)
         for number in numbers:
-            parts = [analysis.part(part) for part in number.parts]
-            found = number.formula(*(part.value for part in parts))
-            assert isinstance(found, float)
-            value = float(found)
-            at, exact = number.at(*parts), all(part.exact for part in parts)
+            value, at, exact = number.measured(analysis)
             remarks = self.remarks(value, at, analysis)
             yield self.value(
                 analysis,

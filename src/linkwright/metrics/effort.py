@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from linkwright.engine.trace import Scalar, absolute, select
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+
+#: A mean power of this share of the largest one is zero but for rounding.
+IDLE = 1e-9
 
 
 class EffortMetric(Metric):
@@ -65,4 +69,11 @@ class MeanPower(PowerMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
 
     name = "mean_power"
-    summary = "mean"
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        yield Number(analysis.motion.mechanism.name, ("power mean", "power peak"), _work)
+
+
+def _work(mean: Scalar, peak: Scalar) -> Scalar:
+    """The mean, zero where it is but rounding."""
+    return select(absolute(mean) <= IDLE * peak, 0.0, mean)

@@ -23,6 +23,7 @@ from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
+from linkwright.study.terms import pivot
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
@@ -78,15 +79,7 @@ class Alternative:
     @property
     def pivot(self) -> tuple[str, str]:
         """Joint and link where the output is carried by the frame."""
-        if self.output.kind == "displacement":
-            joint = self.mechanism.joints[self.output.owner]
-            return self.output.owner, next(link for link in joint.joined if link != "frame")
-        owner = self.output.owner.split(".")[0]
-        at_frame = [n for n, j in self.mechanism.joints.items() if {"frame", owner} <= set(j.joined)]
-        return (at_frame[0] if at_frame else self._first_joint(owner)), owner
-
-    def _first_joint(self, link: str) -> str:
-        return next(name for name, joint in self.mechanism.joints.items() if link in joint.joined)
+        return pivot(self.mechanism, self.output)
 
     @property
     def pivot_force(self) -> Floats:

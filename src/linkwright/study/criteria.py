@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.motion import Motion
 from linkwright.metrics import METRICS, Metric, MetricValue
-from linkwright.metrics.outputs import rate, second, turns_fully
-from linkwright.metrics.reactions import size
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
-from linkwright.study.alternatives import IDLE, Alternative
+from linkwright.study.alternatives import Alternative
+from linkwright.study.terms import OWN, Asked, own
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
@@ -67,7 +64,8 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
 def criterion(name: str) -> Criterion:
     """``peak_reaction``, ``peak_reaction O5``, ``flywheel``, or a summary such as ``driver.effort rms``."""
     if name in OWN:
-        return OWN[name]
+        forces = name in ("pivot_reaction", "flywheel")
+        return Criterion(name, OWN[name][1], lambda each: _own(each, name), forces)
     if is_summary(name):
         return Criterion(name, _better(name), lambda each: _summary(each, name), True)
     metric, _, subject = name.partition(" ")
@@ -104,9 +102,18 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
             )
         return None
     worst = _governing(found, metric)
-    if metric.name == "mean_power" and abs(worst.value) <= IDLE * np.abs(each.forces.power).max():
-        return Measured(0.0, worst.dimension)
     return Measured(worst.value, worst.dimension, worst.at)
+
+
+def _own(each: Alternative, name: str) -> Measured | None:
+    """A number of the shared output."""
+    if name == "flywheel" and each.running is None:
+        return None
+    found = own(name, each.analysis, Asked(each.output, each.fluctuation))
+    if found is None:
+        return None
+    value, at, _ = found.numbers[0].measured(each.analysis)
+    return Measured(value, found.dimension, None if np.isnan(at) else at)
 
 
 def _of_output(each: Alternative, metric: Metric, values: Iterable[MetricValue]) -> list[MetricValue]:
@@ -138,51 +145,6 @@ def _summary(each: Alternative, name: str) -> Measured:
     return Measured(float(found.summaries[summary][0]), found.dimension(summary))
 
 
-# own ----------------------------------------------------------------------------------------
-def _travel(each: Alternative) -> Measured | None:
-    """Swing or stroke between the limits; a turning output has none."""
-    if turns_fully(each.motion, each.output):
-        return None
-    limits = [limit.value for limit in each.analysis.limits(each.output)]
-    values = np.array(limits) if len(limits) > 1 else each.travel()[0]
-    return Measured(float(np.ptp(values)), each.output.dimension)
-
-
-def _rate(each: Alternative) -> Measured | None:
-    dimension = "angular_velocity" if each.output.kind == "angle" else "velocity"
-    return _largest(each, lambda motion: np.abs(rate(motion, each.output)), dimension)
-
-
-def _acceleration(each: Alternative) -> Measured | None:
-    dimension = "angular_acceleration" if each.output.kind == "angle" else "acceleration"
-    return _largest(each, lambda motion: np.abs(second(motion, each.output)), dimension)
-
-
-def _largest(each: Alternative, signal: Callable[[Motion], Floats], dimension: str) -> Measured | None:
-    found = each.analysis.extreme(signal, "max")
-    return None if found is None else Measured(found.value, dimension, found.input)
-
-
-def _pivot(each: Alternative) -> Measured | None:
-    found = each.analysis.extreme(size(*each.pivot), "max", of="forces")
-    return None if found is None else Measured(found.value, "force", found.input)
-
-
-def _flywheel(each: Alternative) -> Measured | None:
-    running = each.running
-    return None if running is None else Measured(float(running.flywheel), "inertia")
-
-
-OWN: Mapping[str, Criterion] = {
-    each.name: each
-    for each in (
-        Criterion("travel", None, _travel),
-        Criterion("output_velocity", None, _rate),
-        Criterion("output_acceleration", "lower", _acceleration),
-        Criterion("pivot_reaction", "lower", _pivot, forces=True),
-        Criterion("flywheel", "lower", _flywheel, forces=True),
-    )
-}
 #: What is compared when nobody says what.
 USUAL = (
     "travel",

@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.metrics.reactions import size
 from linkwright.study.alternatives import Alternative
-from linkwright.study.criteria import OWN
+from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.width import aligned
@@ -125,7 +125,7 @@ def _motion(comparison: Comparison, say: Say) -> str:
 
 def _measured(each: Alternative, name: str) -> str:
     """A number of the comparison for a sentence; empty where there is none."""
-    found = OWN[name].measure(each)
+    found = criterion(name).measure(each)
     return "" if found is None else told(found.value, found.dimension)
 
 

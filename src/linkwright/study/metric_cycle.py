@@ -30,7 +30,7 @@ from linkwright.model.signal_fields import Output
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
 from linkwright.study.limit_stages import limit_stages
 from linkwright.study.loaded_cycle import along_input, one_turn
-from linkwright.study.terms import Term, all_parts, term
+from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -51,12 +51,12 @@ def metric_cycle(
     names: Iterable[str],
     *,
     steps: int = 360,
-    preferred: str = "",
+    asked: Asked | None = None,
 ) -> MetricCycle | None:
     """Registered metrics (``peak_reaction``, ``peak_reaction O5``) of all designs of a mechanism with some dimensions
     changed, as cycle values; those that apply to it and are formulas of summaries.
 
-    ``steps``: of the motion by which it is judged what applies; ``preferred``: see ``terms.term``. None where the
+    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the cycle is no single turn of one driver of constant speed, groups have no closed
     form, the way passes change points, loads do not follow the input, or polynomials do not meet the machine itself.
     """
@@ -67,7 +67,7 @@ def metric_cycle(
     if plain.nominal.modes:
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
-    terms = [each for name in given if (each := term(name, analysis, preferred)) is not None]
+    terms = [each for name in given if (each := term(name, analysis, asked)) is not None]
     outputs = [part.output for part in map(one, all_parts(terms)) if part.kind not in _PLACES]
     loads = along_input(plain, addresses, plain.program(plain.quantities(outputs)).fields)
     if loads is None:

@@ -23,8 +23,10 @@ from linkwright.study.alternatives import Alternative, has_loads, output_of_mach
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
+from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.sampling import MOST, grid, sobol
+from linkwright.study.terms import Asked
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
 
@@ -37,6 +39,8 @@ Floats = NDArray[np.float64]
 Sampling = Literal["grid", "sobol"]
 Progress = Callable[[int, int], None]
 
+#: Fewer designs than this are solved one by one.
+FEW = 8
 #: What is measured when nobody says what, as far as it applies.
 USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
 
@@ -258,11 +262,17 @@ class _Work:
         ok = found.ok.copy()
         if not ok.any():
             raise LinkwrightError(_none_moves(self.count, found.failures()))
-        single = [each for each in self.asked if not is_summary(each.name)]
-        for done, index in enumerate(np.flatnonzero(ok) if single else (), 1):
-            self._measure(int(index), single)
-            if self.progress is not None:
-                self.progress(done, int(ok.sum()))
+        numbers = [each for each in self.asked if not is_summary(each.name)]
+        together = self._together(numbers, np.flatnonzero(ok)) if numbers else {}
+        alone = {
+            int(index): [each for each in numbers if index not in together.get(each.name, ())]
+            for index in np.flatnonzero(ok)
+        }
+        for done, (index, single) in enumerate(alone.items(), 1):
+            if single:
+                self._measure(index, single)
+            if self.progress is not None and numbers:
+                self.progress(done, len(alone))
         failures = [*found.failures(), *self._troubles()]
         ok[list(self.troubled)] = False
         if not ok.any():
@@ -273,6 +283,21 @@ class _Work:
             self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
             (*found.notes, *self.notes),
         )  # fmt: skip
+
+    def _together(self, asked: list[Criterion], designs: NDArray[np.intp]) -> dict[str, set[int]]:
+        """Numbers of many designs at once; which designs' they are certain of, by name."""
+        if len(designs) < FEW:
+            return {}
+        wanted = Asked(self.output, self.fluctuation)
+        cycle = metric_cycle(self.mechanism, self.columns, [each.name for each in asked], asked=wanted)
+        if cycle is None:
+            return {}
+        found = cycle.evaluate({address: column[designs] for address, column in self.columns.items()})
+        sure = set(designs[found.certain].tolist())
+        for term in cycle.terms:
+            self.values[term.name][designs[found.certain]] = found.values[term.name][found.certain]
+            self.dimensions[term.name] = term.dimension
+        return {term.name: sure for term in cycle.terms}
 
     def _closed(self) -> bool:
         """Whether there is a group with a closed form."""

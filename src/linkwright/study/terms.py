@@ -9,8 +9,13 @@ from functools import reduce
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
 from linkwright.metrics import METRICS, Analysis
+from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.base import Metric, Number
+from linkwright.metrics.flywheel import Flywheel
+from linkwright.metrics.outputs import turns_fully
 from linkwright.metrics.summary import is_summary
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
@@ -47,21 +52,84 @@ def metric_of(name: str) -> tuple[type[Metric], str] | None:
     return (METRICS[metric], subject) if metric in METRICS else None
 
 
+@dataclass(frozen=True)
+class Asked:
+    """What numbers of a machine's own output depend on besides the machine: the ``output`` that it shares with
+    others, and δ, the coefficient of speed ``fluctuation``."""
+
+    output: Output
+    fluctuation: float
+
+
+def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
+    """``travel``, ``output_velocity``, ``output_acceleration``, ``pivot_reaction`` or ``flywheel``; None where the
+    machine has none."""
+    output, dimension = asked.output, OWN[name][0]
+    turning, words = output.kind == "angle", f"{output.owner}.{output.kind}"
+    numbers: list[Number] = []
+    if name == "flywheel":
+        metric = Flywheel(asked.fluctuation)
+        numbers += metric.numbers(analysis) if metric.applies(analysis) else ()
+    elif name == "pivot_reaction":
+        joint, link = pivot(analysis.motion.mechanism, output)
+        numbers.append(Number(joint, (f"reaction {joint} on {link} max",)))
+    elif name != "travel":
+        word = name.removeprefix("output_")
+        dimension = f"angular_{word}" if turning else word
+        numbers.append(Number(str(output), (f"{output.owner}.{dimension} peak",)))
+    elif not turns_fully(analysis.motion, output):
+        dimension = output.dimension
+        numbers.append(Number(str(output), (f"{words} range",), at=_nowhere))
+    return Term(name, tuple(numbers), dimension, OWN[name][1]) if numbers else None
+
+
+#: Numbers of the shared output: their dimension and which direction is better.
+OWN: Mapping[str, tuple[str, str | None]] = {
+    "travel": ("length", None),
+    "output_velocity": ("velocity", None),
+    "output_acceleration": ("acceleration", "lower"),
+    "pivot_reaction": ("force", "lower"),
+    "flywheel": ("inertia", "lower"),
+}
+
+
+def pivot(mechanism: Mechanism, output: Output) -> tuple[str, str]:
+    """Joint and link where an output is carried by the frame."""
+    if output.kind == "displacement":
+        joint = mechanism.joints[output.owner]
+        return output.owner, next(link for link in joint.joined if link != "frame")
+    owner = output.owner.split(".")[0]
+    at_frame = [n for n, j in mechanism.joints.items() if {"frame", owner} <= set(j.joined)]
+    return next(iter(at_frame), _first_joint(mechanism, owner)), owner
+
+
+def _first_joint(mechanism: Mechanism, link: str) -> str:
+    return next(name for name, joint in mechanism.joints.items() if link in joint.joined)
+
+
+def _nowhere(*parts: Extreme) -> float:
+    return float("nan")
+
+
 def is_metric(name: str) -> bool:
     """Whether a name means a registered metric, not a summary of the output of the same name."""
     return metric_of(name) is not None and not is_summary(name)
 
 
-def term(name: str, analysis: Analysis, preferred: str = "") -> Term | None:
+def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | None:
     """A metric, ``peak_reaction`` or ``peak_reaction O5``, as a term; None where it does not apply to the machine, or
     is no formula of summaries.
 
-    ``analysis``: of the machine from which designs start; ``preferred``: the subject that counts where none is asked
-    and the metric has it. Raises RequestError for a subject that the metric does not have.
+    ``analysis``: of the machine from which designs start; ``asked``: for the numbers of the shared output, which is
+    also the subject that counts where none is asked and the metric has it. Raises RequestError for a subject that the
+    metric does not have.
     """
+    if asked is not None and name in OWN:
+        return own(name, analysis, asked)
     found = metric_of(name)
     if found is None:
         return None
+    preferred = "" if asked is None else str(asked.output)
     kind, subject = found
     metric = kind()
     if not metric.applies(analysis):
