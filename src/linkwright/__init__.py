@@ -79,6 +79,8 @@ if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis as Synthesis
     from linkwright.synthesis.result import SynthesisError as SynthesisError
     from linkwright.synthesis.tasks import synthesize as synthesize
+    from linkwright.validation.validate import Validation as Validation
+    from linkwright.validation.validate import validate as validate
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
@@ -127,6 +129,7 @@ PUBLIC = {
     "linkwright.synthesis.path_generation.generate": ("path_generation",),
     "linkwright.synthesis.result": ("Candidate", "Synthesis", "SynthesisError"),
     "linkwright.synthesis.tasks": ("synthesize",),
+    "linkwright.validation.validate": ("Validation", "validate"),
     "linkwright.worked.solution": ("Worked", "worked"),
 }
 

@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.words.width import cells
 
-PUBLISHED = Path(__file__).parents[1] / "reference" / "published"
+PUBLISHED = Path(__file__).parents[2] / "src" / "linkwright" / "validation" / "data"
 CRUSHER = "gallery:jaw_crusher_sixbar"
 #: A four-bar whose crank is too long to turn fully: 0.9 + 2 > 1.2 + 1.5.
 STUCK = """\

@@ -1,4 +1,4 @@
-"""Numbers of involute gear pairs against published ones (KHK, Calculation of gear dimensions)."""
+"""Involute gear pairs against closed forms; printed numbers are compared in test_published."""
 
 import math
 
@@ -11,21 +11,9 @@ from linkwright.gears.involute import angle_of_involute, involute
 def test_pair_of_shifted_gears() -> None:
     """m 3 mm, α 20°, z 12 and 24, x 0.6 and 0.36."""
     pair = lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36))
-    assert math.degrees(pair.working_pressure_angle) == pytest.approx(26.0885634, abs=5e-8)
-    assert 1e3 * pair.centre_distance == pytest.approx(56.4998697, abs=5e-8)
-    assert 1e3 * pair.pinion.tip_diameter == pytest.approx(44.8397394, abs=5e-8)
-    assert 1e3 * pair.wheel.tip_diameter == pytest.approx(79.3997394, abs=5e-8)
-    assert pair.contact_ratio == pytest.approx(1.20210, abs=5e-6)
     assert 1e3 * pair.pinion.base_diameter == pytest.approx(36 * math.cos(math.radians(20)), rel=1e-15)
     assert pair.tip_clearances == pytest.approx((0.25 * 3e-3, 0.25 * 3e-3), abs=1e-12)
     assert pair.findings == () and pair.ratio == -2.0
-
-
-def test_ring_and_pinion() -> None:
-    """m 3 mm, α 20°, z 16 and 24, x 0 and 0.5."""
-    pair = lw.gear_pair((16, 24), 3e-3, profile_shift=(0.0, 0.5), internal=True)
-    assert 1e3 * pair.centre_distance == pytest.approx(13.1682677, abs=5e-8)
-    assert pair.ratio == 1.5
 
 
 def test_standard_pair() -> None:
@@ -47,12 +35,8 @@ def test_seventeen_teeth_are_the_fewest_without_undercut() -> None:
     assert lw.Gear(10, 1e-3, 0.42).undercut is False
 
 
-@pytest.mark.parametrize(
-    ("degrees", "value"), [(14.5, 0.0055448), (20.0, 0.014904), (25.0, 0.029975), (26.0886, 0.034316)]
-)
-def test_involute_function(degrees: float, value: float) -> None:
-    """Table of involute functions (Machinery's Handbook); the last one belongs to the pair above."""
-    assert involute(math.radians(degrees)) == pytest.approx(value, abs=6e-7)
+@pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0, 26.0886])
+def test_involute_function_and_its_inverse(degrees: float) -> None:
     assert angle_of_involute(involute(math.radians(degrees))) == pytest.approx(
         math.radians(degrees), rel=1e-13
     )

@@ -14,7 +14,7 @@ from tests.reference.formulas import force_in_space, gravity
 from tests.reference.multibody import FRAME, Array, Body, Load, Motion, Multibody, Vec, Wrench, revolute, turn
 from tests.reference.test_multibody_itself import circle_meeting, placed
 
-PUBLISHED = Path(__file__).parent / "published"
+PUBLISHED = Path(__file__).parents[2] / "src" / "linkwright" / "validation" / "data"
 SPEED = -170 * 2 * pi / 60
 O3, O5 = (0.94, -1.0), (-1.0, 0.85)
 

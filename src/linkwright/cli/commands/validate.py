@@ -1,0 +1,35 @@
+"""``linkwright validate``: published numbers beside ours."""
+
+from __future__ import annotations
+
+import argparse
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("--case", default="", metavar="TEXT", help=say("validate.case_help"))
+    parser.add_argument("--every", action="store_true", help=say("validate.every_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Compares and prints; 1 where a number differs."""
+    from linkwright.cli.data import json_text
+    from linkwright.cli.progress import progress
+    from linkwright.validation.published import published
+    from linkwright.validation.validate import validate
+
+    wanted = options.case.casefold()
+    cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
+    if not cases:
+        raise UsageError(session.say("validate.no_case", text=options.case))
+    with progress(session.say("validate.working")) as told:
+        found = validate(cases, None if told is None else lambda done: told(done, len(cases)))
+    if session.json:
+        session.show(json_text({"ok": found.ok, "numbers": found.data()}))
+    else:
+        session.show(found.text(session.language, every=options.every))
+    return int(not found.ok)

@@ -1,0 +1,228 @@
+"""How published numbers are found here: a probe takes what is given and returns SI values by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.model.file import load
+from linkwright.plot.force_names import carries
+from linkwright.units import parse
+
+Find = Callable[[str], float]
+Probe = Callable[[Mapping[str, Any]], Find]
+
+
+def machine(given: Mapping[str, Any]) -> Find:
+    """Results of a gallery model at one input (``at``, ``input``), time, or at rest, by the names of its columns."""
+    mechanism = load(f"gallery:{given['model']}")
+    if "time" in given:
+        motion = solve_motion(mechanism, times=[parse(given["time"], "time")])
+    elif at := given.get("at", given.get("input")):
+        motion = solve_motion(mechanism, at=[parse(at, "angle")])
+    else:
+        motion = solve_motion(mechanism)
+    forces = _forces(motion)
+    values = {name.partition(" [")[0]: column[0] for name, column in (forces or motion).columns().items()}
+
+    def find(what: str) -> float:
+        if what.endswith(".direction"):
+            base = what.removesuffix(".direction")
+            return math.atan2(values[f"{base}.y"], values[f"{base}.x"])
+        if what == "input_torque" and forces is not None:
+            return float(forces.input_torque[0])
+        if what in values:
+            return float(values[what])
+        if " on " in what and forces is not None:
+            joint, link = what.rpartition(".")[0].split(" on ")
+            return float(forces.reaction(joint, on=link)[0]["xy".index(what[-1])])
+        return _of_link_point(motion, what)
+
+    return find
+
+
+def _forces(motion: Any) -> Forces | None:
+    return solve_forces(motion) if carries(motion.mechanism) else None
+
+
+def _of_link_point(motion: Any, what: str) -> float:
+    """A component of a point's motion, or a link's, that is no column of its own."""
+    name, kind, *axis = what.rsplit(".", 2) if what.endswith((".x", ".y")) else what.rsplit(".", 1)
+    if axis:
+        return float(getattr(motion.point(name), kind)[0]["xy".index(axis[0])])
+    return float(getattr(motion.link(name), kind)[0])
+
+
+def limits(given: Mapping[str, Any]) -> Find:
+    """Input and angle of a link's limit positions: ``jaw max input``."""
+    from linkwright.kinematics.limits import limit_positions
+
+    motion = _motion(given["model"], 360)
+
+    def find(what: str) -> float:
+        link, kind, value = what.split()
+        found = next(each for each in limit_positions(motion, link) if each.kind == kind)
+        return found.input if value == "input" else found.value
+
+    return find
+
+
+@lru_cache(maxsize=8)
+def _motion(model: str, steps: int) -> Any:
+    return solve_motion(load(f"gallery:{model}"), steps=steps)
+
+
+def metrics(given: Mapping[str, Any]) -> Find:
+    """Design numbers: ``stroke``, or ``stroke guide`` with its subject."""
+    from linkwright.metrics import metrics as table_of
+
+    motion = _motion(given["model"], 90)
+
+    def find(what: str) -> float:
+        name, _, subject = what.partition(" ")
+        name = name.removesuffix("_min")
+        table = table_of(motion, [name])
+        return float(table[name, subject].value if subject else table.value(name))
+
+    return find
+
+
+def structure(given: Mapping[str, Any]) -> Find:
+    """Mobility and class."""
+    from linkwright.structure import structure as analysis
+
+    found = analysis(load(f"gallery:{given['model']}"))
+    values = {"mobility": found.mobility, "grubler": found.grubler, "class": found.mechanism_class}
+    return lambda what: float(values[what])
+
+
+def gear_pair(given: Mapping[str, Any]) -> Find:
+    """Attributes of a gear pair."""
+    from linkwright.gears.pair import gear_pair as pair_of
+
+    options = {key: value for key, value in given.items() if key not in ("teeth", "module")}
+    options["profile_shift"] = tuple(options["profile_shift"])
+    return partial(_attribute, pair_of(tuple(given["teeth"]), given["module"], **options))
+
+
+def _attribute(owner: Any, path: str) -> float:
+    for name in path.split("."):
+        owner = getattr(owner, name)
+    return float(owner)
+
+
+def involute(given: Mapping[str, Any]) -> Find:
+    """The involute function of an angle."""
+    from linkwright.gears.involute import involute as value
+
+    return lambda what: float(value(parse(what, "angle")))
+
+
+def areas(given: Mapping[str, Any]) -> Find:
+    """Energy and speed fluctuation of areas of a turning moment diagram."""
+    from linkwright.machine.energy import fluctuation_from_areas
+    from linkwright.machine.flywheel import speed_fluctuation
+
+    scale = parse(given["angle_scale"], "angle")
+    energy = fluctuation_from_areas(
+        given["areas"], torque_scale=given["torque_scale"], angle_scale=scale
+    ).value
+    speed = parse(given["speed"], "angular_velocity")
+    values = {
+        "energy_fluctuation": energy,
+        "speed_fluctuation": speed_fluctuation(energy, speed, given["inertia"]),
+    }
+    return values.__getitem__
+
+
+def torque(given: Mapping[str, Any]) -> Find:
+    """Motor, energy fluctuation and flywheel of torque curves."""
+    from linkwright.machine import TorqueCurve, energy_fluctuation, flywheel_inertia, motor, speed_fluctuation
+
+    driver = TorqueCurve.from_function(given["torque"])
+    load_curve = TorqueCurve.from_function(given["load"]) if "load" in given else None
+    speed = parse(given["speed"], "angular_velocity")
+    energy = energy_fluctuation(driver, load_curve) if load_curve else energy_fluctuation(driver)
+    values = {"energy_fluctuation": energy.value, "power": motor(driver.mean, speed).power}
+    if "fluctuation" in given:
+        values["flywheel"] = flywheel_inertia(energy.value, speed, given["fluctuation"])
+    if load_curve is not None:
+        values["speed_fluctuation"] = speed_fluctuation(energy.value, speed, given["inertia"])
+        values["largest_acceleration"] = driver.minus(load_curve).extremes()[1][1] / given["inertia"]
+    return values.__getitem__
+
+
+def calculation(given: Mapping[str, Any]) -> Find:
+    """Results of a calculation of the gallery, by the path in its data."""
+    from linkwright import parts
+
+    data = parts.load(f"gallery:{given['model']}").solve().data()
+
+    def find(what: str) -> float:
+        here: Any = data
+        rest = what
+        while rest:
+            key = rest if rest in here else next(k for k in here if rest.startswith(f"{k}."))
+            here, rest = here[key], rest[len(key) + 1 :]
+        return float(here["value"] if isinstance(here, Mapping) else here)
+
+    return find
+
+
+def path(given: Mapping[str, Any]) -> Find:
+    """Sum of squares of the best four-bar through timed points."""
+    from linkwright.synthesis.path_generation.generate import path_generation
+
+    points = [tuple(each) for each in given["points"]]
+    angles = given.get("angles")
+    turned = np.radians(angles) if angles else np.arange(len(points)) * 2.0 * np.pi / len(points)
+    options: dict[str, Any] = {}
+    if given.get("fixed"):
+        options = {"phase": False, "pivot": (0, 0), "direction": 0.0}
+    best = path_generation(points, angles=turned, seed=0, **options).best
+    return lambda what: float(best.error)
+
+
+def slider_crank(given: Mapping[str, Any]) -> Find:
+    """Lengths of a slider-crank from stroke and ratios."""
+    from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
+
+    best = slider_crank_from_ratios(given["stroke"], given["rod_ratio"], given["eccentricity"]).best
+    return lambda what: float(best.values[what])
+
+
+def motion_law(given: Mapping[str, Any]) -> Find:
+    """Largest velocity, acceleration, jerk of a motion law for a rise of 1 over 1."""
+    from linkwright import motion_law as law
+
+    def find(what: str) -> float:
+        name, kind = what.split()
+        return float(getattr(law(name).peaks, kind))
+
+    return find
+
+
+def regression(given: Mapping[str, Any]) -> Find:
+    """A straight line through samples."""
+    from linkwright import parts
+
+    held = {name: parts.Numbers(tuple(given[name])) for name in ("x", "y")}
+    found = parts.Samples(held, regressions={"r": parts.Fitting("y", ("x",))}).solve().regressions["r"]
+    intercept, slope = found.coefficients
+    values = {"intercept": intercept, "slope": slope, "deviation": found.deviation}
+    return lambda what: float(values[what])
+
+
+PROBES: Mapping[str, Probe] = {
+    each.__name__: each
+    for each in (
+        machine, limits, metrics, structure, gear_pair, involute, areas, torque, calculation, path, slider_crank,
+        motion_law, regression,
+    )
+}  # fmt: skip

@@ -1,0 +1,177 @@
+"""The comparison: every published number beside ours."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from linkwright.errors import LinkwrightError
+from linkwright.units import unit
+from linkwright.validation.probes import PROBES
+from linkwright.validation.published import Printed, Published, published
+from linkwright.words import speaker
+from linkwright.words.width import aligned
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One published number and ours: ``value`` and ``expected`` in the printed unit; ``digits``: the difference in
+    units of the last printed digit; ``trouble``: why there is no value."""
+
+    case: Published
+    printed: Printed
+    value: float
+    expected: float
+    digits: float
+    trouble: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Whether ours agrees to the digits that are given; where the source is wrong, with the right number."""
+        return abs(self.digits) <= self.case.within
+
+    @property
+    def erratum(self) -> bool:
+        """Whether the printed number is known to be wrong, and ours shows it."""
+        return bool(self.printed.right)
+
+
+@dataclass(frozen=True)
+class Validation:
+    """All comparisons."""
+
+    checks: tuple[Checked, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether all agree."""
+        return all(each.ok for each in self.checks)
+
+    @property
+    def failed(self) -> tuple[Checked, ...]:
+        """Those that do not."""
+        return tuple(each for each in self.checks if not each.ok)
+
+    def cases(self) -> dict[tuple[str, str], list[Checked]]:
+        """Comparisons by case and source."""
+        found: dict[tuple[str, str], list[Checked]] = {}
+        for each in self.checks:
+            found.setdefault((each.case.case, each.case.source), []).append(each)
+        return found
+
+    def text(self, language: str = "en", *, every: bool = False) -> str:
+        """A line per case with its counts, or per number; what fails, and the errata, in full."""
+        say = speaker(language)
+        rows = [tuple(say(f"validate.{key}") for key in ("case", "numbers", "agree", "worst"))]
+        for (case, _), checks in self.cases().items():
+            worst = max(checks, key=lambda each: abs(each.digits))
+            agree = sum(each.ok for each in checks)
+            rows.append((case, str(len(checks)), str(agree), f"{abs(worst.digits):.2g}"))
+        lines = aligned(rows, "<>>>")
+        shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
+        lines += ["", *(line(each, language) for each in shown)] if shown else []
+        agree, errata = sum(each.ok for each in self.checks), sum(each.erratum for each in self.checks)
+        count = say(
+            "validate.count", agree=agree, all=len(self.checks), cases=len(self.cases()), errata=errata
+        )
+        return "\n".join([*lines, "", count])
+
+    def data(self) -> list[dict[str, object]]:
+        """Plain data."""
+        return [
+            {
+                "case": each.case.case,
+                "source": each.case.source,
+                "place": each.case.place,
+                "what": each.printed.what,
+                "printed": each.printed.text,
+                "right": each.printed.right,
+                "why": each.printed.why,
+                "ours": each.value,
+                "digits": each.digits,
+                "ok": each.ok,
+            }
+            for each in self.checks
+        ]
+
+    def markdown(self) -> str:
+        """The table of the documentation."""
+        lines = [
+            "| case | source | numbers | agree | largest difference, last digits |",
+            "|---|---|--:|--:|--:|",
+        ]
+        for (case, source), checks in self.cases().items():
+            agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
+            lines.append(f"| {case} | {source.replace('|', '/')} | {len(checks)} | {agree} | {worst:.1f} |")
+        return "\n".join(lines)
+
+
+def line(each: Checked, language: str) -> str:
+    """One number in a sentence."""
+    say = speaker(language)
+    words = {
+        "case": each.case.case,
+        "what": each.printed.what,
+        "place": each.case.place,
+        "printed": each.printed.text,
+    }
+    if each.trouble:
+        return say("validate.trouble", sentence=each.trouble, **words)
+    ours = f"{each.value:.10g} {each.printed.text.partition(' ')[2]}".strip()
+    if each.erratum:
+        return say("validate.erratum", ours=ours, right=each.printed.right, why=each.printed.why, **words)
+    return say(
+        "validate.agrees" if each.ok else "validate.differs", ours=ours, digits=f"{each.digits:.2g}", **words
+    )
+
+
+def validate(
+    cases: Iterable[Published] | None = None, told: Callable[[int], None] | None = None
+) -> Validation:
+    """Compares published numbers with those found here.
+
+    Args:
+        cases: which; by default all that the package holds.
+        told: is called with the count of cases that are done.
+
+    Returns:
+        The comparisons, one per number. What cannot be found here counts as a difference, with the reason.
+    """
+    checks: list[Checked] = []
+    for done, case in enumerate(published() if cases is None else cases, 1):
+        checks += check(case)
+        if told is not None:
+            told(done)
+    return Validation(tuple(checks))
+
+
+def check(case: Published) -> list[Checked]:
+    """The numbers of one case."""
+    try:
+        find = PROBES[case.probe](case.given)
+    except LinkwrightError as error:
+        return [Checked(case, each, math.nan, math.nan, math.inf, str(error)) for each in case.numbers]
+    return [_checked(case, each, find) for each in case.numbers]
+
+
+def _checked(case: Published, printed: Printed, find: Callable[[str], float]) -> Checked:
+    number, _, name = (printed.right or printed.text).partition(" ")
+    factor = unit(name)[0] if name else 1.0
+    expected = float(number)
+    try:
+        value = find(printed.what) / factor
+    except (LinkwrightError, KeyError, StopIteration, AttributeError) as error:
+        return Checked(case, printed, math.nan, expected, math.inf, f"{type(error).__name__}: {error}")
+    gap = value - expected
+    if name in ("deg", "rad"):
+        turn = 2.0 * math.pi / factor
+        gap = math.remainder(gap, turn)
+        value = expected + gap
+    return Checked(case, printed, value, expected, gap / last_digit(number))
+
+
+def last_digit(number: str) -> float:
+    """One unit of the last printed digit: 0.01 of ``3.14``, 1e-9 of ``7.41e-7``."""
+    mantissa, _, power = number.lower().partition("e")
+    return float(10.0 ** (int(power or 0) - len(mantissa.partition(".")[2])))

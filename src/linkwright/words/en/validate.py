@@ -1,0 +1,28 @@
+"""The command ``validate``."""
+
+WORDS = {
+    "summary": "published numbers beside ours: source, digits given, difference",
+    "description": """\
+Compares every published number that the package knows (course reports, textbooks,
+handbooks, certified data, closed forms and independent solutions of the gallery)
+with what it finds itself, to the digits that are printed. Where a source is wrong,
+the right number and the reason are shown.""",
+    "examples": """\
+linkwright validate
+linkwright validate --case crusher --every
+linkwright validate --json""",
+    "case_help": "only cases whose name or source contains this",
+    "every_help": "a line for every number",
+    "working": "comparing",
+    "case": "case",
+    "numbers": "numbers",
+    "agree": "agree",
+    "worst": "largest difference, last digits",
+    "count": "{agree} of {all} numbers of {cases} cases agree to the digits given; {errata} of them show that the "
+    "source is wrong.",
+    "trouble": "{case} {place}: {what}: not found: {sentence}",
+    "erratum": "{case} {place}: {what}: printed {printed} is wrong, right is {right} (ours {ours}): {why}",
+    "agrees": "{case} {place}: {what}: printed {printed}, ours {ours} ({digits} last digits)",
+    "differs": "{case} {place}: {what}: DIFFERS: printed {printed}, ours {ours} ({digits} last digits)",
+    "no_case": 'no case has "{text}" in its name or source',
+}

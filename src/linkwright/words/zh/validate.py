@@ -1,0 +1,26 @@
+"""命令 ``validate``。"""
+
+WORDS = {
+    "summary": "公开发表的数据与本程序结果的对照：出处、给出的位数、差值",
+    "description": """\
+把程序所知的全部公开数据（课程设计报告、教科书、手册、认证数据、
+图库中的封闭解与独立解）与自己求得的结果逐个比较，精确到所印出的位数。
+原资料有误之处，给出正确的数值与原因。""",
+    "examples": """\
+linkwright validate
+linkwright validate --case crusher --every
+linkwright validate --json""",
+    "case_help": "只比较名称或出处中含有此文字的算例",
+    "every_help": "逐个列出每个数",
+    "working": "比较",
+    "case": "算例",
+    "numbers": "数据",
+    "agree": "一致",
+    "worst": "最大差值（末位单位）",
+    "count": "{cases} 个算例的 {all} 个数据中，{agree} 个在给出的位数内一致；其中 {errata} 个表明原资料有误。",
+    "trouble": "{case} {place}：{what}：未能求得：{sentence}",
+    "erratum": "{case} {place}：{what}：所印 {printed} 有误，正确值为 {right}（本程序 {ours}）：{why}",
+    "agrees": "{case} {place}：{what}：所印 {printed}，本程序 {ours}（相差 {digits} 个末位单位）",
+    "differs": "{case} {place}：{what}：不一致：所印 {printed}，本程序 {ours}（相差 {digits} 个末位单位）",
+    "no_case": '没有名称或出处中含有 "{text}" 的算例',
+}

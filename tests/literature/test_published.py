@@ -1,0 +1,70 @@
+"""Every published number that the package holds, to the digits that are printed; the page that shows them."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from linkwright.cli import main
+from linkwright.validation.published import Printed, Published, published
+from linkwright.validation.validate import Validation, check, last_digit, validate
+
+PAGE = Path(__file__).parents[2] / "docs" / "en" / "validation.md"
+CASES = list(published())
+
+
+@pytest.fixture(scope="module")
+def everything() -> Validation:
+    return validate(CASES)
+
+
+def test_all_numbers_agree(everything: Validation) -> None:
+    assert not everything.failed, everything.text()
+    assert len(everything.checks) >= 1800 and len(everything.cases()) >= 60
+
+
+def test_the_page_shows_what_is_found(everything: Validation) -> None:
+    assert everything.markdown() in PAGE.read_text("utf-8"), "run python docs/validation_table.py"
+
+
+def test_errata_are_shown_with_their_reasons(everything: Validation) -> None:
+    shown = everything.text("en")
+    assert "printed 0.269782 deg is wrong" in shown and "arc cosine, which cannot be negative" in shown
+    assert "有误" in everything.text("zh")
+
+
+@pytest.mark.parametrize(
+    ("what", "text", "digits"),
+    [
+        ("mobility", "1", 0.0),
+        ("mobility", "2", -1.0),
+        ("mobility", "1.3", -3.0),
+        ("mobilitat", "1", float("inf")),
+    ],
+)
+def test_a_number_that_differs_is_found(what: str, text: str, digits: float) -> None:
+    case = Published("four-bar", "nobody", "structure", {"model": "crank_rocker"}, (Printed(what, text),))
+    (found,) = check(case)
+    assert found.digits == pytest.approx(digits) and found.ok is (digits == 0.0)
+    assert Validation((found,)).ok is found.ok
+
+
+def test_an_angle_is_compared_over_full_turns_and_in_its_unit() -> None:
+    case = Published("conveyor", "report", "machine", {"model": "swing_conveyor", "at": "0 deg"},
+                     (Printed("coupler.angle", "347.053 deg"), Printed("coupler.angle", "-12.947 deg")))  # fmt: skip
+    assert all(each.ok for each in check(case))
+    wrong = replace(case, numbers=(Printed("coupler.angle", "347.055 deg"),))
+    assert check(wrong)[0].digits == pytest.approx(-2.0, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("text", "digit"), [("3.14", 0.01), ("7.41e-7", 1e-9), ("500", 1.0), ("-0.20", 0.01)]
+)
+def test_last_digit(text: str, digit: float) -> None:
+    assert last_digit(text) == pytest.approx(digit)
+
+
+def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["validate", "--case", "KHK", "--every"]) == 0
+    assert "6 of 6 numbers" in capsys.readouterr().out
+    assert main(["validate", "--case", "no such source"]) == 2
