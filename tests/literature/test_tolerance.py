@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import parts
+from linkwright.study.designs import sweep_curves
 from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
 from linkwright.tolerance.pressed import exact, is_position
 from linkwright.tolerance.problem import Limit
@@ -148,6 +149,50 @@ def test_machines_that_cannot_turn_are_counted() -> None:
     failing = 0.5 * math.erfc(1 / math.sqrt(2))  # a frame longer by more than one standard deviation
     assert found.failed / 2048 == pytest.approx(failing, abs=0.005)
     assert "do not pass the cycle" in found.text()
+
+
+def test_curves_among_machines_are_those_of_the_closed_form() -> None:
+    """x = r cos φ + √(l² - r² sin² φ), every machine by itself, with the lengths that were drawn."""
+    tolerances = {"crank.length": Tolerance(6e-3, "uniform"), "rod.length": Tolerance(9e-3)}
+    found = ToleranceStudy(
+        lw.loads(SLIDER), tolerances, curves=("B.x", "B.velocity.x"), samples=20_000, steps=48
+    ).solve()
+    r, rod = (found.drawn[address][:, None] for address in ("crank.length", "rod.length"))
+    phi = found.derivatives.input
+    root = np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
+    speed = 2 * np.pi
+    x = r * np.cos(phi) + root
+    velocity = -r * np.sin(phi) * speed * (1 + r * np.cos(phi) / root)
+    for output, machines in (("B.x", x), ("B.velocity.x", velocity)):
+        spread = found.curves[output]
+        assert spread.machines == 20_000
+        assert spread.mean == pytest.approx(machines.mean(axis=0), abs=1e-12)
+        assert spread.deviation == pytest.approx(machines.std(axis=0, ddof=1), rel=1e-9, abs=1e-12)
+        assert spread.least == pytest.approx(machines.min(axis=0), abs=1e-12)
+        assert spread.largest == pytest.approx(machines.max(axis=0), abs=1e-12)
+        sigma, moving = spread.deviation / 128, spread.deviation > 1e-12
+        for edge, share in ((spread.low, 0.00135), (spread.high, 0.99865)):
+            assert ((machines < edge - sigma).mean(axis=0)[moving] <= share + 1e-12).all()
+            assert ((machines < edge + sigma).mean(axis=0)[moving] >= share - 1e-4).all()
+
+
+def test_curves_of_forces_with_loads_in_phases_are_those_of_each_machine_alone() -> None:
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    lengths = {"toggle.length": np.array([0.999, 1.0, 1.001]) * crusher.dimension("toggle.length")}
+    ((_, found),) = sweep_curves(crusher, lengths, outputs=["driver.effort", "jaw.angle"], steps=72)
+    for k, length in enumerate(lengths["toggle.length"]):
+        machine = crusher.with_dimensions({"toggle.length": float(length)})
+        forces = lw.solve_forces(machine, steps=72)
+        assert found["driver.effort"][k] == pytest.approx(forces.input_torque, rel=1e-8, abs=1e-6)
+        turned = (found["jaw.angle"][k] - forces.motion.link("jaw").angle) / (2 * np.pi)
+        assert turned == pytest.approx(np.round(turned), abs=1e-12)
+
+
+def test_machines_that_do_not_pass_have_no_curves() -> None:
+    rocker = lw.load("gallery:crank_rocker")
+    lengths = {"coupler.length": np.array([3.5, 1.0])}
+    ((_, found),) = sweep_curves(rocker, lengths, outputs=["rocker.angle"], steps=36)
+    assert np.isfinite(found["rocker.angle"][0]).all() and np.isnan(found["rocker.angle"][1]).all()
 
 
 def test_yield() -> None:

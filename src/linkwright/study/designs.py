@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -169,3 +169,25 @@ def sweep(
         run.traced.nominal.notes,
         run.margins,
     )
+
+
+def sweep_curves(
+    mechanism: Mechanism,
+    vary: Mapping[str, ArrayLike],
+    *,
+    outputs: Sequence[str],
+    steps: int = 360,
+    threads: int | None = None,
+    backend: Backend = "auto",
+    progress: Progress | None = None,
+) -> Iterator[tuple[slice, dict[str, Floats]]]:
+    """Outputs of many designs over the positions, a few thousand designs at a time: (designs, n) by name, SI.
+
+    Arguments and errors as for :func:`sweep`; curves of designs that do not pass the whole cycle are NaN.
+    """
+    positions = over_cycle(mechanism, steps)
+    columns = design_values(mechanism, vary)
+    refuse_moved_positions(mechanism, positions, columns)
+    asked = wanted([(output, "max") for output in outputs])
+    run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))
+    return run.curves(outputs)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.engine.llvm_backend import compile_program
+from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend, Progress, Results
 from linkwright.engine.sweep import sweep as engine_sweep
-from linkwright.engine.threads import chunks
+from linkwright.engine.threads import chunks, cores
 from linkwright.kinematics.cycle import Positions
+from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.following import MARGIN, Following
@@ -29,6 +32,8 @@ Counts = NDArray[np.int64]
 
 #: Designs of one block, and of one whose inputs are found design by design.
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
+#: Designs whose curves are held at a time.
+CURVE_BLOCK = 1 << 12
 
 
 @dataclass(frozen=True)
@@ -62,6 +67,8 @@ class SweepRun:
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self.quantities)
         self.unloaded: dict[int, str] = {}
+        self.through: set[int] = set()
+        self._programs: dict[tuple[tuple[str, ...], int], tuple[list[Quantity], Program]] = {}
         alone = self.program.fields or self.traced.nominal.modes
         self.follow = Following(self.traced, names) if self.program.states and not alone else None
         self.alone = bool(alone)
@@ -93,6 +100,46 @@ class SweepRun:
         for into in values.values():
             into[list(self.unloaded)] = np.nan
         return assembled, values
+
+    def curves(self, names: Sequence[str]) -> Iterator[tuple[slice, dict[str, Floats]]]:
+        """The outputs over the positions block by block, (designs, n) each; NaN for designs that do not pass."""
+        for first, end in chunks(self.designs, CURVE_BLOCK):
+            part = {address: column[first:end] for address, column in self.columns.items()}
+            passed = self._block(part, first)["valid.count"] == self.positions.count
+            flipping = np.array([k in self.through for k in range(first, end)])
+            if self.traced.nominal.modes:
+                flipping[:] = True
+            values = np.full((end - first, len(names), self.positions.count), np.nan)
+            for chosen, source in ((passed & ~flipping, None), (passed & flipping, self._flipping)):
+                if chosen.any():
+                    columns = {address: column[chosen] for address, column in part.items()}
+                    values[chosen] = self._values(names, columns, source)
+            yield slice(first, end), {name: values[:, k] for k, name in enumerate(names)}
+            if self.manner.progress is not None:
+                self.manner.progress(end, self.designs)
+
+    def _values(self, names: Sequence[str], part: Mapping[str, Floats], source: OneByOne | None) -> Floats:
+        """Outputs (designs, names, n) of designs that pass the cycle."""
+        traced = self.traced if source is None else source.traced
+        quantities, program = self._stored(tuple(names), traced)
+        fields: Mapping[str, Floats] = {}
+        if source is not None or program.fields:
+            fields, _ = (source or self._single).rows(program.fields, part)
+        table, inputs, n = traced.table(program, part), self.positions.arrays, self.positions.count
+        code = None if self.manner.backend == "numpy" else compile_program(program)
+        if code is None:
+            found = NumpyProgram(program).run_designs(table, inputs, fields, length=n)
+        else:
+            found = code.store(table, inputs, fields, threads=self.manner.threads or cores(), length=n)
+        return np.stack([q.shown(found[:, k]) for k, q in enumerate(quantities)], axis=1)
+
+    def _stored(self, names: tuple[str, ...], traced: Traced) -> tuple[list[Quantity], Program]:
+        """What a program stores of some outputs, and it; what is found design by design are its fields."""
+        if (names, id(traced)) not in self._programs:
+            quantities = list(traced.quantities(names).values())
+            program = Program.of(traced.solver.motion.trace, {q.name: q.carrier for q in quantities})
+            self._programs[names, id(traced)] = quantities, _fed(program)
+        return self._programs[names, id(traced)]
 
     def _input(self) -> Floats:
         rows = [rows[0] for rows in self.positions.coordinates.values()]
@@ -171,6 +218,7 @@ class SweepRun:
         reached = {k: int(self._flipping.motion(changes_of(part, k)).ok.sum()) for k in touching.tolist()}
         barred = [k for k, count in reached.items() if count < self.positions.count]
         touching = np.setdiff1d(touching, barred)
+        self.through.update((first + touching).tolist())
         if len(touching):
             found = self._one_by_one(self._flipping, {a: c[touching] for a, c in part.items()})
             again = self._noted(found, first + touching)

@@ -17,6 +17,7 @@ from linkwright.parts.display import number, shown, unit
 from linkwright.parts.steps import put
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
+from linkwright.tolerance.curves import CurveSpread, curve_spreads
 from linkwright.tolerance.pressed import is_position, require_forces, shifts
 from linkwright.tolerance.problem import Limit, ToleranceStudy
 from linkwright.words import Say
@@ -191,6 +192,18 @@ class Spread(Result):
         asked = [(s.output, s.kind) for s in self.summaries.values()]
         return sweep(self.study.prepared, self.drawn, outputs=asked, steps=self.study.steps)
 
+    @cached_property
+    def curves(self) -> dict[str, CurveSpread]:
+        """Every curve among the drawn machines, shifted by the pressed pins; empty where nothing spreads."""
+        if not self.drawn or not self.study.curves:
+            return {}
+        expected = {}
+        for output in self.study.curves:
+            _, moved, deviation = self.curve(output)
+            expected[output] = moved - self.pressed(output), deviation
+        found = curve_spreads(self.study.prepared, self.drawn, expected, self.study.steps, QUANTILES)
+        return {output: spread.moved(self.pressed(output)) for output, spread in found.items()}
+
     def values(self, text: str) -> Floats:
         """A summary of the machines that pass the cycle, shifted by pressed pins, (machines,)."""
         if self.swept is None:
@@ -307,6 +320,14 @@ class Spread(Result):
             for output in self.study.curves:
                 _, values, deviation = self.curve(output)
                 found |= {output: values, f"{output} standard deviation": deviation}
+                if output in self.curves:
+                    spread = self.curves[output]
+                    found |= {
+                        f"{output} mean, Monte Carlo": spread.mean,
+                        f"{output} standard deviation, Monte Carlo": spread.deviation,
+                        f"{output} 0.135 %": spread.low,
+                        f"{output} 99.865 %": spread.high,
+                    }
             return found
         return {text: self.values(text) for text in self.study.of}
 
@@ -373,6 +394,16 @@ class Spread(Result):
         i = int(deviation.argmax())
         note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
         rows.append(Row("largest_deviation", float(deviation[i]), kind, "", note))
+        if output in self.curves:
+            spread = self.curves[output]
+            k = int(spread.deviation.argmax())
+            place_k = shown(float(place[k]), "angle" if self.turning else "length", 4)
+            note = say("tolerance.at_of", place=place_k, count=spread.machines)
+            rows.append(Row("largest_monte_carlo", float(spread.deviation[k]), kind, "", note))
+            wide = spread.high - spread.low
+            k = int(wide.argmax())
+            note = say("tolerance.at", place=shown(float(place[k]), "angle" if self.turning else "length", 4))
+            rows.append(Row("widest", float(wide[k]), kind, "", note))
         moved = self.pressed(output)
         if moved.any():
             i = int(np.abs(moved).argmax())

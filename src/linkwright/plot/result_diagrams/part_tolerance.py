@@ -55,7 +55,7 @@ def _histogram(axes: Axes, result: Spread, text: str, request: Request) -> None:
 
 
 def _band(axes: Axes, result: Spread, output: str) -> None:
-    """±3σ about the shift by pressed pins, over the input."""
+    """±3σ about the shift by pressed pins, over the input, and between which values 99.73 % of the machines lie."""
     place, _, deviation = result.curve(output)
     shift, shown = result.pressed(output), unit_for(result.dimension(output))
     turning = unit_for("angle" if result.turning else "length")
@@ -63,5 +63,9 @@ def _band(axes: Axes, result: Spread, output: str) -> None:
     low, high = ((shift + sign * 3 * deviation) * shown.factor for sign in (-1, 1))
     axes.fill_between(x, low, high, color=COLOURS[0], alpha=0.2, linewidth=0)
     axes.plot(x, shift * shown.factor, color=COLOURS[0])
+    if output in result.curves:
+        nominal = result.curve(output)[1] - shift
+        for edge in (result.curves[output].low, result.curves[output].high):
+            axes.plot(x, (edge - nominal) * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.0)
     axes.set_xlabel(turning.label("φ" if result.turning else "s"))
     axes.set_ylabel(shown.label(f"Δ {output} ± 3σ", "\n"))
