@@ -15,6 +15,7 @@ from typing import Protocol
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
+from linkwright.joints.pose import Rotor
 from linkwright.registry import Registry
 from linkwright.units import number
 
@@ -27,14 +28,6 @@ class Chain:
     arm: Vec | None = None
     directions: tuple[Vec, ...] = ()
     senses: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True)
-class Rotor:
-    """The direction of a link: the world vector ``now`` of what is ``local`` in the link's axes."""
-
-    now: Vec
-    local: Vec
 
 
 @dataclass(frozen=True)

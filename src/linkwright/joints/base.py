@@ -1,21 +1,131 @@
-"""What all joints have in common, and their registry."""
+"""What a joint kind supplies, and the registry of the kinds.
+
+A kind is one file with one frozen dataclass, registered under the word of its key ``kind``: the fields of the model
+file, its demands on the structure, how it hangs a link in an open chain, how it is cut, its rows for the rank.
+Solvers ask the joint and never its kind. What a kind leaves out is said when it is needed (:class:`LackingError`).
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
+from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.engine.trace import Scalar
+    from linkwright.engine.vector import Vec
+    from linkwright.joints.pose import Pose, Rotor, State
+    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.cycle import Floats
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.motion import Motion
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.drawing import Drawing
+    from linkwright.model.fields import Field
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection, TreeJoint
+
+Poses = Mapping[str, "Pose"]
+States = Mapping[str, "State"]
+#: The rotation of a link's x axis with its turns, rad, by the link's name.
+Angles = Callable[[str], "Scalar"]
+
+
+class Pair(Protocol):
+    """A joint of an open chain, ready to be traced: how a child hangs on its parent."""
+
+    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
+        """Pose of the child."""
+        ...
+
+    def normal(self, parent: Pose) -> Vec:
+        """Unit vector, in frame axes, along which a growing displacement moves the child; of a sliding joint."""
+        ...
+
+    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
+        """Velocities of the child, from the chain coordinate's rate."""
+        ...
+
+    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
+        """Accelerations of the child, from the rate and second derivative of the coordinate."""
+        ...
+
+
+class Cut(Protocol):
+    """A cut joint, ready to be traced: its equations, their derivatives, and the forces that close it.
+
+    ``ends``: the links on whose motion the equations depend; ``on``: the link on which its force is reported.
+    """
+
+    @property
+    def connection(self) -> Connection: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def ends(self) -> tuple[str, ...]: ...
+    @property
+    def on(self) -> str: ...
+
+    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
+        """What the equations leave open."""
+        ...
+
+    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
+        """Rows of the Jacobian for a coordinate that moves an end by ``shift`` and turns it by ``turn``."""
+        ...
+
+    def drift(self, states: States) -> list[Scalar]:
+        """First derivative of the equations in time."""
+        ...
+
+    def bend(self, states: States) -> list[Scalar]:
+        """Second derivative of the equations in time."""
+        ...
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        """Where the cut's force acts."""
+        ...
+
+    def arm(self, end: str, poses: Poses) -> Vec:
+        """From the anchor of one end to that place."""
+        ...
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        """Force and couple on one end from the multipliers of the rows."""
+        ...
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work."""
+        ...
 
 
 @dataclass(frozen=True)
 class Joint(ABC):
-    """A connection of links; ``name`` is its name in the model."""
+    """A connection of links; ``name`` is its name in the model.
+
+    ``freedoms`` it leaves of three; ``letter`` in signatures; ``coordinate``: what it is measured by as a joint of a
+    chain, ``turn`` (rad), ``slide`` (m) or nothing; ``higher``: a pair of one row, which no link hangs on;
+    ``rotations_only``: whether that row touches rotations alone;
+    ``couples``: whether its reaction has a couple about the place that :meth:`acts_at` gives.
+    """
 
     kind: ClassVar[str]
+    letter: ClassVar[str] = "?"
     freedoms: ClassVar[int]
+    coordinate: ClassVar[str] = ""
+    higher: ClassVar[bool] = False
+    rotations_only: ClassVar[bool] = False
+    couples: ClassVar[bool] = False
     name: str
 
     @property
@@ -35,6 +145,108 @@ class Joint(ABC):
         """The same joint, with what follows from the points of its first link (a guide's direction) made
         anew."""
         return self
+
+    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
+        """The same joint, with what follows from the joints around it; ``report(key, problem, remedy)`` adds a
+        finding."""
+        return self
+
+    def drawn(self, drawing: Drawing) -> Joint:
+        """The same joint, with what its file leaves to the drawing."""
+        return self
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        """The keys of the joint in a model file, without ``kind``."""
+        raise cls.lacks("fields")
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        """The joint from the values of its keys, or None after a finding."""
+        return cls(name, **values)
+
+    def written(self) -> dict[str, Any]:
+        """Values of the keys that a file needs, as plain data or as numbers in SI."""
+        raise self.lacks("written")
+
+    # structure --------------------------------------------------------------------------------
+    @property
+    def ties(self) -> tuple[str, ...]:
+        """The two links whose rotations the joint ties to each other, if it does."""
+        return ()
+
+    def constrain(self, graph: ConstraintGraph) -> None:
+        """Adds the joint's demands to the graph."""
+        raise self.lacks("constrain")
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        """The joint as pairs of links, for the group of ``links``."""
+        raise self.lacks("connections")
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The links whose rotations the rows of a higher pair add up."""
+        return ()
+
+    @property
+    def pairs(self) -> int:
+        """As how many pairs the joint counts."""
+        return 1
+
+    # motion -----------------------------------------------------------------------------------
+    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Pair:
+        """The joint as one of an open chain."""
+        raise self.lacks("hang")
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
+        """The joint as a cut one."""
+        raise self.lacks("cut")
+
+    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+        """Constant angle of the child's x axis to the parent's, rad, where the joint does not turn."""
+        raise self.lacks("turned")
+
+    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
+        """The child as a body of the closed loops."""
+        raise self.lacks("hang_in_loop")
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        """Adds the equations of the cut joint to the closed loops."""
+        raise self.lacks("close_loop")
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        """The joint's equations over (x, y, θ) of the links that are ``kept``, for the rank."""
+        raise self.lacks("rows")
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        """Links with their points that tell where the reaction acts."""
+        raise self.lacks("seats")
+
+    def acts_at(self, motion: Motion) -> Floats:
+        """Where the reaction acts, (n, 2) m in frame axes: in the first of its seats."""
+        link, point = self.seats[0]
+        return motion.point(f"{link}.{point}").position
+
+    @classmethod
+    def lacks(cls, what: str) -> LackingError:
+        """The error for what the kind does not supply."""
+        return LackingError(Sentence("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what))
+
+
+class LackingError(LinkwrightError):
+    """A joint kind does not supply what is asked of it."""
 
 
 JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints")

@@ -2,12 +2,32 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.joints.base import JOINTS, Joint
+from linkwright.engine.trace import Scalar, angle
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.pose import Pose, Rotor, State
+from linkwright.joints.revolute import FRICTION
+from linkwright.model.fields import Field, Quantity
+from linkwright.model.reference_fields import Direction, LinkName, PointName
+from linkwright.words.sentence import Sentence, together
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection, TreeJoint
 
 
 @JOINTS.register("prismatic")
@@ -23,7 +43,10 @@ class PrismaticJoint(Joint):
     """
 
     kind: ClassVar[str] = "prismatic"
+    letter: ClassVar[str] = "P"
+    couples: ClassVar[bool] = True
     freedoms: ClassVar[int] = 1
+    coordinate: ClassVar[str] = "slide"
     guide: str
     through: str
     direction: float
@@ -55,3 +78,265 @@ class PrismaticJoint(Joint):
             return self
         (px, py), (qx, qy) = (points[name] for name in self.direction_points)
         return replace(self, direction=math.atan2(qy - py, qx - px))
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {
+            "guide": LinkName(required=True, doc="the link that carries the guide"),
+            "through": PointName("guide", required=True, doc="point of the guide link on the guide line"),
+            "direction": Direction(
+                required=True, doc="direction: an angle in the guide link's axes, or two points [P, Q]"
+            ),
+            "block": LinkName(required=True, doc="the link that slides"),
+            "at": PointName("block", required=True, doc="point of the block that follows the line"),
+            "offset": Quantity(
+                "length", doc="normal distance of the point from the line, left positive (default 0)"
+            ),
+            "block_angle": Quantity("angle", doc="direction of the line in the block's axes (default 0)"),
+            "friction": FRICTION,
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        if not cls._apart(reader, node, place, values):
+            return None
+        guide, direction = values["guide"], values.pop("direction")
+        if isinstance(direction, float):
+            return cls(name, direction=direction, direction_points=None, **values)
+        joint = cls(name, direction=0.0, direction_points=direction, **values)
+        if guide not in links:
+            return joint
+        first, second = (links[guide].points.get(each) for each in direction)
+        if first is None or second is None:
+            return joint
+        if math.dist(first, second) == 0:
+            reader.error(
+                node.get("direction"),
+                place.child("direction"),
+                Sentence("model.same_place", points=together(direction)),
+                Sentence("model.points_apart"),
+                "range",
+            )
+        return joint.aligned(links[guide].points)
+
+    @staticmethod
+    def _apart(reader: Reader, node: MappingNode, place: Where, values: Mapping[str, Any]) -> bool:
+        """Whether guide and block, and their points, are different ones."""
+        guide, point = values["guide"], values["at"]
+        if guide == values["block"]:
+            reader.error(
+                node.get("block"),
+                place.child("block"),
+                Sentence("model.guide_is_block", guide=guide),
+                Sentence("model.two_links"),
+                "reference",
+            )
+            return False
+        others = [owner for owner in reader.names.owners(point) if owner not in (guide, values["block"])]
+        if point == values["through"] and others:
+            reader.error(
+                node.get("at"),
+                place.child("at"),
+                Sentence("model.point_on_both", point=point, others=tuple(others)),
+                Sentence("model.rename_point"),
+                "ambiguous",
+            )
+            return False
+        return True
+
+    def written(self) -> dict[str, Any]:
+        values: dict[str, Any] = {key: getattr(self, key) for key in ("guide", "through", "block", "at")}
+        values["direction"] = list(self.direction_points) if self.direction_points else self.direction
+        values |= {
+            key: value for key in ("offset", "block_angle", "friction") if (value := getattr(self, key))
+        }
+        return values
+
+    # structure --------------------------------------------------------------------------------
+    @property
+    def ties(self) -> tuple[str, ...]:
+        return (self.guide, self.block)
+
+    def constrain(self, graph: ConstraintGraph) -> None:
+        graph.hold_rotation(self.name, self.guide, self.block)
+        graph.demand(self.name, (self.guide, self.block), 1)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if grouping.within((self.guide, self.block), links):
+            yield grouping.connection(self, self.guide, self.block, grouping.driver(self.name))
+
+    # motion -----------------------------------------------------------------------------------
+    def angle_of_guide(self, mechanism: Mechanism) -> float:
+        """Direction of the guide in the axes of its link, rad."""
+        if self.direction_points is None:
+            return self.direction
+        points = mechanism.link(self.guide).points
+        (x0, y0), (x1, y1) = (points[name] for name in self.direction_points)
+        return math.atan2(y1 - y0, x1 - x0)
+
+    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Guide:
+        on_guide, on_block = dimensions.guide_direction(self), dimensions.block_direction(self)
+        through = dimensions.point(self.guide, self.through)
+        at = dimensions.point(self.block, self.at)
+        offset = dimensions(f"{self.name}.offset")
+        if step.child == self.block:
+            return Guide(through, at, on_guide, on_guide.conjugate.turn(on_block), offset, 1.0)
+        return Guide(at, through, on_block, on_block.conjugate.turn(on_guide), offset, -1.0)
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> GuideCut:
+        return GuideCut(
+            connection,
+            dimensions.point(self.guide, self.through),
+            dimensions.point(self.block, self.at),
+            dimensions.guide_direction(self),
+            dimensions(f"{self.name}.offset"),
+        )
+
+    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+        along: Scalar = (
+            dimensions(f"{self.name}.direction")
+            if self.direction_points is None
+            else angle((way := dimensions.guide_direction(self)).y, way.x)
+        )
+        turn = along - dimensions(f"{self.name}.block_angle")
+        return turn if step.child == self.block else -turn
+
+    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
+        parent, on_guide = build.bodies[step.parent], self.angle_of_guide(build.mechanism)
+        key = ("drive", step.driver) if step.driver else build.unknown("slide", self.name, group)
+        outward = step.child == self.block
+        on_parent, on_child = (self.through, self.at) if outward else (self.at, self.through)
+        sign = 1.0 if outward else -1.0
+        place = dict(build.place(step.parent, on_parent))
+        along = parent.offset + (on_guide if outward else self.block_angle)
+        build.slide(place, key, parent.rotation, sign * cmath.exp(1j * along), self.offset)
+        turn = parent.offset + sign * (on_guide - self.block_angle)
+        return build.body(parent.rotation, turn, build.local(step.child, on_child), place)
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        start, guide = dict(build.place(self.guide, self.through)), build.bodies[self.guide]
+        along = cmath.exp(1j * (guide.offset + self.angle_of_guide(build.mechanism)))
+        build.slide(start, build.unknown("slide", self.name, group), guide.rotation, along, self.offset)
+        build.loop(group, start, build.place(self.block, self.at))
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.block, self.at),)
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        turn = self.angle_of_guide(system.mechanism) - self.block_angle
+        yield system.rotation(self.name, self.guide, self.block, turn, places)
+        yield system.along(self, places, across=True)
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A prismatic joint of a chain; ``sign`` is -1 if the child carries the guide.
+
+    ``on_parent``: the guide's point or the block's point of the parent; ``on_child`` of the child;
+    ``direction``: of the guide, in the parent's axes; ``turned``: what the child's axes see of a vector
+    that the parent's axes see as (1, 0).
+    """
+
+    on_parent: Vec
+    on_child: Vec
+    direction: Vec
+    turned: Vec
+    offset: Scalar
+    sign: float
+
+    def normal(self, parent: Pose) -> Vec:
+        """The guide's direction, in frame axes, along which the child moves with a growing coordinate."""
+        return parent.spin(self.direction) * self.sign
+
+    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
+        assert not isinstance(coordinate, Rotor) and coordinate is not None
+        n = self.normal(parent)
+        slid = parent.point(self.on_parent) + n * coordinate + n.perp * self.offset
+        rotor = Rotor(parent.rotor.now, parent.rotor.local.turn(self.turned))
+        return Pose(self.on_child, slid, rotor)
+
+    def _arm(self, parent: State, child: Pose) -> Vec:
+        return child.place - parent.pose.place
+
+    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
+        carried = parent.velocity_at(self._arm(parent, pose))
+        return State(pose, carried + self.normal(parent.pose) * rate, parent.omega)
+
+    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
+        n = self.normal(parent.pose)
+        carried = parent.acceleration_at(self._arm(parent, child.pose))
+        coriolis = n.perp * (2.0 * (parent.omega * rate))
+        return State(child.pose, child.velocity, child.omega, carried + coriolis + n * second, parent.alpha)
+
+
+@dataclass(frozen=True)
+class GuideCut:
+    """A guide that was cut; its rotation is prevented elsewhere, so only the normal distance is left."""
+
+    connection: Connection
+    through: Vec
+    at: Vec
+    direction: Vec
+    offset: Scalar
+
+    @property
+    def rows(self) -> int:
+        return 1
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        return self.connection.a, self.connection.b
+
+    @property
+    def on(self) -> str:
+        return self.connection.b
+
+    def _normal(self, poses: Poses) -> Vec:
+        return poses[self.connection.a].spin(self.direction).perp
+
+    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
+        a, b = poses[self.connection.a], poses[self.connection.b]
+        return [self._normal(poses).dot(b.point(self.at) - a.point(self.through)) - self.offset]
+
+    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
+        sign = 1.0 if end == self.connection.b else -1.0
+        return [self._normal(poses).dot(shift) * sign]
+
+    def drift(self, states: States) -> list[Scalar]:
+        a, b = states[self.connection.a], states[self.connection.b]
+        place = b.pose.point(self.at)
+        gap = b.velocity_of(self.at) - a.velocity_at(place - a.pose.place)
+        return [a.pose.spin(self.direction).perp.dot(gap)]
+
+    def bend(self, states: States) -> list[Scalar]:
+        a, b = states[self.connection.a], states[self.connection.b]
+        arm = b.pose.point(self.at) - a.pose.place
+        n = a.pose.spin(self.direction)
+        slide = n.dot(b.velocity_of(self.at) - a.velocity_at(arm))
+        gap = b.acceleration_of(self.at) - a.acceleration_at(arm)
+        return [n.perp.dot(gap) - 2.0 * (a.omega * slide)]
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        return poses[self.connection.b].point(self.at)
+
+    def arm(self, end: str, poses: Poses) -> Vec:
+        return self.place(end, poses) - poses[end].place
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        force = self._normal(poses) * multipliers[0]
+        return (force if end == self.connection.b else -force), 0.0
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        return None

@@ -2,11 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.joints.base import JOINTS, Joint
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.pose import Pose, Rotor, State
+from linkwright.model.fields import Field, Quantity
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.mechanism import Link
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection, TreeJoint
+
+FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
 
 
 @JOINTS.register("revolute")
@@ -19,7 +37,9 @@ class RevoluteJoint(Joint):
     """
 
     kind: ClassVar[str] = "revolute"
+    letter: ClassVar[str] = "R"
     freedoms: ClassVar[int] = 1
+    coordinate: ClassVar[str] = "turn"
     links: tuple[str, ...]
     pin_radius: float | None = None
     friction: float = 0.0
@@ -37,3 +57,168 @@ class RevoluteJoint(Joint):
         return replace(
             self, pin_radius=radius, friction=value(f"{self.name}.friction") if self.friction else 0.0
         )
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {"pin_radius": Quantity("length", above=0, doc="radius of the pin"), "friction": FRICTION}
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        owners = reader.names.pins.get(name)
+        if owners is None:
+            reader.known(node, place, "pin", name, list(reader.names.pins))
+            return None
+        return cls(name, owners, **values)
+
+    def written(self) -> dict[str, Any]:
+        return {key: value for key in ("pin_radius", "friction") if (value := getattr(self, key))}
+
+    # structure --------------------------------------------------------------------------------
+    @property
+    def pairs(self) -> int:
+        """A pin of k links is k - 1 pairs."""
+        return len(self.links) - 1
+
+    def constrain(self, graph: ConstraintGraph) -> None:
+        if len(self.links) == 2:
+            graph.demand(self.name, self.links, 2)
+            return
+        pin = f"pin {self.name}"
+        graph.freedoms[pin] = 2
+        for link in self.links:
+            graph.demand(self.name, (link, pin), 2)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        """On the frame, or on a link next to it, if one of them is solved."""
+        mine = [link for link in self.links if link in links]
+        pairs = {frozenset((d.link, d.relative_to)): d.name for d in grouping.drivers.get(self.name, ())}
+        present = grouping.firm(self.links) + mine
+        used: list[str] = []
+        for pair, driver in pairs.items():
+            if pair <= set(present) and any(link in links for link in pair):
+                a, b = sorted(pair, key=present.index)
+                used.append(b)
+                yield grouping.connection(self, a, b, driver)
+        base = present[0]
+        for link in mine:
+            if link != base and link not in used:
+                yield grouping.connection(self, base, link, None)
+
+    # motion -----------------------------------------------------------------------------------
+    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Pin:
+        return Pin(dimensions.point(step.parent, self.name), dimensions.point(step.child, self.name))
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> PinCut:
+        a, b = connection.a, connection.b
+        return PinCut(connection, dimensions.point(a, self.name), dimensions.point(b, self.name))
+
+    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
+        place, anchor = build.place(step.parent, self.name), build.local(step.child, self.name)
+        if step.driver is None:
+            return build.body(build.free_rotation(step.child, group), 0.0, anchor, place)
+        parent = build.bodies[step.parent]
+        sign = 1.0 if step.child == build.mechanism.drivers[step.driver].link else -1.0
+        return build.body(build.driven(parent.rotation, step.driver, sign), parent.offset, anchor, place)
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        build.loop(group, build.place(cut.a, self.name), build.place(cut.b, self.name))
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.links[-1], self.name),)
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        for other in kept[1:]:
+            yield from system.pin(self.name, kept[0], other, self.name, places)
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A revolute joint of a chain; its coordinate is the child's rotor, its rate the child's angular velocity."""
+
+    on_parent: Vec
+    on_child: Vec
+
+    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
+        assert isinstance(coordinate, Rotor)
+        return Pose(self.on_child, parent.point(self.on_parent), coordinate)
+
+    def normal(self, parent: Pose) -> Vec:
+        raise TypeError("no displacement")
+
+    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
+        return State(pose, parent.velocity_of(self.on_parent), rate)
+
+    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
+        acceleration = parent.acceleration_of(self.on_parent)
+        return State(child.pose, child.velocity, child.omega, acceleration, second)
+
+
+@dataclass(frozen=True)
+class PinCut:
+    """A pin that was cut: the point on ``a`` and the point on ``b`` must coincide (two equations)."""
+
+    connection: Connection
+    on_a: Vec
+    on_b: Vec
+
+    @property
+    def rows(self) -> int:
+        return 2
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        return self.connection.a, self.connection.b
+
+    @property
+    def on(self) -> str:
+        return self.connection.a
+
+    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
+        gap = poses[self.connection.a].point(self.on_a) - poses[self.connection.b].point(self.on_b)
+        return [gap.x, gap.y]
+
+    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
+        sign = 1.0 if end == self.connection.a else -1.0
+        return [shift.x * sign, shift.y * sign]
+
+    def point(self, end: str) -> Vec:
+        """The cut's point in the axes of one end."""
+        return self.on_a if end == self.connection.a else self.on_b
+
+    def drift(self, states: States) -> list[Scalar]:
+        """Relative velocity of the two ends."""
+        a, b = states[self.connection.a], states[self.connection.b]
+        gap = a.velocity_of(self.on_a) - b.velocity_of(self.on_b)
+        return [gap.x, gap.y]
+
+    def bend(self, states: States) -> list[Scalar]:
+        """Relative acceleration of the two ends."""
+        a, b = states[self.connection.a], states[self.connection.b]
+        gap = a.acceleration_of(self.on_a) - b.acceleration_of(self.on_b)
+        return [gap.x, gap.y]
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        return poses[end].point(self.point(end))
+
+    def arm(self, end: str, poses: Poses) -> Vec:
+        pose = poses[end]
+        return pose.spin(self.point(end) - pose.anchor)
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        force = Vec(multipliers[0], multipliers[1])
+        return (force if end == self.connection.a else -force), 0.0
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        return None

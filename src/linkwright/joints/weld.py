@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
 from linkwright.joints.base import JOINTS, Joint
+from linkwright.joints.pose import Pose, Rotor, State
+from linkwright.model.fields import Field, Quantity, Text
+from linkwright.model.reference_fields import LinkNames
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.mechanism import Link
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection, TreeJoint
 
 
 @JOINTS.register("weld")
@@ -15,6 +32,8 @@ class WeldJoint(Joint):
     """Links (a, b) fixed to each other at their common point ``at``, b's x axis at ``angle`` (rad) to a's."""
 
     kind: ClassVar[str] = "weld"
+    letter: ClassVar[str] = "W"
+    couples: ClassVar[bool] = True
     freedoms: ClassVar[int] = 0
     links: tuple[str, str]
     at: str
@@ -29,3 +48,91 @@ class WeldJoint(Joint):
 
     def with_dimensions(self, value: Callable[[str], float]) -> WeldJoint:
         return replace(self, angle=value(f"{self.name}.angle"))
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {
+            "links": LinkNames(required=True, doc="the two links [a, b]"),
+            "at": Text(required=True, doc="their common point"),
+            "angle": Quantity("angle", doc="angle of b's x axis to a's (default 0)"),
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        held = node.get("at") or node
+        found = [reader.point_of(held, place.child("at"), values["at"], each) for each in values["links"]]
+        return cls(name, **values) if all(found) else None
+
+    def written(self) -> dict[str, Any]:
+        return {"links": list(self.links), "at": self.at, "angle": self.angle}
+
+    # structure --------------------------------------------------------------------------------
+    @property
+    def ties(self) -> tuple[str, ...]:
+        return self.links
+
+    def constrain(self, graph: ConstraintGraph) -> None:
+        graph.hold_rotation(self.name, *self.links)
+        graph.demand(self.name, self.links, 2)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if grouping.within(self.links, links):
+            yield grouping.connection(self, *self.links, grouping.driver(self.name))
+
+    # motion -----------------------------------------------------------------------------------
+    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Fixed:
+        turn = dimensions.weld_direction(self)
+        turned = turn.conjugate if step.child == self.links[1] else turn
+        return Fixed(dimensions.point(step.parent, self.at), dimensions.point(step.child, self.at), turned)
+
+    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+        turn = dimensions(f"{self.name}.angle")
+        return turn if step.child == self.links[1] else -turn
+
+    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
+        parent = build.bodies[step.parent]
+        turn = self.angle if step.child == self.links[1] else -self.angle
+        place, anchor = build.place(step.parent, self.at), build.local(step.child, self.at)
+        return build.body(parent.rotation, parent.offset + turn, anchor, place)
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.links[-1], self.at),)
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        yield system.rotation(self.name, *self.links, self.angle, places)
+        yield from system.pin(self.name, *self.links, self.at, places)
+
+
+@dataclass(frozen=True)
+class Fixed:
+    """A weld of a chain: no coordinate."""
+
+    on_parent: Vec
+    on_child: Vec
+    turned: Vec
+
+    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
+        rotor = Rotor(parent.rotor.now, parent.rotor.local.turn(self.turned))
+        return Pose(self.on_child, parent.point(self.on_parent), rotor)
+
+    def normal(self, parent: Pose) -> Vec:
+        raise TypeError("no displacement")
+
+    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
+        return State(pose, parent.velocity_of(self.on_parent), parent.omega)
+
+    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
+        acceleration = parent.acceleration_of(self.on_parent)
+        return State(child.pose, child.velocity, child.omega, acceleration, parent.alpha)

@@ -11,9 +11,11 @@ from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.drawing import Drawing
-from linkwright.kinematics.groups import dyad_shape, state_name
+from linkwright.kinematics.angles import geared, turn_state
+from linkwright.kinematics.closed_loops import counted
+from linkwright.kinematics.groups import dyad_shape, in_one_step, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.model.drawing import Drawing
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.group import Group, Structure
@@ -105,9 +107,9 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     """Chain coordinates of the groups without closed form."""
     states: dict[str, float] = {}
     for group in structure.groups:
-        if not group.unknowns or dyad_shape(group) is not None:
+        if not group.unknowns or dyad_shape(group) is not None or in_one_step(group):
             continue
-        if not drawing and any(step.kind == "revolute" for step in group.unknowns):
+        if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(
                 Sentence(
                     "motion.needs_drawing",
@@ -119,11 +121,15 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
         for step in group.unknowns:
             name = state_name(group, step)
             joint = mechanism.joints[step.joint]
-            if step.kind == "prismatic":
+            if step.slides:
                 states[f"{name}.s"] = drawing.slide(joint) or 0.0  # type: ignore[arg-type]
+            elif geared(group):
+                states[f"{name}.angle"] = drawing.angle(step.child) or 0.0
             else:
                 angle = drawing.angle(step.child) or 0.0
                 states[f"{name}.x"], states[f"{name}.y"] = math.cos(angle), math.sin(angle)
+    for link in counted(structure, mechanism):
+        states[turn_state(link)] = drawing.angle(link) or 0.0
     return states
 
 
@@ -185,4 +191,5 @@ class _Probe:
         values |= {f"mode:{name}": sign for name, sign in modes.items()}
         for name, q in inputs.items():
             values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"slide:{name}": q}
+            values[f"turn:{name}"] = q
         return values

@@ -19,23 +19,26 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
-from linkwright.kinematics.drawing import guide_angle
-from linkwright.kinematics.groups import dyad_shape
+from linkwright.kinematics.angles import counted_links
+from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
-from linkwright.structure.group import Connection, Group, Structure, TreeJoint
+from linkwright.structure.group import Group, Structure
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+#: ``turn`` of a link, ``slide`` of a guide or ``drive`` of a driver.
+Key = tuple[str, str]
+#: Factors by key, and a constant: together zero.
+Sum = tuple[dict[Key, float], float]
+#: Factors (rad, or radii in m) below this make no unknown depend on others.
+DEPENDENT = 1e-12
 #: Coefficients of a place, by rotation and slide (-1: of no slide).
 Terms = dict[tuple[int, int], complex]
 
 
 @dataclass(frozen=True)
-class _Body:
+class Body:
     """A link: number of its rotation, angle of its x axis beyond it, and its point ``anchor`` at ``place``."""
 
     rotation: int
@@ -55,17 +58,31 @@ class Turned:
 
 def iterated(structure: Structure) -> list[Group]:
     """The groups that have no closed form."""
-    return [group for group in structure.groups if group.unknowns and dyad_shape(group) is None]
+    return [
+        group
+        for group in structure.groups
+        if group.unknowns and dyad_shape(group) is None and not in_one_step(group)
+    ]
 
 
-def upstream(structure: Structure) -> list[Group]:
-    """The groups without closed form and all that they hang on, in solving order."""
+def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
+    """Links placed by closed forms whose turns a higher pair counts."""
+    pairs = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
+    found = counted_links(structure.groups, pairs) if pairs else []
+    followed = {link for group in iterated(structure) for link in group.links}
+    return [link for link in found if link not in followed]
+
+
+def upstream(structure: Structure, mechanism: Mechanism) -> list[Group]:
+    """The groups without closed form, those whose turns are counted, and all that they hang on, in solving order."""
     wanted = {link for group in iterated(structure) for link in group.links}
+    wanted.update(counted(structure, mechanism))
+    gears = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
     found = []
     for group in reversed(structure.groups):
         if wanted & set(group.links):
             found.append(group)
-            wanted |= {end for c in group.joints for end in (c.a, c.b)}
+            wanted |= {end for c in group.joints for end in (c.a, c.b, *gears.get(c.joint, ()))}
     return found[::-1]
 
 
@@ -81,42 +98,60 @@ class ClosedLoops:
         self.mechanism = mechanism
         self.size = mechanism_size(mechanism)
         self.drivers = list(mechanism.drivers)
-        build = _Builder(mechanism)
-        for group in upstream(structure):
+        build = LoopBuilder(mechanism)
+        for group in upstream(structure, mechanism):
             build.add(group)
-        self.unknowns = build.unknowns
-        self.groups = build.groups
+        self.unknowns, self.sums = build.independent()
+        owners = dict(zip(build.unknowns, build.groups, strict=True))
+        self.groups = [owners[key] for key in self.unknowns]
         self.links = {name: (body.rotation, body.offset) for name, body in build.bodies.items()}
-        self.n, self.d = len(build.unknowns), len(self.drivers)
+        self.n, self.d = len(self.unknowns), len(self.drivers)
         self.C, self.S, self.K = len(build.rotations), len(build.slides), len(build.loops)
         self._matrices(build)
         self.scale = np.where([kind == "turn" for kind, _ in self.unknowns], 1.0, self.size)
         self.row_scale = 1.0 / self.size
 
-    def _matrices(self, build: _Builder) -> None:
-        columns = {key: i for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers)])}
-        self.turning = np.zeros((self.C, len(columns)))
+    def _matrices(self, build: LoopBuilder) -> None:
+        self._columns = {
+            key: i for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers)])
+        }
+        self.turning, phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
         for c, (unknown, turns) in enumerate(build.rotations):
             if unknown:
-                self.turning[c, columns["turn", unknown]] = 1.0
+                self.turning[c], phase[c] = self.share(("turn", unknown))
             for driver, sign in turns:
-                self.turning[c, columns["drive", driver]] += sign
-        self.sliding = np.zeros((self.S, len(columns)))
+                self.turning[c, self._columns["drive", driver]] += sign
+        self.sliding, start = np.zeros((self.S, len(self._columns))), np.zeros(self.S)
         self.owner = np.array([owner for _, owner in build.slides], dtype=int)
         for j, (key, _) in enumerate(build.slides):
-            self.sliding[j, columns[key]] = 1.0
+            self.sliding[j], start[j] = self.share(key)
         self.a = np.zeros((self.C, self.K), complex)
         self.b = np.zeros((self.S, self.K), complex)
         for k, (_, terms) in enumerate(build.loops):
             for (c, j), value in terms.items():
+                turned = value * cmath.exp(1j * phase[c]) if phase[c] else value
                 if j < 0:
-                    self.a[c, k] += value
+                    self.a[c, k] += turned
                 else:
-                    self.b[j, k] += value
+                    self.b[j, k] += turned
+                    self.a[c, k] += start[j] * turned
         self.loop_groups = [group for group, _ in build.loops]
         self.own = np.zeros((self.S, self.C))
         self.own[np.arange(self.S), self.owner] = 1.0
         self.coordinates = np.concatenate([self.turning, self.sliding])
+
+    def share(self, key: Key) -> tuple[Floats, float]:
+        """A coordinate of the mechanism as a sum of y: factors (n + d,) and a constant, rad or m."""
+        terms, rest = self.sums.get(key, ({key: 1.0}, 0.0))
+        row = np.zeros(len(self._columns))
+        for each, factor in terms.items():
+            row[self._columns[each]] += factor
+        return row, rest
+
+    def value(self, key: Key, y: Floats) -> Floats:
+        """A coordinate of the mechanism, rad or m, at coordinates y (m, n + d), (m,)."""
+        row, rest = self.share(key)
+        return np.asarray(y[:, : len(row)] @ row + rest)
 
     def with_gap(self, gap: Complexes) -> ClosedLoops:
         """The same loops open by ``gap`` (K,) times one more driver coordinate, the last of y."""
@@ -231,88 +266,131 @@ def _real(v: Complexes) -> Floats:
     return np.concatenate([v.real, v.imag], axis=-1)
 
 
-class _Builder:
-    """Walks the chains of the groups and writes down where every link is."""
+class LoopBuilder:
+    """Walks the chains of the groups and writes down where every link is; the joints add to it."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.unknowns: list[tuple[str, str]] = []
+        self.unknowns: list[Key] = []
         self.groups: list[str] = []
         self.rotations: list[tuple[str, tuple[tuple[str, float], ...]]] = [("", ())]
-        self.slides: list[tuple[tuple[str, str], int]] = []
+        self.slides: list[tuple[Key, int]] = []
         self.loops: list[tuple[str, Terms]] = []
-        self.bodies = {"frame": _Body(0, 0.0, 0j, {})}
+        self.sums: list[Sum] = []
+        self.bodies = {"frame": Body(0, 0.0, 0j, {})}
 
     def add(self, group: Group) -> None:
-        """The links of a group on the links before, and the loops that its cuts close."""
+        """The links of a group on the links before, and the loops and sums that its cuts close."""
+        joints = self.mechanism.joints
         for step in group.tree:
-            self.bodies[step.child] = self._hung(step, group.name)
+            self.bodies[step.child] = joints[step.joint].hang_in_loop(self, step, group.name)
         for cut in group.cuts:
-            self.loops.append((group.name, self._loop(cut, group.name)))
+            joints[cut.joint].close_loop(self, cut, group.name)
 
-    def _unknown(self, kind: str, name: str, group: str) -> tuple[str, str]:
+    # what joints add ----------------------------------------------------------------------------
+    def unknown(self, kind: str, name: str, group: str) -> Key:
+        """A new unknown of a group: ``turn`` of a link or ``slide`` of a guide."""
         self.unknowns.append((kind, name))
         self.groups.append(group)
         return kind, name
 
-    def _hung(self, step: TreeJoint, group: str) -> _Body:
-        parent = self.bodies[step.parent]
-        joint = self.mechanism.joints[step.joint]
-        if isinstance(joint, RevoluteJoint):
-            place, anchor = self._place(step.parent, joint.name), self._local(step.child, joint.name)
-            if step.driver is None:
-                self._unknown("turn", step.child, group)
-                return _Body(self._rotation(step.child, ()), 0.0, anchor, place)
-            sign = 1.0 if step.child == self.mechanism.drivers[step.driver].link else -1.0
-            unknown, turns = self.rotations[parent.rotation]
-            rotation = self._rotation(unknown, (*turns, (step.driver, sign)))
-            return _Body(rotation, parent.offset, anchor, place)
-        if isinstance(joint, WeldJoint):
-            turn = joint.angle if step.child == joint.links[1] else -joint.angle
-            place, anchor = self._place(step.parent, joint.at), self._local(step.child, joint.at)
-            return _Body(parent.rotation, parent.offset + turn, anchor, place)
-        assert isinstance(joint, PrismaticJoint)
-        key = ("drive", step.driver) if step.driver else self._unknown("slide", joint.name, group)
-        turn = guide_angle(self.mechanism, joint) - joint.block_angle
-        on_parent, on_child = (
-            (joint.through, joint.at) if step.child == joint.block else (joint.at, joint.through)
-        )
-        sign = 1.0 if step.child == joint.block else -1.0
-        place = dict(self._place(step.parent, on_parent))
-        along = parent.offset + (guide_angle(self.mechanism, joint) if sign > 0 else joint.block_angle)
-        self._slide(place, key, parent.rotation, sign * cmath.exp(1j * along), joint.offset)
-        return _Body(parent.rotation, parent.offset + sign * turn, self._local(step.child, on_child), place)
+    def body(self, rotation: int, offset: float, anchor: complex, place: Terms) -> Body:
+        """A link on rotation ``rotation``, its x axis ``offset`` beyond it, its point ``anchor`` at ``place``."""
+        return Body(rotation, offset, anchor, place)
 
-    def _loop(self, cut: Connection, group: str) -> Terms:
-        joint = self.mechanism.joints[cut.joint]
-        if isinstance(joint, RevoluteJoint):
-            return _added(self._place(cut.a, joint.name), self._place(cut.b, joint.name), -1.0)
-        assert isinstance(joint, PrismaticJoint)
-        start = dict(self._place(joint.guide, joint.through))
-        guide = self.bodies[joint.guide]
-        along = cmath.exp(1j * (guide.offset + guide_angle(self.mechanism, joint)))
-        self._slide(start, self._unknown("slide", joint.name, group), guide.rotation, along, joint.offset)
-        return _added(start, self._place(joint.block, joint.at), -1.0)
+    def free_rotation(self, link: str, group: str) -> int:
+        """The rotation of a link that turns freely: a new unknown."""
+        self.unknown("turn", link, group)
+        return self._rotation(link, ())
 
-    def _slide(
-        self, place: Terms, key: tuple[str, str], rotation: int, direction: complex, offset: float
-    ) -> None:
+    def driven(self, rotation: int, driver: str, sign: float) -> int:
+        """A rotation and a driver's angle."""
+        unknown, turns = self.rotations[rotation]
+        return self._rotation(unknown, (*turns, (driver, sign)))
+
+    def slide(self, place: Terms, key: Key, rotation: int, direction: complex, offset: float) -> None:
+        """Adds a displacement along a direction of a rotation, and the offset across it, to a place."""
         self.slides.append((key, rotation))
         place[rotation, len(self.slides) - 1] = direction
         place[rotation, -1] = place.get((rotation, -1), 0j) + 1j * direction * offset
+
+    def loop(self, group: str, start: Terms, end: Terms) -> None:
+        """Two places that coincide."""
+        self.loops.append((group, _added(start, end, -1.0)))
+
+    def sum(self, rotations: Mapping[str, float], slides: Mapping[str, float], rest: float) -> None:
+        """Σ factor · rotation of a link + Σ factor · displacement of a guide + ``rest`` = 0."""
+        terms: dict[Key, float] = {}
+        for link, factor in rotations.items():
+            body = self.bodies[link]
+            unknown, turns = self.rotations[body.rotation]
+            rest += factor * body.offset
+            for key, share in ((("turn", unknown), 1.0), *((("drive", d), sign) for d, sign in turns)):
+                if key[1]:
+                    terms[key] = terms.get(key, 0.0) + factor * share
+        for name, factor in slides.items():
+            key = ("slide", name) if ("slide", name) in self.unknowns else ("drive", self._driver(name))
+            terms[key] = terms.get(key, 0.0) + factor
+        self.sums.append((terms, rest))
+
+    def place(self, link: str, point: str) -> Terms:
+        """Where a point of a link is."""
+        body = self.bodies[link]
+        arm = cmath.exp(1j * body.offset) * (self.local(link, point) - body.anchor)
+        return _added(body.place, {(body.rotation, -1): arm}, 1.0)
+
+    def local(self, link: str, point: str) -> complex:
+        """A point in the axes of its link."""
+        return complex(*self.mechanism.link(link).points[point])
+
+    def _driver(self, joint: str) -> str:
+        return next(name for name, driver in self.mechanism.drivers.items() if driver.joint == joint)
 
     def _rotation(self, unknown: str, turns: tuple[tuple[str, float], ...]) -> int:
         if (unknown, turns) not in self.rotations:
             self.rotations.append((unknown, turns))
         return self.rotations.index((unknown, turns))
 
-    def _place(self, link: str, point: str) -> Terms:
-        body = self.bodies[link]
-        arm = cmath.exp(1j * body.offset) * (self._local(link, point) - body.anchor)
-        return _added(body.place, {(body.rotation, -1): arm}, 1.0)
+    # sums that make unknowns depend on others --------------------------------------------------------
+    def independent(self) -> tuple[list[Key], dict[Key, tuple[dict[Key, float], float]]]:
+        """The unknowns that are left, and the others as sums (factors by key, constant) of these and the drivers.
 
-    def _local(self, link: str, point: str) -> complex:
-        return complex(*self.mechanism.link(link).points[point])
+        Every sum gives one up: one that no loop holds if there is one, and of those with the largest factor.
+        """
+        looped = self._looped()
+        solved: dict[Key, tuple[dict[Key, float], float]] = {}
+        for terms, rest in self.sums:
+            terms, rest = _replaced(terms, rest, solved)
+            mine = [key for key in terms if key[0] != "drive" and abs(terms[key]) > DEPENDENT]
+            if not mine:
+                continue
+            given = max(mine, key=lambda key: (key not in looped, abs(terms[key])))
+            lead = terms.pop(given)
+            solved[given] = ({key: -factor / lead for key, factor in terms.items()}, -rest / lead)
+            solved = {key: _replaced(*found, {given: solved[given]}) for key, found in solved.items()}
+        return [key for key in self.unknowns if key not in solved], solved
+
+    def _looped(self) -> set[Key]:
+        found: set[Key] = set()
+        for _, terms in self.loops:
+            for rotation, slide in terms:
+                found.add(("turn", self.rotations[rotation][0]))
+                if slide >= 0:
+                    found.add(self.slides[slide][0])
+        return found
+
+
+def _replaced(
+    terms: Mapping[Key, float], rest: float, solved: Mapping[Key, tuple[dict[Key, float], float]]
+) -> tuple[dict[Key, float], float]:
+    """A sum with the unknowns that depend on others replaced."""
+    found: dict[Key, float] = {}
+    for key, factor in terms.items():
+        inner, constant = solved.get(key, ({key: 1.0}, 0.0))
+        rest += factor * constant
+        for each, share in inner.items():
+            found[each] = found.get(each, 0.0) + factor * share
+    return found, rest
 
 
 def _added(a: Mapping[tuple[int, int], complex], b: Mapping[tuple[int, int], complex], sign: float) -> Terms:

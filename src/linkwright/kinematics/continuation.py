@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, straight
 from linkwright.kinematics.certificate import distance_to_others
-from linkwright.kinematics.closed_loops import ClosedLoops, iterated
+from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.groups import state_name
+from linkwright.model.drawing import Drawing
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -84,7 +86,7 @@ class Followed:
             for i in np.unique(a[known[~sure]]):
                 these = known[~sure & (a[known] == i)]
                 found[these] = self._walked(int(i), int(b[these[0]]), places[these] - i, inputs[these])
-        return follower.states(found)
+        return follower.states(found, inputs)
 
     def _read(
         self, a: NDArray[np.intp], b: NDArray[np.intp], share: Floats, q: Floats
@@ -137,25 +139,31 @@ class Follower:
         self.mechanism = design.mechanism
         self.loops = ClosedLoops(self.mechanism, solver.structure)
         self.groups = iterated(solver.structure)
+        self.counted = counted(solver.structure, self.mechanism)
         rotary = [
-            solver.mechanism.joints[d.joint].kind == "revolute" for d in self.mechanism.drivers.values()
+            solver.mechanism.joints[d.joint].coordinate == "turn" for d in self.mechanism.drivers.values()
         ]
         self.rotary = np.array(rotary, dtype=bool)
         self.unit = np.where(self.rotary, 1.0, self.loops.size)
 
     # states -----------------------------------------------------------------------------------
-    def states(self, coordinates: Floats) -> dict[str, Floats]:
-        """Chain coordinates by name (m,) from unknowns of the loops (m, n)."""
-        number = {key: i for i, key in enumerate(self.loops.unknowns)}
+    def states(self, coordinates: Floats, inputs: Floats) -> dict[str, Floats]:
+        """Chain coordinates by name (m,) from unknowns of the loops (m, n) and the drivers' coordinates (m, d)."""
+        y = np.concatenate([coordinates, inputs], axis=1)
         found: dict[str, Floats] = {}
         for group in self.groups:
             for step in group.unknowns:
                 name = state_name(group, step)
-                if step.kind == "prismatic":
-                    found[f"{name}.s"] = coordinates[:, number["slide", step.joint]]
+                if step.slides:
+                    found[f"{name}.s"] = self.loops.value(("slide", step.joint), y)
+                    continue
+                angle = self.loops.value(("turn", step.child), y)
+                if geared(group):
+                    found[f"{name}.angle"] = angle
                 else:
-                    angle = coordinates[:, number["turn", step.child]]
                     found[f"{name}.x"], found[f"{name}.y"] = np.cos(angle), np.sin(angle)
+        for link in self.counted:
+            found[turn_state(link)] = self.loops.value(("turn", link), y)
         return found
 
     # the drawing --------------------------------------------------------------------------------
@@ -198,7 +206,7 @@ class Follower:
 
     def _rough(self) -> Floats:
         """The unknowns as drawn; those of dyads by their closed form."""
-        solver, loops = self.solver, self.loops
+        solver, loops, drawing = self.solver, self.loops, Drawing(self.mechanism)
         own = {link for group in self.groups for link in group.links}
         names = tuple(f"e:{n}.{axis}" for n in loops.links if n not in ("frame", *own) for axis in "xy")
         slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
@@ -219,7 +227,9 @@ class Follower:
             elif key in own:
                 rough.append(self._angle(drawn, group, key))
             else:
-                rough.append(math.atan2(value[f"e:{key}.y"], value[f"e:{key}.x"]))
+                angle, drawn_angle = math.atan2(value[f"e:{key}.y"], value[f"e:{key}.x"]), drawing.angle(key)
+                near = angle if drawn_angle is None else drawn_angle
+                rough.append(near + math.remainder(angle - near, 2.0 * math.pi))
         return np.array(rough)
 
     def _drawn_slide(self, joint: str) -> str | None:
@@ -232,6 +242,8 @@ class Follower:
     def _angle(self, drawn: Mapping[str, float], name: str, child: str) -> float:
         group = next(group for group in self.groups if group.name == name)
         state = state_name(group, next(step for step in group.unknowns if step.child == child))
+        if geared(group):
+            return drawn[f"{state}.angle"]
         return math.atan2(drawn[f"{state}.y"], drawn[f"{state}.x"])
 
     # ways ---------------------------------------------------------------------------------------
@@ -257,7 +269,7 @@ class Follower:
         q = np.stack([positions.coordinates[name][0] for name in self.loops.drivers], axis=1)
         branch = self.between(q[0], q[1], followed.coordinates[index])
         row = branch.last[None, : self.loops.n] if branch.complete else np.full((1, self.loops.n), np.nan)
-        return {name: float(value[0]) for name, value in self.states(row).items()}
+        return {name: float(value[0]) for name, value in self.states(row, q[1:]).items()}
 
 
 def _turns(way: Floats) -> Floats:
@@ -268,7 +280,8 @@ def _turns(way: Floats) -> Floats:
 def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float]:
     values: dict[str, float] = {}
     for (name, q), turns in zip(inputs.items(), rotary, strict=True):
-        values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q)} if turns else {f"slide:{name}": q}
+        turned = {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"turn:{name}": q}
+        values |= turned if turns else {f"slide:{name}": q}
         values |= {f"rate:{name}": 0.0, f"second:{name}": 0.0}
     return values
 
@@ -296,7 +309,7 @@ class _Journey:
         good = np.isfinite(self.coordinates).all(axis=1)
         if good.any():
             margin[good] = distance_to_others(follower.loops, y[good])
-        states = follower.states(self.coordinates)
+        states = follower.states(self.coordinates, self.q)
         stops = tuple(self.stops)
         return Followed(
             follower,

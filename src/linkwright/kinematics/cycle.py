@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drivers.base import Driver
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.whole_turns import whole_turns
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
@@ -58,6 +58,7 @@ class Positions:
         for name, (q, rate, second) in self.coordinates.items():
             if self.rotary[name]:
                 found[f"cos:{name}"], found[f"sin:{name}"] = np.cos(q), np.sin(q)
+                found[f"turn:{name}"] = q
             else:
                 found[f"slide:{name}"] = q
             found[f"rate:{name}"], found[f"second:{name}"] = rate, second
@@ -147,26 +148,44 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     """Start and duration (s) of the cycle, and whether it closes."""
     cycle = mechanism.cycle
     first = next(iter(mechanism.drivers.values()))
-    natural = [driver.law.natural_duration() for driver in mechanism.drivers.values()]
-    known = [duration for duration in natural if duration is not None]
+    known = _naturals(mechanism)
     repeats = _repeats(mechanism.drivers.values(), known)
     if cycle is None:
         if not known:
             raise CycleError(Sentence("motion.no_natural_end", name=mechanism.name, driver=first.name))
-        return 0.0, max(known), repeats
+        turns = whole_turns(mechanism, max(known)) if repeats else None
+        return 0.0, max(known) * (turns or 1), turns is not None
+    turns = whole_turns(mechanism, max(known)) if repeats else None
     if cycle.duration is not None:
-        return 0.0, cycle.duration, repeats and _multiple(cycle.duration, max(known))
+        return 0.0, cycle.duration, turns is not None and _multiple(cycle.duration, max(known) * turns)
     if not isinstance(first.law, ConstantSpeed) or not first.law.speed:
         raise CycleError(Sentence("motion.cycle_by_coordinate", name=first.name))
     if cycle.turns is not None:
         return (
             0.0,
             cycle.turns * 2 * np.pi / abs(first.law.speed),
-            repeats and float(cycle.turns).is_integer(),
+            turns is not None and _multiple(cycle.turns, turns),
         )
     begin, end = cycle.start if cycle.start is not None else first.law.start, cycle.end
     assert end is not None
     return (begin - first.law.start) / first.law.speed, (end - begin) / first.law.speed, False
+
+
+def cycle_turns(mechanism: Mechanism, period: float) -> tuple[int, str]:
+    """How often the slowest driver comes back within a period, s, and its name."""
+    natural = {driver.law.natural_duration() or 0.0: name for name, driver in mechanism.drivers.items()}
+    return round(period / max(natural)), natural[max(natural)]
+
+
+def not_back(mechanism: Mechanism) -> bool:
+    """Whether the drivers come back, but never all wheels and racks with them."""
+    known = _naturals(mechanism)
+    return bool(known) and _repeats(mechanism.drivers.values(), known)
+
+
+def _naturals(mechanism: Mechanism) -> list[float]:
+    natural = [driver.law.natural_duration() for driver in mechanism.drivers.values()]
+    return [duration for duration in natural if duration is not None]
 
 
 def _repeats(drivers: Iterable[Driver], known: Sequence[float]) -> bool:
@@ -193,7 +212,7 @@ def _multiple(whole: float, part: float) -> bool:
 
 def _rotary(mechanism: Mechanism) -> dict[str, bool]:
     return {
-        name: isinstance(mechanism.joints[driver.joint], RevoluteJoint)
+        name: mechanism.joints[driver.joint].coordinate == "turn"
         for name, driver in mechanism.drivers.items()
     }
 

@@ -84,7 +84,7 @@ class Dimensions:
     def guide_direction(self, joint: PrismaticJoint) -> Vec:
         """Unit vector along a guide, in the axes of the link that carries it."""
         if joint.direction_points is None:
-            return self._unit(f"{joint.name}.direction")
+            return self.unit(f"{joint.name}.direction")
         start, end = (self.point(joint.guide, name) for name in joint.direction_points)
         d = end - start
         if isinstance(d.y, float) and d.y == 0.0 and not isinstance(d.x, float):
@@ -96,13 +96,13 @@ class Dimensions:
 
     def block_direction(self, joint: PrismaticJoint) -> Vec:
         """Unit vector along the guide, in the axes of the block."""
-        return self._unit(f"{joint.name}.block_angle")
+        return self.unit(f"{joint.name}.block_angle")
 
     def weld_direction(self, joint: WeldJoint) -> Vec:
         """Unit vector of the second link's x axis in the first link's axes."""
-        return self._unit(f"{joint.name}.angle")
+        return self.unit(f"{joint.name}.angle")
 
-    def _unit(self, address: str) -> Vec:
+    def unit(self, address: str) -> Vec:
         angle = self(address)
         if not isinstance(angle, float) and not self._follows(address):
             turns = round(self.nominal[address] / (0.5 * _PI))

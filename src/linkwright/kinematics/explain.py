@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kinematics.closed_loops import iterated
+from linkwright.kinematics.cycle import cycle_turns, not_back
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
@@ -43,6 +44,19 @@ def _solved(motion: Motion) -> list[Outcome]:
         Outcome(True, said[bool(sure)], certified=bool(sure), margin=float(margin))
         for sure, margin in zip(way.certified, way.margin, strict=True)
     ]
+
+
+def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
+    """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
+    positions, mechanism = motion.positions, motion.mechanism
+    wheels = any(joint.higher for joint in mechanism.joints.values())
+    if not wheels or not positions.cycle or mechanism.cycle is not None:
+        return ()
+    if positions.period is None:
+        said = Sentence("passage.never_back") if not_back(mechanism) else None
+        return () if said is None else (said,)
+    turns, driver = cycle_turns(mechanism, positions.period)
+    return () if turns == 1 else (Sentence("passage.turns", turns=turns, driver=driver),)
 
 
 def branch_notes(motion: Motion) -> tuple[Sentence, ...]:

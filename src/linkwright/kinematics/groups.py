@@ -6,16 +6,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkwright.engine.linear import Matrix, determinant, inverse, product
-from linkwright.engine.trace import Mask, Scalar, stop
+from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
-from linkwright.groups.base import DYADS, Chain, Dyad, Rotor
-from linkwright.kinematics.closure import Cut, PinCut, cut_of, jacobian
+from linkwright.groups.base import DYADS, Chain, Dyad
+from linkwright.joints.base import JOINTS, Cut
+from linkwright.joints.pose import UNTURNED, Pose, Rotor
+from linkwright.kinematics.angles import Angles, geared
+from linkwright.kinematics.closure import cut_of, jacobian
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
-from linkwright.kinematics.pairs import Coordinate, Guide, pair_of
-from linkwright.kinematics.pose import UNTURNED, Pose
+from linkwright.kinematics.pairs import Coordinate, pair_of
 from linkwright.kinematics.size import mechanism_size
-from linkwright.structure.group import Group, TreeJoint
+from linkwright.structure.group import Connection, Group, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10
@@ -49,6 +51,7 @@ class GroupTracer:
         dimensions: Dimensions,
         drivers: Mapping[str, DriverInput],
         poses: dict[str, Pose],
+        angles: Angles,
         *,
         iterations: int,
         mode: Callable[[Group], Scalar],
@@ -58,6 +61,7 @@ class GroupTracer:
         self.poses = poses
         self.iterations = iterations
         self.mode = mode
+        self.angles = angles
 
     def place(self, group: Group) -> Placed:
         """Poses of the group's links, found and stored."""
@@ -66,10 +70,12 @@ class GroupTracer:
             self._hang(group, {})
             return placed
         shape = dyad_shape(group)
-        if shape is None:
-            self._newton(placed)
-        else:
+        if shape is not None:
             self._closed_form(placed, *shape)
+        elif in_one_step(group):
+            self._one_step(placed)
+        else:
+            self._newton(placed)
         return placed
 
     # chains -------------------------------------------------------------------------------
@@ -87,6 +93,10 @@ class GroupTracer:
         for step in group.tree:
             parent = self.poses[step.parent]
             coordinate = self.driven(step, parent) if step.driver else coordinates.get(step)
+            if step.free and step.turns and not isinstance(coordinate, Rotor):
+                assert coordinate is not None
+                self.angles.give(step.child, coordinate)
+                coordinate = Rotor(Vec(cos(coordinate), sin(coordinate)), UNTURNED.local)
             self.poses[step.child] = pair_of(step, self.dimensions).place(parent, coordinate)
 
     def _trial(self, group: Group, start: TreeJoint | None, end: str) -> dict[str, Pose]:
@@ -105,7 +115,6 @@ class GroupTracer:
     # closed form --------------------------------------------------------------------------
     def _closed_form(self, placed: Placed, dyad: Dyad, ends: tuple[str, str]) -> None:
         group, cut = placed.group, placed.cuts[0]
-        assert isinstance(cut, PinCut)
         chains = [self._chain(group, cut, end) for end in ends]
         solved = dyad.solve(chains[0], chains[1], self.mode(group))
         steps = [step for end in ends for step in chain_unknowns(group, end)]
@@ -119,21 +128,35 @@ class GroupTracer:
         matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
         placed.inverse = inverse(matrix, solved.inverse_determinant * sign)
 
-    def _chain(self, group: Group, cut: PinCut, end: str) -> Chain:
+    def _chain(self, group: Group, cut: Cut, end: str) -> Chain:
         steps = chain_unknowns(group, end)
         if not steps:
-            return Chain(self._trial(group, None, end)[end].point(cut.point(end)))
-        turning = steps[0] if steps[0].kind == "revolute" else None
+            return Chain(cut.place(end, self._trial(group, None, end)))
+        turning = steps[0] if steps[0].turns else None
         trial = self._trial(group, turning, end)
-        anchor = trial[end].point(cut.point(end))
-        guides = [(step, pair) for step in steps if isinstance(pair := pair_of(step, self.dimensions), Guide)]
-        directions = [pair.normal(trial[step.parent]) for step, pair in guides]
-        senses = tuple(pair.sign for _, pair in guides)
+        anchor = cut.place(end, trial)
+        guides = [step for step in steps if step.slides]
+        directions = [pair_of(step, self.dimensions).normal(trial[step.parent]) for step in guides]
+        senses = tuple(1.0 if step.child == step.connection.b else -1.0 for step in guides)
         if turning is None:
             return Chain(anchor, None, tuple(directions), senses)
         parent = self._trial(group, None, turning.parent)[turning.parent]
         pivot = pair_of(turning, self.dimensions).place(parent, UNTURNED).place
         return Chain(pivot, anchor, tuple(directions), senses)
+
+    # higher pairs alone -------------------------------------------------------------------
+    def _one_step(self, placed: Placed) -> None:
+        """Rows that are linear in the unknowns: what they leave open with all unknowns at zero gives the solution."""
+        group = placed.group
+        self._hang(group, dict.fromkeys(group.unknowns, 0.0))
+        placed.inverse = inverse(jacobian(group, placed.cuts, self.poses, self.dimensions))
+        gap = self._gap(placed)
+        solved = [-each for each in product(placed.inverse, gap)]
+        self.angles.forget(group)
+        self._hang(group, dict(zip(group.unknowns, solved, strict=True)))
+
+    def _gap(self, placed: Placed) -> list[Scalar]:
+        return [entry for cut in placed.cuts for entry in cut.residual(self.poses, self.angles)]
 
     # Newton -------------------------------------------------------------------------------
     def _newton(self, placed: Placed) -> None:
@@ -143,14 +166,15 @@ class GroupTracer:
         for remaining in reversed(range(self.iterations)):
             if remaining == 0:
                 coordinates = {step: _stopped(value) for step, value in coordinates.items()}
+            self.angles.forget(group)
             self._hang(group, coordinates)
             matrix = inverse(jacobian(group, placed.cuts, self.poses, self.dimensions))
-            gap = [entry for cut in placed.cuts for entry in cut.residual(self.poses)]
-            correction = product(matrix, gap)
+            correction = product(matrix, self._gap(placed))
             coordinates = {
                 step: moved(value, -change)
                 for (step, value), change in zip(coordinates.items(), correction, strict=True)
             }
+        self.angles.forget(group)
         self._hang(group, coordinates)
         matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
         placed.inverse, placed.determinant = inverse(matrix), determinant(matrix)
@@ -162,8 +186,10 @@ class GroupTracer:
 
     def _start(self, group: Group, step: TreeJoint) -> Coordinate:
         trace, name = self.dimensions.trace, state_name(group, step)
-        if step.kind == "prismatic":
+        if step.slides:
             return trace.state(f"{name}.s")
+        if geared(group):
+            return trace.state(f"{name}.angle")
         return Rotor(Vec(trace.state(f"{name}.x"), trace.state(f"{name}.y")), UNTURNED.local)
 
 
@@ -180,7 +206,7 @@ def carried(group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> dict[s
             states |= {f"{name}.x": value.now.x, f"{name}.y": value.now.y}
         else:
             assert value is not None
-            states[f"{name}.s"] = value
+            states[f"{name}.s" if step.slides else f"{name}.angle"] = value
     return states
 
 
@@ -191,7 +217,7 @@ def state_name(group: Group, step: TreeJoint) -> str:
 
 def dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
     """The closed form of a group, and the ends of its cut in the order of that form; None for others."""
-    if len(group.cuts) != 1 or group.cuts[0].kind != "revolute" or len(group.unknowns) != 2:
+    if len(group.cuts) != 1 or not group.cuts[0].turns or len(group.unknowns) != 2:
         return None
     cut = group.cuts[0]
     ends = sorted((cut.a, cut.b), key=lambda link: _first_place(group, link))
@@ -201,6 +227,21 @@ def dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
             if pattern == dyad.pattern:
                 return dyad(), order
     return None
+
+
+def in_one_step(group: Group) -> bool:
+    """Whether the higher pairs of a group determine it alone, by rows that are linear in its unknowns.
+
+    A rack's row is, unless something that the group turns carries the rack or the pinion's centre about.
+    """
+    return bool(group.cuts) and all(cut.higher and _steady(group, cut) for cut in group.cuts)
+
+
+def _steady(group: Group, cut: Connection) -> bool:
+    if JOINTS[cut.kind].rotations_only:
+        return True
+    about = [step for end in (cut.a, cut.b) for step in group.path(end) if step.free and step.turns]
+    return all(step.child == cut.a for step in about)
 
 
 def chain_unknowns(group: Group, end: str) -> list[TreeJoint]:
@@ -238,6 +279,6 @@ def _relative_square(group: Group, correction: Sequence[Scalar], dimensions: Dim
     size = mechanism_size(dimensions.mechanism)
     total: Scalar = 0.0
     for step, change in zip(group.unknowns, correction, strict=True):
-        relative = change * (1.0 / size) if step.kind == "prismatic" else change
+        relative = change * (1.0 / size) if step.slides else change
         total = total + relative * relative
     return total

@@ -331,8 +331,8 @@ class _Search:
         follower = self.solver.follower()
         n = follower.loops.n
         branches = [self._branch(stop, float(there)) for there in q]
-        rows = [b.last[:n] if b.complete else np.full(n, np.nan) for b in branches]
-        return follower.states(np.array(rows))
+        rows = np.array([b.last if b.complete else np.full(n + follower.loops.d, np.nan) for b in branches])
+        return follower.states(rows[:, :n], rows[:, n:])
 
     def _branch(self, stop: _Stop, there: float) -> Branch:
         assert stop.unknowns is not None

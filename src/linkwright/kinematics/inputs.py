@@ -8,7 +8,6 @@ from linkwright.drivers.base import Driver
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.trace import Scalar, Trace
 from linkwright.engine.vector import Vec
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.dimensions import Dimensions
 
 
@@ -34,7 +33,7 @@ def driver_input(driver: Driver, dimensions: Dimensions) -> DriverInput:
     else:
         rate = trace.position(f"rate:{driver.name}")
         second = trace.position(f"second:{driver.name}")
-    if isinstance(dimensions.mechanism.joints[driver.joint], RevoluteJoint):
+    if dimensions.mechanism.joints[driver.joint].coordinate == "turn":
         return DriverInput(turned(driver.name, trace), None, rate, second)
     return DriverInput(None, trace.position(f"slide:{driver.name}"), rate, second)
 

@@ -16,15 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
+from linkwright.joints.rack import RackPair
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.drawing import Drawing, guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
 from linkwright.kinematics.size import mechanism_size
+from linkwright.model.drawing import Drawing
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
@@ -168,6 +166,7 @@ class ConstraintSystem:
         self.mechanism = mechanism
         self.links = [name for name in mechanism.links if name not in left]
         self.size = mechanism_size(mechanism)
+        self._rest: dict[str, float] = {}
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
         self._joints = [
             (joint, tuple(sorted(kept, key=lambda link: number.get(link, 0))))
@@ -182,9 +181,9 @@ class ConstraintSystem:
 
     def rows(self, x: Numbers) -> list[Row]:
         """All equations at some coordinates."""
-        poses = {"frame": _Pose(0.0, 0.0, 0.0)}
-        poses |= {name: _Pose(*x[i : i + 3]) for name, i in self._first.items()}
-        return [row for joint, kept in self._joints for row in self._of_joint(joint, kept, poses)]
+        poses = {"frame": Place(0.0, 0.0, 0.0)}
+        poses |= {name: Place(*x[i : i + 3]) for name, i in self._first.items()}
+        return [row for joint, kept in self._joints for row in joint.rows(self, kept, poses)]
 
     def residual(self, x: Numbers) -> Numbers:
         """Values of the equations; lengths over the size."""
@@ -209,46 +208,55 @@ class ConstraintSystem:
         """A driver's coordinate (rad, or m over the size) with its derivatives."""
         driver = self.mechanism.drivers[name]
         joint = self.mechanism.joints[driver.joint]
-        poses = {"frame": _Pose(0.0, 0.0, 0.0)}
-        poses |= {link: _Pose(*x[i : i + 3]) for link, i in self._first.items()}
+        poses = {"frame": Place(0.0, 0.0, 0.0)}
+        poses |= {link: Place(*x[i : i + 3]) for link, i in self._first.items()}
         if isinstance(joint, PrismaticJoint):
-            return self._along(joint, poses, across=False)
+            return self.along(joint, poses, across=False)
         a, b = driver.relative_to, driver.link
         return Row(joint.name, "driver", poses[b].angle - poses[a].angle, {a: (0, 0, -1.0), b: (0, 0, 1.0)})
 
-    def _of_joint(self, joint: Joint, kept: tuple[str, ...], poses: Mapping[str, _Pose]) -> Iterable[Row]:
-        if isinstance(joint, RevoluteJoint):
-            for other in kept[1:]:
-                yield from self._pin(joint.name, kept[0], other, joint.name, poses)
-        elif isinstance(joint, PrismaticJoint):
-            turn = guide_angle(self.mechanism, joint) - joint.block_angle
-            yield self._rotation(joint.name, joint.guide, joint.block, turn, poses)
-            yield self._along(joint, poses, across=True)
-        elif isinstance(joint, WeldJoint):
-            a, b = joint.links
-            yield self._rotation(joint.name, a, b, joint.angle, poses)
-            yield from self._pin(joint.name, a, b, joint.at, poses)
+    def rolling(self, pair: RackPair, poses: Mapping[str, Place]) -> Row:
+        """A pinion's centre along its rack, and its rotation against it."""
+        pinion, rack = poses[pair.pinion], poses[pair.rack]
+        lever = pair.side * pair.radius / self.size
+        tx, ty = rack.arm((math.cos(pair.direction), math.sin(pair.direction)))
+        cx, cy = pinion.arm(self._local(pair.pinion, pair.centre))
+        px, py = rack.arm(self._local(pair.rack, pair.through))
+        gx, gy = pinion.x + cx - rack.x - px, pinion.y + cy - rack.y - py
+        gap = tx * gx + ty * gy + lever * (pinion.angle - rack.angle)
+        gap = gap - self._rest.setdefault(pair.name, float(np.real(gap)))
+        turned = tx * gy - ty * gx + tx * py - ty * px
+        parts = {
+            pair.pinion: (tx, ty, ty * cx - tx * cy + lever),
+            pair.rack: (-tx, -ty, turned - lever),
+        }
+        return Row(pair.name, "rolling", gap, parts)
+
+    def row(self, joint: str, gap: Any, factors: Mapping[str, float]) -> Row:
+        """A sum of rotations that keeps the value that it has where it is first seen."""
+        rest = self._rest.setdefault(joint, float(np.real(gap)))
+        return Row(joint, "rolling", gap - rest, {link: (0.0, 0.0, each) for link, each in factors.items()})
 
     def _local(self, link: str, point: str) -> tuple[float, float]:
         x, y = self.mechanism.link(link).points[point]
         return x / self.size, y / self.size
 
-    def _pin(self, joint: str, a: str, b: str, point: str, poses: Mapping[str, _Pose]) -> Iterable[Row]:
+    def pin(self, joint: str, a: str, b: str, point: str, poses: Mapping[str, Place]) -> Iterable[Row]:
         (ax, ay), (bx, by) = (poses[link].arm(self._local(link, point)) for link in (a, b))
         p, q = poses[a], poses[b]
         yield Row(joint, "place", p.x + ax - q.x - bx, {a: (1.0, 0.0, -ay), b: (-1.0, 0.0, by)})
         yield Row(joint, "place", p.y + ay - q.y - by, {a: (0.0, 1.0, ax), b: (0.0, -1.0, -bx)})
 
     @staticmethod
-    def _rotation(joint: str, a: str, b: str, turn: float, poses: Mapping[str, _Pose]) -> Row:
+    def rotation(joint: str, a: str, b: str, turn: float, poses: Mapping[str, Place]) -> Row:
         difference = poses[b].angle - poses[a].angle - turn
         c = np.cos(difference)
         return Row(joint, "rotation", np.sin(difference), {a: (0.0, 0.0, -c), b: (0.0, 0.0, c)})
 
-    def _along(self, joint: PrismaticJoint, poses: Mapping[str, _Pose], *, across: bool) -> Row:
+    def along(self, joint: PrismaticJoint, poses: Mapping[str, Place], *, across: bool) -> Row:
         """The block's place along the guide, or its distance across it."""
         guide, block = poses[joint.guide], poses[joint.block]
-        direction = guide_angle(self.mechanism, joint) + (0.5 * math.pi if across else 0.0)
+        direction = joint.angle_of_guide(self.mechanism) + (0.5 * math.pi if across else 0.0)
         nx, ny = guide.arm((math.cos(direction), math.sin(direction)))
         tx, ty = guide.arm(self._local(joint.guide, joint.through))
         bx, by = block.arm(self._local(joint.block, joint.at))
@@ -259,7 +267,7 @@ class ConstraintSystem:
         return Row(joint.name, "place", value, parts)
 
 
-class _Pose:
+class Place:
     """Place and direction of a link."""
 
     __slots__ = ("angle", "c", "s", "x", "y")

@@ -10,11 +10,11 @@ from collections.abc import Mapping, Sequence
 
 from linkwright.engine.linear import product
 from linkwright.engine.trace import Scalar
+from linkwright.joints.pose import Pose, State
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.inputs import DriverInput
 from linkwright.kinematics.pairs import pair_of
-from linkwright.kinematics.pose import Pose, State
 from linkwright.structure.group import TreeJoint
 
 Rates = Mapping[TreeJoint, Scalar]
@@ -80,7 +80,7 @@ class RateTracer:
 
     def _given(self, step: TreeJoint, value: Scalar, carried: Scalar) -> Scalar:
         """A driver's rate as the chain counts it: absolute for a pin, of the block for a guide."""
-        if step.kind == "prismatic":
+        if step.slides:
             return value
         assert step.driver is not None
         own = step.child == self.dimensions.mechanism.drivers[step.driver].link

@@ -17,7 +17,7 @@ from linkwright.kinematics.change_points import (
     signs,
 )
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
-from linkwright.kinematics.explain import branch_notes, refusal
+from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.rows import Rows
@@ -102,7 +102,7 @@ class MotionRun:
         names = stored or tuple(self.solver.outputs.standard())
         motion = self._evaluate(states, modes, found, breaks, names)
         motion.followed = followed
-        motion.notes += said + branch_notes(motion)
+        motion.notes += said + turn_notes(motion) + branch_notes(motion)
         if failures == "raise" and not motion.ok.all():
             raise refusal(motion)
         return motion

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
 from linkwright.engine.vector import Vec
-from linkwright.groups.base import Rotor
+from linkwright.joints.pose import Rotor
 from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.groups import Placed, carried, moved, state_name
 from linkwright.kinematics.pairs import Coordinate
@@ -91,9 +91,10 @@ class StepRule:
             way, off = _angle(before, value.now), _angle(start, value.now)
         else:
             assert value is not None
-            scale = 1.0 / mechanism_size(self.motion.mechanism)
-            way = value - self._state(f"before:{name}.s", f"{name}.s", value)
-            off = value - self.motion.trace.state(f"{name}.s")
+            scale = 1.0 / mechanism_size(self.motion.mechanism) if joint.slides else 1.0
+            state = f"{name}.s" if joint.slides else f"{name}.angle"
+            way = value - self._state(f"before:{state}", state, value)
+            off = value - self.motion.trace.state(state)
         quintic = 0.5 * h * (rate + rate_before) + (h * h * (1.0 / 12.0)) * (second_before - second)
         return way * scale, off * scale, (way - quintic) * scale, predicted
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 from linkwright.engine.trace import Mask, Scalar, Trace, select
 from linkwright.engine.vector import Vec
+from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
+from linkwright.kinematics.angles import Angles
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.inputs import DriverInput, driver_input
-from linkwright.kinematics.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.rates import RateTracer
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
@@ -34,11 +35,13 @@ class MotionTrace:
     placed: dict[str, Placed] = field(default_factory=dict)
     valid: Mask = True
     outcome: Scalar = 0.0
+    angles: Angles = field(init=False)
 
     @property
     def next_states(self) -> dict[str, Scalar]:
         """Chain coordinates of the groups without closed form, carried to the next position."""
-        return {name: value for p in self.placed.values() for name, value in p.next_states.items()}
+        own = {name: value for p in self.placed.values() for name, value in p.next_states.items()}
+        return own | self.angles.carried
 
     def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
         """Position, velocity and acceleration of a point given in a link's axes."""
@@ -73,7 +76,8 @@ def trace_motion(
         name = f"mode:{group.name}"
         return trace.position(name) if group.name in modes_vary else trace.parameter(name)
 
-    placer = GroupTracer(dimensions, drivers, motion.poses, iterations=iterations, mode=mode)
+    angles = motion.angles = Angles(structure.groups, dimensions, motion.poses)
+    placer = GroupTracer(dimensions, drivers, motion.poses, angles, iterations=iterations, mode=mode)
     for group in structure.groups:
         motion.placed[group.name] = placer.place(group)
     if rates:

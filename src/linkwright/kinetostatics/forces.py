@@ -11,7 +11,6 @@ import numpy as np
 
 from linkwright.core.frozen import locked
 from linkwright.errors import RequestError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rows import Rows
@@ -88,7 +87,7 @@ class Forces:
         """Couple (n,), N·m, that a guide (about the block's point) or a weld exerts on a link; zero for a pin."""
         link = self._link_at(joint, on)
         first = self.mechanism.joints[joint].joined[0]
-        if isinstance(self.mechanism.joints[joint], RevoluteJoint):
+        if not self.mechanism.joints[joint].couples:
             return np.zeros(self.steps)
         other = self.mechanism.joints[joint].joined[1]
         row = self.fetch((f"c:{joint}|{other}",))[0]
@@ -204,7 +203,7 @@ class Forces:
 
     def guide_direction(self, joint: str) -> Floats:
         """Unit vector along a guide, (n, 2)."""
-        from linkwright.kinematics.drawing import guide_angle
+        from linkwright.model.drawing import guide_angle
 
         prismatic = self.mechanism.joints[joint]
         angle = guide_angle(self.mechanism, prismatic)  # type: ignore[arg-type]

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.names import canonical, vector_names
 
@@ -47,7 +45,7 @@ Pair = tuple[Floats, Floats]
 def _motion_outputs(forces: Forces) -> Iterator[str]:
     """Names of what the balance takes from the motion."""
     mechanism = forces.mechanism
-    keys = [canonical(mechanism, *_seat(joint)) for joint in mechanism.joints.values()]
+    keys = [canonical(mechanism, *seat) for joint in mechanism.joints.values() for seat in joint.seats]
     yield from (name for key in keys for name in vector_names("p", key))
     for link in mechanism.links:
         for prefix in ("p",) if forces.static else ("p", "a"):
@@ -56,13 +54,6 @@ def _motion_outputs(forces: Forces) -> Iterator[str]:
 
 def _load_outputs(link: str) -> tuple[str, str, str]:
     return f"on:{link}.x", f"on:{link}.y", f"on:{link}.m"
-
-
-def _seat(joint: Joint) -> tuple[str, str]:
-    """A link of a joint, and its point there."""
-    if isinstance(joint, PrismaticJoint):
-        return joint.block, joint.at
-    return joint.joined[-1], getattr(joint, "at", joint.name)
 
 
 def _cross(place: Floats, force: Floats) -> Floats:
@@ -80,12 +71,8 @@ def _joints(forces: Forces, link: str) -> Pair:
             continue
         force = forces.reaction(name, on=link)
         total = total + force
-        moment = moment + _cross(_place(forces, name), force) + forces.couple(name, on=link)
+        moment = moment + _cross(joint.acts_at(forces.motion), force) + forces.couple(name, on=link)
     return total, moment
-
-
-def _place(forces: Forces, name: str) -> Floats:
-    return forces.motion.point(".".join(_seat(forces.mechanism.joints[name]))).position
 
 
 def _drivers(forces: Forces, link: str) -> Pair:
@@ -94,11 +81,12 @@ def _drivers(forces: Forces, link: str) -> Pair:
         if link not in (driver.link, driver.relative_to):
             continue
         effort = forces.driver_effort(name) * (1.0 if link == driver.link else -1.0)
-        if not isinstance(forces.mechanism.joints[driver.joint], PrismaticJoint):
+        joint = forces.mechanism.joints[driver.joint]
+        if joint.coordinate == "turn":
             moment = moment + effort
             continue
         force = effort[:, None] * forces.guide_direction(driver.joint)
-        total, moment = total + force, moment + _cross(_place(forces, driver.joint), force)
+        total, moment = total + force, moment + _cross(joint.acts_at(forces.motion), force)
     return total, moment
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.loads.site import Wrench
 
@@ -100,6 +99,5 @@ class ForceOutputs:
         """Joint, link, and whether it carries a couple; one link per pair, the others follow by reaction."""
         found = []
         for name, joint in self.mechanism.joints.items():
-            pin = isinstance(joint, RevoluteJoint)
-            found += [(name, link, not pin) for link in (joint.joined[1:])]
+            found += [(name, link, joint.couples) for link in joint.joined[1:]]
         return found

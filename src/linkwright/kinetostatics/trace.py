@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 from linkwright.engine.linear import product, transposed
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.kinematics.closure import Cut
+from linkwright.joints.base import Cut
+from linkwright.joints.pose import Pose
 from linkwright.kinematics.groups import Placed
-from linkwright.kinematics.pairs import Guide, pair_of
-from linkwright.kinematics.pose import Pose
+from linkwright.kinematics.pairs import pair_of
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import TracedSite
 from linkwright.loads.site import Wrench
@@ -149,12 +149,28 @@ class _Reverse:
     def solve(self, placed: Placed) -> None:
         """Forces of one group; what its links need of links solved before is added to their demand."""
         multipliers = product(transposed(placed.inverse), self._wanted(placed)) if placed.cuts else []
-        row = 0
-        for cut in placed.cuts:
-            self._apply(cut, multipliers[row : row + cut.rows])
-            row += cut.rows
+        pressing = self._press(placed, multipliers)
+        if pressing and any(not cut.connection.higher for cut in placed.cuts):
+            multipliers = product(transposed(placed.inverse), self._wanted(placed))
+        for cut, own in _shares(placed, multipliers):
+            self._apply(cut, own, pressing.get(cut.connection, ZERO))
         for step in reversed(placed.group.tree):
             self._carry(step)
+
+    def _press(self, placed: Placed, multipliers: list[Scalar]) -> dict[Connection, Vec]:
+        """What follows from the multipliers of higher pairs and does no work, added to the demands of their links."""
+        found: dict[Connection, Vec] = {}
+        poses = self.motion.poses
+        for cut, own in _shares(placed, multipliers):
+            force = cut.pressing(own, poses)
+            if force is None:
+                continue
+            found[cut.connection] = force
+            for link in (cut.connection.a, cut.connection.b):
+                push = force if link == cut.on else -force
+                arm = cut.arm(link, poses)
+                self.demands[link] = self.demands[link] + Demand(-push, -arm.cross(push))
+        return found
 
     def _wanted(self, placed: Placed) -> list[Scalar]:
         """Demand on every unknown chain coordinate, with the chains open."""
@@ -162,14 +178,16 @@ class _Reverse:
         wanted: dict[TreeJoint, Scalar] = {}
         for step in reversed(placed.group.tree):
             demand = open_chains[step.child]
-            pair = pair_of(step, self.motion.dimensions)
             if step.free:
-                along = pair.normal(self.motion.poses[step.parent]) if isinstance(pair, Guide) else None
-                wanted[step] = demand.moment if along is None else along.dot(demand.force)
+                wanted[step] = self._along(step).dot(demand.force) if step.slides else demand.moment
             if step.parent in open_chains:
-                passed = self._moved(demand, step, free_pin=step.free and step.kind == "revolute")
+                passed = self._moved(demand, step, free_pin=step.free and step.turns)
                 open_chains[step.parent] = open_chains[step.parent] + passed
         return [wanted[step] for step in placed.group.unknowns]
+
+    def _along(self, step: TreeJoint) -> Vec:
+        """The direction in which a guide's child slides."""
+        return pair_of(step, self.motion.dimensions).normal(self.motion.poses[step.parent])
 
     def _moved(self, demand: Demand, step: TreeJoint, *, free_pin: bool) -> Demand:
         """A child's demand as its parent feels it; through a free pin goes no moment."""
@@ -178,31 +196,27 @@ class _Reverse:
 
     def _arm_on_parent(self, step: TreeJoint) -> Vec:
         parent, child = self.motion.poses[step.parent], self.motion.poses[step.child]
-        if step.kind == "revolute":
+        if step.turns:
             point = self.motion.dimensions.point(step.parent, step.joint)
             return parent.spin(point - parent.anchor)
         return child.place - parent.place
 
-    def _apply(self, cut: Cut, multipliers: list[Scalar]) -> None:
-        """The force at a cut supplies part of both links' demand."""
+    def _apply(self, cut: Cut, multipliers: list[Scalar], pressing: Vec) -> None:
+        """The force at a cut supplies part of both links' demand; ``pressing`` is in it already."""
         poses = self.motion.poses
         for link in (cut.connection.a, cut.connection.b):
-            force = cut.force_on(link, multipliers, poses)
-            pose = poses[link]
-            if cut.connection.kind == "revolute":
-                arm = pose.spin(cut.point(link) - pose.anchor)
-            else:
-                arm = cut.place(link, poses) - pose.place
-            self.demands[link] = self.demands[link] + Demand(-force, -arm.cross(force))
-        on = cut.connection.b if cut.connection.kind == "prismatic" else cut.connection.a
+            force, couple = cut.force_on(link, multipliers, poses)
+            moment = cut.arm(link, poses).cross(force) + couple
+            self.demands[link] = self.demands[link] + Demand(-force, -moment)
+        force, couple = cut.force_on(cut.on, multipliers, poses)
         self.forces.joints.append(
-            JointForce(cut.connection, on, cut.force_on(on, multipliers, poses), 0.0, cut.place(on, poses))
+            JointForce(cut.connection, cut.on, force + pressing, couple, cut.place(cut.on, poses))
         )
 
     def _carry(self, step: TreeJoint) -> None:
         """The joint that hangs a child on its parent supplies the child's whole demand."""
         demand = self.demands[step.child]
-        pin = step.kind == "revolute"
+        pin = step.turns
         passed = self._moved(demand, step, free_pin=pin and step.free)
         self.demands[step.parent] = self.demands[step.parent] + passed
         force, couple = demand.force, 0.0 if pin else self._couple(step, demand)
@@ -214,7 +228,7 @@ class _Reverse:
     def _couple(self, step: TreeJoint, demand: Demand) -> Scalar:
         """Couple on the child about the block's point (guide) or the weld."""
         pose = self.motion.poses[step.child]
-        if step.kind == "prismatic" and step.child == step.connection.a:
+        if step.slides and step.child == step.connection.a:
             block = self.motion.poses[step.parent].place + self._block_arm(step)
             return demand.moment + (pose.place - block).cross(demand.force)
         return demand.moment
@@ -227,13 +241,20 @@ class _Reverse:
     def _drive(self, step: TreeJoint, demand: Demand) -> Vec:
         """Notes the driver's effort; the force it exerts on the child along a guide."""
         assert step.driver is not None
-        if step.kind == "revolute":
+        if step.turns:
             own = step.child == self.motion.mechanism.drivers[step.driver].link
             self.forces.efforts[step.driver] = demand.moment if own else -demand.moment
             return ZERO
-        pair = pair_of(step, self.motion.dimensions)
-        assert isinstance(pair, Guide)
-        along = pair.normal(self.motion.poses[step.parent])
+        along = self._along(step)
         effort = along.dot(demand.force)
         self.forces.efforts[step.driver] = effort
         return along * effort
+
+
+def _shares(placed: Placed, multipliers: list[Scalar]) -> list[tuple[Cut, list[Scalar]]]:
+    """Every cut of a group with its own multipliers."""
+    found, row = [], 0
+    for cut in placed.cuts:
+        found.append((cut, multipliers[row : row + cut.rows]))
+        row += cut.rows
+    return found

@@ -260,7 +260,7 @@ def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: 
 
 def links(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
     """The names of two different links ``[a, b]``."""
-    from linkwright.model.read_joints import LinkNames
+    from linkwright.model.reference_fields import LinkNames
 
     return _declare(LinkNames(doc=doc, key=key), default)
 

@@ -2,102 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
 
 from linkwright.joints.base import JOINTS, Joint
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
-from linkwright.model.fields import Field, Quantity, Schema, Text, quantity_schema, written_quantity
+from linkwright.model.fields import Text
 from linkwright.model.mechanism import Link
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
 from linkwright.model.plain_reader import Place
 from linkwright.model.reader import Reader
-from linkwright.model.reference_fields import LinkName, PointName
-from linkwright.words.sentence import Sentence, together
+from linkwright.words.sentence import Sentence
 
-
-@dataclass(frozen=True)
-class Direction(Field):
-    """Direction of a guide: an angle in the guide link's axes, or two points [P, Q] of it."""
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        if isinstance(node, Sequence):
-            return reader.ray(node, place, given.get("guide"))
-        return reader.quantity(node, place, "angle")
-
-    def shape(self) -> Schema:
-        pair = {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
-        return {"anyOf": [*quantity_schema("angle")["anyOf"], pair], "x-dimension": "angle"}
-
-    def written(self, value: Any) -> Any:
-        return written_quantity(value, "angle") if isinstance(value, float) else list(value)
-
-
-@dataclass(frozen=True)
-class LinkNames(Field):
-    """Two different links [a, b]."""
-
-    def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
-    ) -> tuple[str, str] | None:
-        items = reader.items(node, place, 2, "[a, b]")
-        if items is None:
-            return None
-        names = [LinkName().read(reader, item, place, given) for item in items]
-        first, second = names
-        if first is None or second is None:
-            return None
-        if first == second:
-            reader.error(
-                node,
-                place,
-                Sentence("model.both_links", first=first),
-                Sentence("model.two_links"),
-                "reference",
-            )
-            return None
-        return first, second
-
-    def shape(self) -> Schema:
-        return {
-            "type": "array",
-            "items": {"type": "string", "x-reference": "link"},
-            "minItems": 2,
-            "maxItems": 2,
-        }
-
-
-_FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
-JOINT_FIELDS: Mapping[str, Mapping[str, Field]] = {
-    "revolute": {
-        "pin_radius": Quantity("length", above=0, doc="radius of the pin"),
-        "friction": _FRICTION,
-    },
-    "prismatic": {
-        "guide": LinkName(required=True, doc="the link that carries the guide"),
-        "through": PointName("guide", required=True, doc="point of the guide link on the guide line"),
-        "direction": Direction(
-            required=True, doc="direction: an angle in the guide link's axes, or two points [P, Q]"
-        ),
-        "block": LinkName(required=True, doc="the link that slides"),
-        "at": PointName("block", required=True, doc="point of the block that follows the line"),
-        "offset": Quantity(
-            "length", doc="normal distance of the point from the line, left positive (default 0)"
-        ),
-        "block_angle": Quantity("angle", doc="direction of the line in the block's axes (default 0)"),
-        "friction": _FRICTION,
-    },
-    "weld": {
-        "links": LinkNames(required=True, doc="the two links [a, b]"),
-        "at": Text(required=True, doc="their common point"),
-        "angle": Quantity("angle", doc="angle of b's x axis to a's (default 0)"),
-    },
-}
+#: The kind of the joints that shared points imply.
+IMPLIED = RevoluteJoint.kind
 
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
@@ -108,10 +26,10 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         else []
     )
     reader.names.pins = _implied_pins(reader.names.links, [value for _, value in declared])
-    reader.names.joints = dict.fromkeys(reader.names.pins, "revolute")
+    reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
     for key, value in declared:
         kind = _word(value, "kind")
-        if kind in ("prismatic", "weld"):
+        if kind in JOINTS and kind != IMPLIED:
             reader.names.joints[key] = kind
 
 
@@ -156,7 +74,7 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
         joint = None if name is None else _read_joint(reader, entry.value, name, links)
         if joint is None or name is None:
             continue
-        if name in joints and not isinstance(joint, RevoluteJoint):
+        if name in joints and joint.kind != IMPLIED:
             reader.error(
                 entry.key,
                 f"joints.{name}",
@@ -195,80 +113,9 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
     if kind is None:
         return None
     before = reader.error_count
-    given = reader.table(mapping, place, {"kind": Text(), **JOINT_FIELDS[kind]})
+    cls = JOINTS[kind]
+    given = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
     if given is None or reader.error_count > before:
         return None
     values = {key: value for key, value in given.items() if key != "kind" and value is not None}
-    if kind == "prismatic":
-        return _prismatic(reader, mapping, place, name, values, links)
-    return (
-        _weld(reader, mapping, place, name, values)
-        if kind == "weld"
-        else _pin(reader, node, place, name, values)
-    )
-
-
-def _pin(reader: Reader, node: Node, place: Place, name: str, values: Mapping[str, Any]) -> Joint | None:
-    owners = reader.names.pins.get(name)
-    if owners is None:
-        reader.known(node, place, "pin", name, list(reader.names.pins))
-        return None
-    return RevoluteJoint(name, owners, **values)
-
-
-def _prismatic(
-    reader: Reader,
-    node: MappingNode,
-    place: Place,
-    name: str,
-    values: dict[str, Any],
-    links: Mapping[str, Link],
-) -> Joint | None:
-    guide = values["guide"]
-    if guide == values["block"]:
-        reader.error(
-            node.get("block"),
-            place.child("block"),
-            Sentence("model.guide_is_block", guide=guide),
-            Sentence("model.two_links"),
-            "reference",
-        )
-        return None
-    point = values["at"]
-    others = [owner for owner in reader.names.owners(point) if owner not in (guide, values["block"])]
-    if point == values["through"] and others:
-        reader.error(
-            node.get("at"),
-            place.child("at"),
-            Sentence("model.point_on_both", point=point, others=tuple(others)),
-            Sentence("model.rename_point"),
-            "ambiguous",
-        )
-        return None
-    direction = values.pop("direction")
-    if isinstance(direction, float):
-        return PrismaticJoint(name, direction=direction, direction_points=None, **values)
-    joint = PrismaticJoint(name, direction=0.0, direction_points=direction, **values)
-    if guide not in links:
-        return joint
-    first, second = (links[guide].points.get(each) for each in direction)
-    if first is None or second is None:
-        return joint
-    if math.dist(first, second) == 0:
-        reader.error(
-            node.get("direction"),
-            place.child("direction"),
-            Sentence("model.same_place", points=together(direction)),
-            Sentence("model.points_apart"),
-            "range",
-        )
-    return joint.aligned(links[guide].points)
-
-
-def _weld(reader: Reader, node: MappingNode, place: Place, name: str, values: dict[str, Any]) -> Joint | None:
-    if all(
-        reader.point_of(node.get("at") or node, place.child("at"), values["at"], link)
-        for link in values["links"]
-    ):
-        return WeldJoint(name, **values)
-    return None
+    return cls.read(reader, mapping, place, name, values, links)

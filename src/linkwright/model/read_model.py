@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from linkwright.errors import Finding, QuantityError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.loads.base import Load, read_load
 from linkwright.model import expressions
+from linkwright.model.drawing import Drawing
 from linkwright.model.fields import Count, Field, Free, Quantities, Text
 from linkwright.model.mechanism import Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
@@ -84,8 +87,8 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
     frame = read_frame(reader, root.get("frame"))
-    drawing = read_drawing(reader, root.get("drawing"), frame)
-    links = read_links(reader, root.get("links"), frame, drawing)
+    drawn = read_drawing(reader, root.get("drawing"), frame)
+    links = read_links(reader, root.get("links"), frame, drawn)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
     ends = {
         name: (joint.block, joint.guide)
@@ -102,7 +105,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         purpose=header.get("purpose") or "",
         source=header.get("source") or "",
         assembly=_assembly(reader, root.get("assembly")),
-        drawing=drawing,
+        drawing=drawn,
         gravity=_gravity(header),
         loads=_loads(reader, root.get("loads")),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
@@ -114,7 +117,22 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         report=header.get("report") or {},
     )
     check_whole(reader, root, mechanism)
-    return mechanism
+    if reader.error_count:
+        return mechanism
+    drawing, section = Drawing(mechanism), root.get("joints")
+    for name, joint in joints.items():
+        report = partial(_report, reader, section, name)
+        joints[name] = joint.settled(mechanism, report).drawn(drawing)
+    return replace(mechanism, joints=joints)
+
+
+def _report(
+    reader: Reader, section: Node | None, joint: str, key: str, problem: Sentence, remedy: Sentence
+) -> None:
+    """A finding about a key of a joint."""
+    node = section.get(joint) if isinstance(section, MappingNode) else None
+    held = node.get(key) if isinstance(node, MappingNode) else None
+    reader.error(held or node, Place(f"joints.{joint}", joint).child(key), problem, remedy, "range")
 
 
 def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:

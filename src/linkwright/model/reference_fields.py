@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from linkwright.model.fields import Field, Schema
-from linkwright.model.nodes import Node
+from linkwright.model.fields import Field, Schema, quantity_schema, written_quantity
+from linkwright.model.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -160,3 +160,56 @@ class JointName(Field):
 
     def shape(self) -> Schema:
         return {"type": "string", "x-reference": "joint", "x-kinds": list(self.kinds)}
+
+
+@dataclass(frozen=True)
+class Direction(Field):
+    """A direction in the axes of the link that the field ``of`` names: an angle, or two points [P, Q] of it."""
+
+    of: str = "guide"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, Sequence):
+            return reader.ray(node, place, given.get(self.of))
+        return reader.quantity(node, place, "angle")
+
+    def shape(self) -> Schema:
+        pair = {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
+        return {"anyOf": [*quantity_schema("angle")["anyOf"], pair], "x-dimension": "angle"}
+
+    def written(self, value: Any) -> Any:
+        return written_quantity(value, "angle") if isinstance(value, float) else list(value)
+
+
+@dataclass(frozen=True)
+class LinkNames(Field):
+    """Two different links [a, b]."""
+
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[str, str] | None:
+        items = reader.items(node, place, 2, "[a, b]")
+        if items is None:
+            return None
+        names = [LinkName().read(reader, item, place, given) for item in items]
+        first, second = names
+        if first is None or second is None:
+            return None
+        if first == second:
+            reader.error(
+                node,
+                place,
+                Sentence("model.both_links", first=first),
+                Sentence("model.two_links"),
+                "reference",
+            )
+            return None
+        return first, second
+
+    def shape(self) -> Schema:
+        return {
+            "type": "array",
+            "items": {"type": "string", "x-reference": "link"},
+            "minItems": 2,
+            "maxItems": 2,
+        }

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.drivers.base import LAWS
+from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
 from linkwright.model.fields import Field, Schema, Word, quantity_schema, table_schema
 from linkwright.model.read_drivers import SLIDE_FIELDS, TURN_FIELDS
-from linkwright.model.read_joints import JOINT_FIELDS
 from linkwright.model.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
 from linkwright.model.read_model import HEADER, WORDS
 
@@ -62,8 +62,8 @@ def _named(shape: Schema) -> Schema:
 
 def _joints() -> list[Schema]:
     return [
-        {"title": kind, **table_schema({"kind": Word((kind,), required=True), **fields})}
-        for kind, fields in JOINT_FIELDS.items()
+        {"title": kind, **table_schema({"kind": Word((kind,), required=True), **joint.fields()})}
+        for kind, joint in JOINTS.items()
     ]
 
 

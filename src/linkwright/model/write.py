@@ -9,13 +9,10 @@ from typing import Any
 
 from linkwright.drivers.base import Driver
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.model.fields import written_quantity
 from linkwright.model.geometry import STRUCTURAL_POINTS, from_drawing
 from linkwright.model.mechanism import Link, Mechanism, Vec
-from linkwright.model.read_joints import JOINT_FIELDS
+from linkwright.model.read_joints import IMPLIED
 from linkwright.model.read_links import LINK_FIELDS
 from linkwright.units import NONE, number, si_symbol
 
@@ -120,20 +117,9 @@ def _as_drawn(link: Link, drawn: Mapping[str, Vec]) -> int:
 
 
 def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
-    values: Plain = {}
-    if isinstance(joint, PrismaticJoint):
-        values = {"guide": joint.guide, "through": joint.through, "block": joint.block, "at": joint.at}
-        values["direction"] = list(joint.direction_points) if joint.direction_points else joint.direction
-        values |= {
-            key: value for key in ("offset", "block_angle", "friction") if (value := getattr(joint, key))
-        }
-    elif isinstance(joint, WeldJoint):
-        values = {"links": list(joint.links), "at": joint.at, "angle": joint.angle}
-    elif isinstance(joint, RevoluteJoint):
-        values = {key: value for key in ("pin_radius", "friction") if (value := getattr(joint, key))}
-        if not values:
-            return None
-    fields = JOINT_FIELDS[joint.kind]
+    values, fields = joint.written(), joint.fields()
+    if not values and joint.kind == IMPLIED:
+        return None
     values |= {key: 0.0 for key in fields if f"{joint.name}.{key}" in texts}
     written = {
         key: texts.get(f"{joint.name}.{key}")

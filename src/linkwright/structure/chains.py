@@ -32,11 +32,13 @@ def make_group(links: Sequence[str], connections: Sequence[Connection], solved: 
 
 def _rank(connection: Connection, solved: Set[str]) -> int:
     """Rigid and driven joints hang first, then guides; of the pins the outer ones: the rest is cut."""
-    if connection.kind == "weld":
+    if connection.higher:
+        return 5
+    if connection.rigid:
         return 0
     if connection.driver is not None:
         return 1
-    if connection.kind == "prismatic":
+    if connection.slides:
         return 2
     return 3 if connection.a in solved or connection.b in solved else 4
 
@@ -54,7 +56,7 @@ def _spanning(ranked: Sequence[Connection], solved: Set[str]) -> tuple[list[Conn
     chosen, cuts = [], []
     for connection in ranked:
         a, b = root(connection.a), root(connection.b)
-        if a == b:
+        if a == b or connection.higher:
             cuts.append(connection)
         else:
             parent[max(a, b)] = min(a, b)
@@ -92,7 +94,7 @@ def _classify(
 ) -> tuple[str, int, int]:
     """Signature, class and order; links held together by a driver or a weld count as one."""
     merged = _merge(links, connections)
-    free = [c for c in connections if c.driver is None and c.kind != "weld"]
+    free = [c for c in connections if c.driver is None and not c.rigid]
     if not free:
         drivers = [c for c in connections if c.driver is not None]
         return "".join(c.letter for c in drivers) or "W", 1, 1
@@ -103,6 +105,8 @@ def _classify(
         ends = sorted(outer, key=lambda c: bodies.index(merged[c.b if c.a in solved else c.a]))
         letters = ends[0].letter + inner[0].letter + ends[1].letter
         return DYADS.get(letters, letters), 2, 2
+    if len(bodies) == 1 and len(outer) == 2 and sum(c.higher for c in outer) == 1:
+        return "".join(c.letter for c in sorted(outer, key=lambda c: c.higher)), 2, 2
     size = max(_most_joints(bodies, free, merged), _largest_contour(bodies, inner, merged))
     letters = "".join(c.letter for c in inner) + "-" + "".join(c.letter for c in outer)
     return letters, max(size, 1), len(outer)
@@ -112,7 +116,7 @@ def _merge(links: Sequence[str], connections: Sequence[Connection]) -> dict[str,
     """The body that every link belongs to once drivers hold still."""
     body = {link: link for link in links}
     for c in connections:
-        if (c.driver is not None or c.kind == "weld") and c.a in body and c.b in body:
+        if (c.driver is not None or c.rigid) and c.a in body and c.b in body:
             old, new = body[c.b], body[c.a]
             body = {link: new if name == old else name for link, name in body.items()}
     return body

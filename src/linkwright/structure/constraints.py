@@ -7,14 +7,14 @@ rotations, so a loop of guides that fixes a rotation twice is seen here and coun
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.model.mechanism import Mechanism
 
 FRAME = "frame"
+#: Factors of rotations below this share of the largest are zero.
+SMALL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,53 @@ class Equation:
     rotation_only: bool = False
 
 
+class _Classes:
+    """Links whose rotations are tied to each other (union-find)."""
+
+    def __init__(self) -> None:
+        self.parent: dict[str, str] = {}
+
+    def root(self, name: str) -> str:
+        while (above := self.parent.get(name, name)) != name:
+            self.parent[name] = self.parent.get(above, above)
+            name = above
+        return name
+
+    def join(self, a: str, b: str) -> bool:
+        """Ties two rotations; False if they already were."""
+        a, b = self.root(a), self.root(b)
+        self.parent[a] = b
+        return a != b
+
+
+class _Sums:
+    """Linear equations between rotations of links, solved for one link each (Gauss)."""
+
+    def __init__(self) -> None:
+        self.solved: dict[str, dict[str, float]] = {}
+
+    def add(self, factors: Mapping[str, float]) -> bool:
+        """Adds Σ factor · rotation = const; False if it follows from those before."""
+        left: dict[str, float] = {}
+        for link, factor in factors.items():
+            for each, share in self.solved.get(link, {link: 1.0}).items():
+                left[each] = left.get(each, 0.0) + factor * share
+        least = SMALL * max(map(abs, factors.values()), default=0.0)
+        left = {link: factor for link, factor in left.items() if abs(factor) > least}
+        if not left:
+            return False
+        pivot = max(left, key=lambda link: abs(left[link]))
+        lead = left.pop(pivot)
+        row = {link: -factor / lead for link, factor in left.items()}
+        for other in self.solved.values():
+            if pivot in other:
+                share = other.pop(pivot)
+                for link, factor in row.items():
+                    other[link] = other.get(link, 0.0) + share * factor
+        self.solved[pivot] = row
+        return True
+
+
 @dataclass
 class ConstraintGraph:
     """Bodies (links and shared pins) with their freedoms, and the equations between them."""
@@ -33,40 +80,42 @@ class ConstraintGraph:
     freedoms: dict[str, int]
     equations: list[Equation]
     redundant: list[str] = field(default_factory=list)
+    rotations: _Classes = field(default_factory=_Classes)
+    sums: _Sums = field(default_factory=_Sums)
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> ConstraintGraph:
         """The graph of a mechanism with its drivers."""
         graph = cls(dict.fromkeys(mechanism.links, 3), [])
-        rotations = _Classes()
-        for joint in sorted(mechanism.joints.values(), key=lambda j: isinstance(j, RevoluteJoint)):
-            graph._add_joint(joint, rotations)
+        for joint in sorted(mechanism.joints.values(), key=lambda each: not each.ties):
+            joint.constrain(graph)
         for driver in mechanism.drivers.values():
-            joint = mechanism.joints[driver.joint]
-            turning = isinstance(joint, RevoluteJoint)
+            turning = mechanism.joints[driver.joint].coordinate == "turn"
             if turning:
-                rotations.join(driver.link, driver.relative_to)
-            graph._demand(f"driver {driver.name}", (driver.link, driver.relative_to), turning)
+                graph.rotations.join(driver.link, driver.relative_to)
+            graph.demand(f"driver {driver.name}", (driver.link, driver.relative_to), rotation_only=turning)
         return graph
 
-    def _add_joint(self, joint: object, rotations: _Classes) -> None:
-        if isinstance(joint, RevoluteJoint):
-            if len(joint.links) == 2:
-                self._demand(joint.name, joint.links, False, 2)
-                return
-            pin = f"pin {joint.name}"
-            self.freedoms[pin] = 2
-            for link in joint.links:
-                self._demand(joint.name, (link, pin), False, 2)
-        elif isinstance(joint, PrismaticJoint | WeldJoint):
-            ends = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.links
-            if rotations.join(*ends):
-                self._demand(joint.name, ends, True)
-            else:
-                self.redundant.append(joint.name)
-            self._demand(joint.name, ends, False, 1 if isinstance(joint, PrismaticJoint) else 2)
+    def hold_rotation(self, source: str, a: str, b: str) -> None:
+        """The demand that two links keep their angle to each other, noted as redundant if others hold it already."""
+        if self.rotations.join(a, b):
+            self.sums.add({link: sign for link, sign in ((a, 1.0), (b, -1.0)) if link != FRAME})
+            self.demand(source, (a, b), rotation_only=True)
+        else:
+            self.redundant.append(source)
 
-    def _demand(self, source: str, bodies: tuple[str, ...], rotation_only: bool, times: int = 1) -> None:
+    def sum_rotations(self, source: str, factors: Mapping[str, float]) -> None:
+        """The demand that Σ factor · rotation of a link is constant; redundant if others hold it already."""
+        kept = {link: factor for link, factor in factors.items() if link != FRAME and abs(factor) > SMALL}
+        if self.sums.add(kept):
+            self.demand(source, tuple(kept), rotation_only=True)
+        else:
+            self.redundant.append(source)
+
+    def demand(
+        self, source: str, bodies: tuple[str, ...], times: int = 1, *, rotation_only: bool = False
+    ) -> None:
+        """Adds a demand of a joint or driver on bodies; ``rotation_only``: it touches only their rotations."""
         moving = tuple(body for body in bodies if body != FRAME)
         self.equations.extend([Equation(source, moving, rotation_only)] * times)
 
@@ -90,22 +139,3 @@ class ConstraintGraph:
                 row += [span[-1]] if equation.rotation_only else list(span)
             rows.append(row)
         return rows
-
-
-class _Classes:
-    """Links whose rotations are tied to each other (union-find)."""
-
-    def __init__(self) -> None:
-        self.parent: dict[str, str] = {}
-
-    def root(self, name: str) -> str:
-        while (above := self.parent.get(name, name)) != name:
-            self.parent[name] = self.parent.get(above, above)
-            name = above
-        return name
-
-    def join(self, a: str, b: str) -> bool:
-        """Ties two rotations; False if they already were."""
-        a, b = self.root(a), self.root(b)
-        self.parent[a] = b
-        return a != b

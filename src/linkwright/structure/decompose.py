@@ -11,12 +11,10 @@ from collections.abc import Iterable, Set
 
 from linkwright.drivers.base import Driver
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.chains import make_group
 from linkwright.structure.constraints import FRAME, ConstraintGraph
-from linkwright.structure.group import Connection, Group, Kind, Structure
+from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.matching import components, maximum_matching
 from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler, islands
 
@@ -30,7 +28,7 @@ def structure(mechanism: Mechanism) -> Structure:
     graph = ConstraintGraph.of(mechanism)
     numbers = counts(mechanism)
     order = _solving_order(mechanism, graph, grubler(numbers) + len(graph.redundant))
-    grouping = _Grouping(mechanism)
+    grouping = Grouping(mechanism, frozenset(graph.redundant))
     groups = [grouping.next_group(links) for links in order]
     return Structure(
         grubler=grubler(numbers),
@@ -38,6 +36,7 @@ def structure(mechanism: Mechanism) -> Structure:
         drivers=tuple(mechanism.drivers),
         groups=tuple(groups),
         counts=numbers,
+        passive=tuple(name for name in graph.redundant if mechanism.joints[name].higher),
         parts=tuple(tuple(part) for part in islands(mechanism)),
     )
 
@@ -110,15 +109,16 @@ def _refuse_free(
     raise explain_free(mechanism, [body for body in bodies if body in mechanism.links], len(free), mobility)
 
 
-class _Grouping:
+class Grouping:
     """Makes the groups one after the other, each with the joints that hang it on the links before."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism: Mechanism, redundant: frozenset[str]) -> None:
+        self.redundant = redundant
         self.joints = list(mechanism.joints.values())
         self.numbers: dict[str, list[int]] = {}
         self.grounded: set[str] = set()
         for number, joint in enumerate(self.joints):
-            for link in dict.fromkeys(joint.joined):
+            for link in dict.fromkeys((*joint.joined, *joint.turning)):
                 self.numbers.setdefault(link, []).append(number)
             if FRAME in joint.joined:
                 self.grounded.update(joint.joined)
@@ -130,45 +130,30 @@ class _Grouping:
     def next_group(self, links: list[str]) -> Group:
         """The group of these links."""
         numbers = sorted({number for link in links for number in self.numbers.get(link, ())})
-        mine = set(links)
-        connections = [c for number in numbers for c in self._connections(self.joints[number], mine)]
+        mine = frozenset(links)
+        connections = [c for number in numbers for c in self.joints[number].connections(self, mine)]
         group = make_group(links, connections, self.solved.keys())
         for link in links:
             self.solved[link] = len(self.solved)
         return group
 
-    def _connections(self, joint: Joint, links: Set[str]) -> Iterable[Connection]:
-        """A joint of a group as pairs of links.
+    # what a joint asks ------------------------------------------------------------------------
+    def connection(self, joint: Joint, a: str, b: str, driver: str | None) -> Connection:
+        """The joint between two links."""
+        return Connection(joint.name, joint.kind, a, b, driver)
 
-        A pin of many links hangs on the frame, or on a link next to it, if one of them is solved.
-        """
-        if isinstance(joint, RevoluteJoint):
-            yield from self._pin_connections(joint, links)
-            return
-        a, b = (joint.guide, joint.block) if isinstance(joint, PrismaticJoint) else joint.joined
-        if all(link in links or link in self.solved for link in (a, b)):
-            kind: Kind = "prismatic" if isinstance(joint, PrismaticJoint) else "weld"
-            driver = next(iter(self.drivers.get(joint.name, ())), None)
-            yield Connection(joint.name, kind, a, b, driver.name if driver else None)
+    def driver(self, joint: str) -> str | None:
+        """Name of the first driver of a joint."""
+        return next((driver.name for driver in self.drivers.get(joint, ())), None)
 
-    def _pin_connections(self, joint: RevoluteJoint, links: Set[str]) -> Iterable[Connection]:
-        mine = [link for link in joint.links if link in links]
-        pairs = {
-            frozenset((driver.link, driver.relative_to)): driver.name
-            for driver in self.drivers.get(joint.name, ())
-        }
-        before = sorted((link for link in joint.links if link in self.solved), key=self.solved.__getitem__)
-        present = sorted(before, key=lambda link: (link != FRAME, link not in self.grounded)) + mine
-        used: list[str] = []
-        for pair, driver in pairs.items():
-            if pair <= set(present) and any(link in links for link in pair):
-                a, b = sorted(pair, key=present.index)
-                used.append(b)
-                yield Connection(joint.name, "revolute", a, b, driver)
-        base = present[0]
-        for link in mine:
-            if link != base and link not in used:
-                yield Connection(joint.name, "revolute", base, link)
+    def within(self, joined: Iterable[str], links: Set[str]) -> bool:
+        """Whether all of some links are in a group or solved before it."""
+        return all(link in links or link in self.solved for link in joined)
+
+    def firm(self, joined: Iterable[str]) -> list[str]:
+        """Those of some links that are solved before: the frame first, then those next to it."""
+        before = sorted((link for link in joined if link in self.solved), key=self.solved.__getitem__)
+        return sorted(before, key=lambda link: (link != FRAME, link not in self.grounded))
 
 
 def _distinct(names: Iterable[str]) -> list[str]:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
-Kind = Literal["revolute", "prismatic", "weld"]
-LETTERS = {"revolute": "R", "prismatic": "P", "weld": "W"}
+from linkwright.joints.base import JOINTS
 
 
 @dataclass(frozen=True)
@@ -16,7 +14,7 @@ class Connection:
     """One joint between two links. Prismatic: ``a`` carries the guide, ``b`` the block. Weld: b sits on a."""
 
     joint: str
-    kind: Kind
+    kind: str
     a: str
     b: str
     driver: str | None = None
@@ -27,7 +25,27 @@ class Connection:
 
     @property
     def letter(self) -> str:
-        return LETTERS[self.kind]
+        return JOINTS[self.kind].letter
+
+    @property
+    def turns(self) -> bool:
+        """Whether its coordinate in a chain is a rotation."""
+        return JOINTS[self.kind].coordinate == "turn"
+
+    @property
+    def slides(self) -> bool:
+        """Whether its coordinate in a chain is a displacement."""
+        return JOINTS[self.kind].coordinate == "slide"
+
+    @property
+    def rigid(self) -> bool:
+        """Whether it leaves no freedom."""
+        return JOINTS[self.kind].freedoms == 0
+
+    @property
+    def higher(self) -> bool:
+        """Whether it is a higher pair, on which no link hangs."""
+        return JOINTS[self.kind].higher
 
 
 @dataclass(frozen=True)
@@ -39,8 +57,18 @@ class TreeJoint:
     child: str
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> str:
         return self.connection.kind
+
+    @property
+    def turns(self) -> bool:
+        """Whether its coordinate is a rotation."""
+        return self.connection.turns
+
+    @property
+    def slides(self) -> bool:
+        """Whether its coordinate is a displacement."""
+        return self.connection.slides
 
     @property
     def joint(self) -> str:
@@ -53,7 +81,7 @@ class TreeJoint:
     @property
     def free(self) -> bool:
         """Whether the joint's coordinate is unknown."""
-        return self.kind != "weld" and self.driver is None
+        return not self.connection.rigid and self.driver is None
 
 
 @dataclass(frozen=True)
@@ -105,9 +133,10 @@ class Group:
 class Structure:
     """Mobility and Assur groups of a mechanism, in solving order.
 
-    ``grubler``: mobility by Grübler's formula, 3n - 2p; ``redundant``: rotations that a loop of
-    guides fixes more than once (joint names), added to it; ``parts``: sets of links that share nothing but
-    the frame (more than one: several mechanisms in one model). See the theory page on structure.
+    ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
+    make already (joint names), added to it, those of higher pairs also in ``passive``; ``parts``: sets of links
+    that share nothing but the frame (more than one: several mechanisms in one model). See the theory page on
+    structure.
     """
 
     grubler: int
@@ -116,6 +145,7 @@ class Structure:
     groups: tuple[Group, ...]
     counts: dict[str, int]
     parts: tuple[tuple[str, ...], ...] = ()
+    passive: tuple[str, ...] = ()
 
     @property
     def mobility(self) -> int:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.base import JOINTS
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.constraints import FRAME, ConstraintGraph
 from linkwright.words.sentence import Sentence, together
@@ -17,21 +16,21 @@ class StructureError(LinkwrightError):
 
 
 def counts(mechanism: Mechanism) -> dict[str, int]:
-    """Moving links and pairs: ``links``, ``revolute``, ``prismatic``, ``weld``; a pin of k links is k-1 pairs."""
-    joints = mechanism.joints.values()
-    revolute = sum(len(j.links) - 1 for j in joints if isinstance(j, RevoluteJoint))
-    prismatic = sum(isinstance(j, PrismaticJoint) for j in joints)
-    weld = sum(not isinstance(j, RevoluteJoint | PrismaticJoint) for j in joints)
-    return {"links": len(mechanism.links), "revolute": revolute, "prismatic": prismatic, "weld": weld}
+    """Moving links, and pairs by kind (``revolute``, ``prismatic``, ``weld``, …); a pin of k links is k-1 pairs."""
+    found = {"links": len(mechanism.links), "revolute": 0, "prismatic": 0, "weld": 0}
+    for joint in mechanism.joints.values():
+        found[joint.kind] = found.get(joint.kind, 0) + joint.pairs
+    return found
 
 
 def grubler(numbers: Mapping[str, int]) -> int:
-    """Mobility in the plane, F = 3n - 2p (p lower pairs); a weld takes three.
+    """Mobility in the plane, F = 3n - 2 p_L - p_H of lower and higher pairs; a weld takes three.
 
     n counts the moving links. Range: every planar chain; loops of guides only and special lengths
     move more than the formula says (Grübler 1917; Norton, Design of Machinery, ch. 2).
     """
-    return 3 * numbers["links"] - 2 * (numbers["revolute"] + numbers["prismatic"]) - 3 * numbers["weld"]
+    taken = sum((3 - JOINTS[kind].freedoms) * count for kind, count in numbers.items() if kind != "links")
+    return 3 * numbers["links"] - taken
 
 
 def islands(mechanism: Mechanism) -> list[list[str]]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from linkwright.joints.base import JOINTS
 from linkwright.structure.group import Connection, Group, Structure
-from linkwright.words import Say, speaker
+from linkwright.words import Say, has, speaker
 from linkwright.words.width import cells, padded
 
 
@@ -37,21 +38,35 @@ def numeral(number: int, say: Say) -> str:
 
 def _mobility(structure: Structure, say: Say) -> list[str]:
     n, r, p, w = (structure.counts[key] for key in ("links", "revolute", "prismatic", "weld"))
+    higher = {
+        kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
+    }
+    h = sum(higher.values())
     counts = "counts_welds" if w > 1 else "counts_weld" if w else "counts"
-    formula = "mobility_welded" if w else "mobility"
-    lines = [
-        say(f"structure_text.{counts}", links=n, pairs=r + p, revolute=r, prismatic=p, welds=w),
-        say(f"structure_text.{formula}", links=n, pairs=r + p, welds=w, mobility=structure.grubler),
-    ]
-    if structure.redundant:
-        guides = ", ".join(structure.redundant)
+    formula = f"mobility{'_higher' if h else ''}{'_welded' if w else ''}"
+    first = say(f"structure_text.{counts}", links=n, pairs=r + p, revolute=r, prismatic=p, welds=w)
+    if h:
+        kinds = ", ".join(f"{count} {_kind(kind, say)}" for kind, count in higher.items())
+        first += say("structure_text.counts_higher", higher=h, kinds=kinds)
+    values = {"links": n, "pairs": r + p, "welds": w, "higher": h, "mobility": structure.grubler}
+    lines = [first, say(f"structure_text.{formula}", **values)]
+    guides = ", ".join(name for name in structure.redundant if name not in structure.passive)
+    if guides:
         lines.append(say("structure_text.redundant", guides=guides, mobility=structure.mobility))
+    if structure.passive:
+        pairs = ", ".join(structure.passive)
+        lines.append(say("structure_text.redundant_pairs", pairs=pairs, mobility=structure.mobility))
     drivers = len(structure.drivers)
     if structure.mobility == 0 and not drivers:
         lines.append(say("structure_text.at_rest"))
     elif structure.mobility == drivers:
         lines.append(say("structure_text.determined", count=drivers))
     return lines
+
+
+def _kind(kind: str, say: Say) -> str:
+    """A kind of joint as it is read; a kind of another package by its own word."""
+    return say(f"nouns.pair_{kind}") if has(f"nouns.pair_{kind}") else kind
 
 
 def _table(structure: Structure, say: Say) -> list[str]:

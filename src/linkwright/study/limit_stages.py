@@ -61,7 +61,7 @@ def _refined(traced: Traced, output: Output, kind: str) -> Stage:
     speed = t.parameter(f"{driver}.speed")
     rate, second = rates(traced, output)
     motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second})
-    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x)})
+    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
     falling = there["rate"] if kind == "max" else -there["rate"]
     before = falling > 0.0
     step = t.parameter("step of the input") * sign(speed)

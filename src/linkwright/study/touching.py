@@ -119,4 +119,5 @@ class Touching:
             a, b = around[place][:, None], around[place + 2][:, None]
             value = a + share * (b - a)
             inputs |= {f"cos:{name}": np.cos(value), f"sin:{name}": np.sin(value), f"slide:{name}": value}
+            inputs[f"turn:{name}"] = value
         return inputs

@@ -12,9 +12,9 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
+from linkwright.model.drawing import guide_angle
 from linkwright.model.mechanism import Link
 from linkwright.structure.group import TreeJoint
 from linkwright.words import Say

@@ -90,7 +90,7 @@ class Places:
         return slide
 
     def _own_angle(self, joint: PrismaticJoint) -> float:
-        from linkwright.kinematics.drawing import guide_angle
+        from linkwright.model.drawing import guide_angle
 
         return guide_angle(self.book.mechanism, joint)
 

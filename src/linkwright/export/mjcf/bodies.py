@@ -11,8 +11,8 @@ import numpy as np
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
+from linkwright.model.drawing import guide_angle
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.view import placements
 from linkwright.structure.group import Connection, TreeJoint

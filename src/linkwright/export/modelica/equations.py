@@ -12,8 +12,8 @@ from linkwright.export.results import Results
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.names import canonical
+from linkwright.model.drawing import guide_angle
 from linkwright.plot.drawing.view import placements
 
 

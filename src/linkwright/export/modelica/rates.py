@@ -12,7 +12,7 @@ from linkwright.export.modelica.names import number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.kinematics.drawing import guide_angle
+from linkwright.model.drawing import guide_angle
 
 Pair = tuple[str, str]
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
+from linkwright.model.drawing import guide_angle
 from linkwright.plot.diagrams.picture import INK, new_figure
 from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
 from linkwright.plot.diagrams.units import significant

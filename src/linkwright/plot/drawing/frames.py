@@ -6,8 +6,8 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.kinematics.motion import Motion
+from linkwright.model.drawing import guide_angle
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import LINE, Vec

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
-from linkwright.kinematics.drawing import guide_angle
+from linkwright.model.drawing import guide_angle
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.svg.element import Floats

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.kinematics.drawing import guide_angle
 from linkwright.loads.base import AT_REST, LinkPoint, Load
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
 from linkwright.loads.torque import Torque
+from linkwright.model.drawing import guide_angle
 from linkwright.model.reference_fields import JointName, PointName
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import Label

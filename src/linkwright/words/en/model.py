@@ -1,6 +1,8 @@
 """Findings about model files."""
 
 WORDS = {
+    "kind_lacks": 'a joint of the kind "{kind}" does not supply "{what}", which is needed here; add the '
+    "method to its class",
     "plain_stroke_part": "a part of a stroke",
     "no_stroke_part": '"{text}" is no part of a stroke',
     "give_stroke_part": 'give a share between 0 and 1, or a way such as "{example}"',

@@ -1,6 +1,11 @@
 """Things and quantities in sentences."""
 
 WORDS = {
+    "pair_gear": "gear",
+    "pair_belt": "belt",
+    "pair_chain": "chain",
+    "pair_rack": "rack and pinion",
+    "pair_rolling": "rolling",
     "joint_kind": "joint kind",
     "driver_law": "driver law",
     "motion_law": "motion law",

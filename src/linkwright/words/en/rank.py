@@ -18,6 +18,8 @@ WORDS = {
     "is left, so no link is redundant there",
     "place": "place at {joint}",
     "rotation": "rotation at {joint}",
+    "rolling": "rolling at {joint}",
+    "wheels": "the pairs {pairs} demand again what others demand already ({redundant})",
     "named": "'{name}'",
     "besides": "{cause}. {sentence}",
 }

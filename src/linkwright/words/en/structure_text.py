@@ -10,6 +10,12 @@ WORDS = {
     "mobility_welded": "Mobility F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}",
     "redundant": "The guides {guides} close a loop in which rotation is already prevented: each such demand is "
     "redundant, so the mobility is {mobility}.",
+    "counts_higher": "; higher pairs p_H = {higher}: {kinds}",
+    "mobility_higher": "Mobility F = 3n - 2p - p_H = 3·{links} - 2·{pairs} - {higher} = {mobility}",
+    "mobility_higher_welded": "Mobility F = 3n - 2p - 3w - p_H = 3·{links} - 2·{pairs} - 3·{welds} - {higher} = "
+    "{mobility}",
+    "redundant_pairs": "The pairs {pairs} demand what other pairs demand already: they are passive constraints, so "
+    "the mobility is {mobility}.",
     "at_rest": "Mobility 0 and no driver: a structure at rest, which carries loads.",
     "determined": "Mobility equals the number of drivers ({count}): the motion is determined.",
     "groups": "Assur groups in solving order:",

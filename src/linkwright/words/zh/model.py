@@ -1,6 +1,7 @@
 """对模型文件的意见。"""
 
 WORDS = {
+    "kind_lacks": "“{kind}”类运动副没有提供此处需要的“{what}”；请在其类中补上该方法",
     "plain_stroke_part": "行程的一部分",
     "no_stroke_part": "“{text}”不是行程的一部分",
     "give_stroke_part": "请给出 0 到 1 之间的比例，或一段行程，如“{example}”",

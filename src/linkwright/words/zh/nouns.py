@@ -1,6 +1,11 @@
 """句子中的事物与物理量。"""
 
 WORDS = {
+    "pair_gear": "齿轮副",
+    "pair_belt": "带传动",
+    "pair_chain": "链传动",
+    "pair_rack": "齿轮齿条副",
+    "pair_rolling": "滚动副",
     "joint_kind": "运动副类型",
     "driver_law": "驱动规律",
     "motion_law": "运动规律",

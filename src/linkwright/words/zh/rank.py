@@ -16,6 +16,8 @@ WORDS = {
     "因此不能说其中有多余的构件",
     "place": "{joint} 处的位置约束",
     "rotation": "{joint} 处的转动约束",
+    "rolling": "{joint} 处的滚动约束",
+    "wheels": "高副 {pairs} 的约束与其他约束重复（{redundant}）",
     "named": "“{name}”",
     "besides": "{cause}。{sentence}",
 }

@@ -10,6 +10,11 @@ WORDS = {
     "mobility_welded": "自由度 F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}",
     "redundant": "移动副 {guides} 所在的回路中，构件的转动已受约束：其转动约束为虚约束，因此自由度为 "
     "{mobility}。",
+    "counts_higher": "；高副数 p_H = {higher}：{kinds}",
+    "mobility_higher": "自由度 F = 3n - 2p - p_H = 3·{links} - 2·{pairs} - {higher} = {mobility}",
+    "mobility_higher_welded": "自由度 F = 3n - 2p - 3w - p_H = 3·{links} - 2·{pairs} - 3·{welds} - {higher} = "
+    "{mobility}",
+    "redundant_pairs": "高副 {pairs} 的约束与其他副重复，为虚约束，因此自由度为 {mobility}。",
     "at_rest": "自由度为 0 且没有原动件：这是承受载荷的静止结构。",
     "determined": "自由度等于原动件数（{count}）：机构具有确定的运动。",
     "groups": "按求解顺序排列的基本杆组：",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+
+import numpy as np
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.model.mechanism import Mechanism
@@ -21,12 +22,16 @@ class Drawing:
         for name in mechanism.links:
             self._angles[name] = self._from_points(name)
         self._spread_along_guides()
+        self._count_turns()
 
     def __bool__(self) -> bool:
         return bool(self.mechanism.drawing)
 
     def angle(self, link: str) -> float | None:
-        """Direction of a link's x axis, rad; None where the drawing does not tell."""
+        """Direction of a link's x axis, rad; None where the drawing does not tell.
+
+        Of a driven link with the turns of its driver at the start, of the others in [-π, π].
+        """
         return self._angles[link]
 
     def driver(self, name: str) -> float | None:
@@ -40,7 +45,7 @@ class Drawing:
 
     def slide(self, joint: PrismaticJoint) -> float | None:
         """Displacement of a guide's block in the drawing."""
-        through, at = self._place(joint.guide, joint.through), self._place(joint.block, joint.at)
+        through, at = self.place(joint.guide, joint.through), self.place(joint.block, joint.at)
         angle = self.angle(joint.guide)
         if through is None or at is None or angle is None:
             return None
@@ -65,7 +70,7 @@ class Drawing:
     def _drawn(self, link: str, point: str) -> Vec | None:
         return self.points.get(f"{link}.{point}", self.points.get(point))
 
-    def _place(self, link: str, point: str) -> Vec | None:
+    def place(self, link: str, point: str) -> Vec | None:
         drawn = self._drawn(link, point)
         if drawn is not None:
             return drawn
@@ -78,6 +83,16 @@ class Drawing:
                 c, s = math.cos(angle), math.sin(angle)
                 return base[0] + c * dx - s * dy, base[1] + s * dx + c * dy
         return None
+
+    def _count_turns(self) -> None:
+        for name, angle in self._angles.items():
+            if angle is not None:
+                self._angles[name] = math.remainder(angle, 2 * math.pi)
+        for driver in self.mechanism.drivers.values():
+            turned, base = self._angles[driver.link], self._angles[driver.relative_to]
+            if driver.law.rotary and turned is not None and base is not None:
+                start = base + float(driver.law.coordinate(np.zeros(1))[0][0])
+                self._angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
 
     def _spread_along_guides(self) -> None:
         """A link without two drawn points takes its direction from a guide."""
@@ -94,8 +109,4 @@ class Drawing:
 
 def guide_angle(mechanism: Mechanism, joint: PrismaticJoint) -> float:
     """Direction of a guide in the axes of its link, rad."""
-    if joint.direction_points is None:
-        return joint.direction
-    points: Mapping[str, Vec] = mechanism.link(joint.guide).points
-    (x0, y0), (x1, y1) = (points[name] for name in joint.direction_points)
-    return math.atan2(y1 - y0, x1 - x0)
+    return joint.angle_of_guide(mechanism)

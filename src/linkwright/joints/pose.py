@@ -6,7 +6,14 @@ from dataclasses import dataclass
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.groups.base import Rotor
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """The direction of a link: the world vector ``now`` of what is ``local`` in the link's axes."""
+
+    now: Vec
+    local: Vec
 
 
 @dataclass(frozen=True)

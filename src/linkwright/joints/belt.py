@@ -1,0 +1,139 @@
+"""Belts: two pulleys on one carrier, with an open or a crossed belt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.engine.trace import Scalar, maximum, reciprocal, sqrt
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import JOINTS, Poses
+from linkwright.joints.toothed import WheelCut, WheelPair, length
+from linkwright.model.fields import Field, Quantity, Word
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.model.mechanism import Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.group import Connection
+
+
+@JOINTS.register("belt")
+@dataclass(frozen=True)
+class BeltPair(WheelPair):
+    """A belt without slip around two pulleys of pitch ``radii``, ``run`` open or crossed.
+
+    The row is r_a (θ_a - θ_c) ∓ r_b (θ_b - θ_c) = const, - for an open belt. Its multiplier F is the effective pull,
+    positive where it turns a counter-clockwise. The strands lie along the tangents; with the ``pretension`` F0 (N, of
+    each strand) they carry F0 + F/2 and F0 - F/2, without it the taut one carries |F| and the other nothing (Norton,
+    Machine Design, ch. 14).
+    """
+
+    kind: ClassVar[str] = "belt"
+    letter: ClassVar[str] = "B"
+    couples: ClassVar[bool] = True
+    run: str = "open"
+    pretension: float = 0.0
+
+    @property
+    def sense(self) -> float:
+        return 1.0 if self.run == "open" else -1.0
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        shared = {key: field for key, field in super().fields().items() if key != "teeth"}
+        return {
+            **shared,
+            "run": Word(("open", "crossed"), doc="default open"),
+            "pretension": Quantity("force", minimum=0, doc="tension of each strand without load (default 0)"),
+        }
+
+    @classmethod
+    def sizes(cls) -> tuple[str, ...]:
+        return ("radii",)
+
+    def pitch_radii(self) -> tuple[float, float]:
+        """Radii on which the belt runs, m."""
+        assert self.radii is not None
+        return self.radii
+
+    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+        a, b = self.pitch_radii()
+        if a + b >= distance:
+            reader.error(
+                node.get("radii") or node.get("teeth") or node,
+                place,
+                Sentence(
+                    "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
+                ),
+                Sentence("joints.pulleys_apart"),
+                "range",
+            )
+
+    def written(self) -> dict[str, Any]:
+        found = super().written()
+        if self.sense < 0:
+            found["run"] = "crossed"
+        if self.pretension:
+            found["pretension"] = self.pretension
+        return found
+
+    def dimensions(self) -> Mapping[str, float]:
+        own = {f"{self.name}.pretension": self.pretension} if self.pretension else {}
+        return {**super().dimensions(), **own}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> BeltPair:
+        other = super().with_dimensions(value)
+        assert isinstance(other, BeltPair)
+        return replace(other, pretension=value(f"{self.name}.pretension")) if self.pretension else other
+
+    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+        a, b = self.pitch_radii()
+        return a, -self.sense * b
+
+    def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
+        """The radii as traced values."""
+        return dimensions(f"{self.name}.radii.0"), dimensions(f"{self.name}.radii.1")
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> BeltCut:
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        first, second = self.traced_radii(dimensions)
+        across = -self.sense * second
+        line = b - a
+        sine = (first + across) * reciprocal(sqrt(line.square))
+        pull = dimensions(f"{self.name}.pretension") if self.pretension else 0.0
+        rest = -across * dimensions(f"{self.name}.phase")
+        k = (first, across, -first - across)
+        return BeltCut(
+            connection, self.carrier, k, rest, a, b, line * reciprocal(sqrt(line.square)), sine, pull
+        )
+
+
+@dataclass(frozen=True)
+class BeltCut(WheelCut):
+    """The traced row; ``unit``: from A to B in the carrier's axes; ``sine``: of the strands' angle to it; tension
+    ``pull`` of each strand without load. The force is given at the centre of a, with its couple about it."""
+
+    unit: Vec
+    sine: Scalar
+    pull: Scalar
+
+    def _strands(self, poses: Poses) -> tuple[Vec, Vec]:
+        """Unit vectors from a to b along the strand that turns a clockwise, and along the other."""
+        e = poses[self.carrier].spin(self.unit)
+        cosine = sqrt(1.0 - self.sine * self.sine)
+        return e * cosine - e.perp * self.sine, e * cosine + e.perp * self.sine
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        pull = multipliers[0]
+        clockwise, counter = self._strands(poses)
+        if isinstance(self.pull, float) and self.pull == 0.0:
+            force = counter * maximum(pull, 0.0) + clockwise * maximum(-pull, 0.0)
+        else:
+            force = counter * (self.pull + 0.5 * pull) + clockwise * (self.pull - 0.5 * pull)
+        couple = self.k[0] * pull
+        return (force, couple) if end == self.connection.a else (-force, -couple)

@@ -1,0 +1,68 @@
+"""Chain drives: two sprockets on one carrier."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.engine.trace import Scalar
+from linkwright.joints.base import JOINTS
+from linkwright.joints.belt import BeltPair
+from linkwright.joints.toothed import Numbers
+from linkwright.model.fields import Field, Quantity
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.dimensions import Dimensions
+
+
+@JOINTS.register("chain")
+@dataclass(frozen=True)
+class ChainPair(BeltPair):
+    """A chain of ``pitch`` p (m) around two sprockets by their numbers of ``teeth``; or by their ``radii``.
+
+    As a belt on the radii r = z p / 2π, that is, without the unevenness of the chain's polygon; the slack strand
+    carries nothing.
+    """
+
+    kind: ClassVar[str] = "chain"
+    pitch: float | None = None
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        shared = {key: field for key, field in super().fields().items() if key not in ("run", "pretension")}
+        return {
+            **shared,
+            "teeth": Numbers(doc="their numbers of teeth [a, b]"),
+            "pitch": Quantity("length", above=0, doc="pitch of the chain, with teeth"),
+        }
+
+    @classmethod
+    def sizes(cls) -> tuple[str, ...]:
+        return ("teeth", "radii")
+
+    def pitch_radii(self) -> tuple[float, float]:
+        if self.teeth is None or self.pitch is None:
+            return super().pitch_radii()
+        a, b = self.teeth
+        return a * self.pitch / (2 * pi), b * self.pitch / (2 * pi)
+
+    def written(self) -> dict[str, Any]:
+        found = super().written()
+        return found if self.pitch is None else {**found, "pitch": self.pitch}
+
+    def dimensions(self) -> Mapping[str, float]:
+        own = {} if self.pitch is None else {f"{self.name}.pitch": self.pitch}
+        return {**super().dimensions(), **own}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> ChainPair:
+        other = super().with_dimensions(value)
+        assert isinstance(other, ChainPair)
+        return other if self.pitch is None else replace(other, pitch=value(f"{self.name}.pitch"))
+
+    def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
+        if self.teeth is None or self.pitch is None:
+            return super().traced_radii(dimensions)
+        part = dimensions(f"{self.name}.pitch") * (0.5 / pi)
+        return dimensions(f"{self.name}.teeth.0") * part, dimensions(f"{self.name}.teeth.1") * part

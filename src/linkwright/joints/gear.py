@@ -1,0 +1,199 @@
+"""The gear pair: two toothed wheels on one carrier, outside each other or one in the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import dist, pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from linkwright.engine.trace import Scalar, absolute, reciprocal, sqrt, tan
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import JOINTS, Joint, Poses
+from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
+from linkwright.model.fields import Field, Quantity, Word
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.cycle import Floats
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.motion import Motion
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.group import Connection
+
+#: The pressure angle of standard teeth.
+STANDARD = pi / 9
+
+
+@JOINTS.register("gear")
+@dataclass(frozen=True)
+class GearPair(WheelPair):
+    """Two gears; ``mesh`` is external or internal (the larger one is the ring).
+
+    With d = |AB| and the ratio i, negative for an external pair, the pitch point C lies at ρ_a = d i / (i - 1) from A
+    and at ρ_b = d / (i - 1) from B on the ray A→B, and the row is ρ_a (θ_a - θ_c) - ρ_b (θ_b - θ_c) = const. Its
+    multiplier is the tangential force on a along AB turned left; the teeth press the wheels apart with the separating
+    force |F_t| tan α along AB, ``pressure_angle`` α (Norton, Design of Machinery, ch. 9 and 11).
+    """
+
+    kind: ClassVar[str] = "gear"
+    letter: ClassVar[str] = "G"
+    mesh: str = "external"
+    module: float | None = None
+    pressure_angle: float = STANDARD
+
+    @property
+    def sense(self) -> float:
+        return 1.0 if self.mesh == "internal" else -1.0
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {
+            **super().fields(),
+            "ratio": Quantity(
+                "dimensionless",
+                nonzero=True,
+                doc="ratio of b's speed to a's on the carrier: negative external, positive internal",
+            ),
+            "mesh": Word(
+                ("external", "internal"), doc="default external; internal: the larger one is the ring"
+            ),
+            "module": Quantity(
+                "length", above=0, doc="module; with teeth it is checked against the centre distance"
+            ),
+            "pressure_angle": Quantity("angle", minimum=0, doc="pressure angle in mesh (default 20 deg)"),
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        ratio = values.get("ratio")
+        if ratio is not None and not (values.get("teeth") or values.get("radii")):
+            values["mesh"] = "internal" if ratio > 0 else "external"
+        return super().read(reader, node, place, name, values, links)
+
+    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+        i = self.transmission
+        given = self.teeth or self.radii
+        if self.ratio is not None and given is not None:
+            own = self.sense * given[0] / given[1]
+            if abs(self.ratio - own) > FITS * abs(own):
+                key = "teeth" if self.teeth else "radii"
+                reader.error(
+                    node.get("ratio"),
+                    place.child("ratio"),
+                    Sentence("joints.ratio_misfit", ratio=self.ratio, key_=key, own=own),
+                    Sentence("joints.leave_ratio"),
+                    "choice",
+                )
+                return
+        if i == 1.0:
+            reader.error(node, place, Sentence("joints.equal_internal"), Sentence("joints.unequal"), "range")
+            return
+        if distance == 0.0:
+            reader.error(
+                node.get("links"),
+                place.child("links"),
+                Sentence("joints.same_centre", centres=self.centres),
+                Sentence("joints.centres_apart"),
+                "range",
+            )
+            return
+        radii = self.radii
+        if self.module is not None and self.teeth is not None:
+            radii = (0.5 * self.module * self.teeth[0], 0.5 * self.module * self.teeth[1])
+        if radii is None:
+            return
+        wanted = abs(radii[0] - radii[1]) if i > 0 else radii[0] + radii[1]
+        if abs(wanted - distance) > FITS * distance:
+            reader.error(
+                node.get("radii") or node.get("module"),
+                place.child("radii" if self.radii else "module"),
+                Sentence(
+                    "joints.distance_misfit",
+                    centres=self.centres,
+                    carrier=self.carrier,
+                    distance=length(distance),
+                    wanted=length(wanted),
+                    mesh=Sentence("joints.internal" if i > 0 else "joints.external"),
+                ),
+                Sentence("joints.fit_distance"),
+                "range",
+            )
+
+    def written(self) -> dict[str, Any]:
+        found = super().written()
+        if self.mesh == "internal" and self.ratio is None:
+            found["mesh"] = self.mesh
+        if self.module is not None:
+            found["module"] = self.module
+        if self.pressure_angle != STANDARD:
+            found["pressure_angle"] = self.pressure_angle
+        return found
+
+    def dimensions(self) -> Mapping[str, float]:
+        return {**super().dimensions(), f"{self.name}.pressure_angle": self.pressure_angle}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> GearPair:
+        other = super().with_dimensions(value)
+        assert isinstance(other, GearPair)
+        return replace(other, pressure_angle=value(f"{self.name}.pressure_angle"))
+
+    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+        points, i = mechanism.link(self.carrier).points, self.transmission
+        d = dist(*(points[each] for each in self.centres))
+        return d * i / (i - 1.0), -d / (i - 1.0)
+
+    def acts_at(self, motion: Motion) -> Floats:
+        """The pitch point."""
+        a, b = (motion.point(f"{self.carrier}.{each}").position for each in self.centres)
+        i = self.transmission
+        return np.asarray(a + (b - a) * (i / (i - 1.0)))
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        line = b - a
+        d = line.x if isinstance(line.y, float) and line.y == 0.0 else sqrt(line.square)
+        i = self.traced_ratio(dimensions)
+        part = d * reciprocal(i - 1.0)
+        phase = dimensions(f"{self.name}.phase")
+        slope = tan(dimensions(f"{self.name}.pressure_angle"))
+        unit = line * reciprocal(d)
+        return GearCut(
+            connection, self.carrier, (part * i, -part, -d), part * phase, a, b, unit, slope, self.sense
+        )
+
+
+@dataclass(frozen=True)
+class GearCut(WheelCut):
+    """``unit``: from A to B in the carrier's axes; ``slope``: tan α; ``sense``: -1 external, 1 internal."""
+
+    unit: Vec
+    slope: Scalar
+    sense: float
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        """The pitch point."""
+        return poses[self.carrier].point(self.centre_a + self.unit * self.k[0])
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        force = poses[self.carrier].spin(self.unit).perp * multipliers[0]
+        return (force if end == self.connection.a else -force), 0.0
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        """Away from the teeth of the other: an external a to its own centre, a ring outwards."""
+        if isinstance(self.slope, float) and self.slope == 0.0:
+            return None
+        return poses[self.carrier].spin(self.unit) * (self.sense * self.slope * absolute(multipliers[0]))

@@ -1,0 +1,389 @@
+"""Rack and pinion: a wheel that rolls along a straight line of another link."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.engine.trace import Scalar, absolute, tan
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.gear import STANDARD
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.toothed import FITS, length
+from linkwright.model.fields import Field, Quantity
+from linkwright.model.reference_fields import Direction, LinkName, PointName
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.closed_loops import LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.drawing import Drawing
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection
+
+
+@JOINTS.register("rack")
+@dataclass(frozen=True)
+class RackPair(Joint):
+    """A pinion of pitch ``radius`` (m) rolls on the pitch line of a rack.
+
+    The line goes through ``through`` in ``direction`` (rad, in the rack's axes); the pinion's centre, its pin
+    ``centre``, stays at the distance of the radius from it, on the left (``side`` 1) or the right (-1), which guides
+    must see to. With s the centre's place along the line from ``through``: s + side r (θ_p - θ_r - phase) = 0. The
+    multiplier is the force on the pinion along the line at the pitch point; the teeth press the pinion off the rack
+    with |F_t| tan α, ``pressure_angle`` α.
+    """
+
+    kind: ClassVar[str] = "rack"
+    letter: ClassVar[str] = "K"
+    couples: ClassVar[bool] = True
+    freedoms: ClassVar[int] = 2
+    higher: ClassVar[bool] = True
+    pinion: str
+    rack: str
+    through: str
+    direction: float
+    centre: str
+    side: int
+    radius: float
+    teeth: float | None = None
+    module: float | None = None
+    phase: float | None = None
+    pressure_angle: float = STANDARD
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return (self.pinion, self.rack)
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        return (self.pinion, self.rack)
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {
+            "pinion": LinkName(required=True, doc="the wheel"),
+            "rack": LinkName(required=True, doc="the link that carries the rack"),
+            "through": PointName("rack", required=True, doc="point of the rack on its pitch line"),
+            "direction": Direction(
+                of="rack", doc="direction of the pitch line in the rack's axes (default: its guide's)"
+            ),
+            "centre": PointName(
+                "pinion", doc="the pinion's centre, its pin (default: the one that guides lead to)"
+            ),
+            "radius": Quantity("length", above=0, doc="pitch radius of the pinion"),
+            "teeth": Quantity("dimensionless", above=0, doc="number of teeth of the pinion, with module"),
+            "module": Quantity("length", above=0, doc="module, with teeth"),
+            "phase": Quantity(
+                "angle",
+                doc="angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)",
+            ),
+            "pressure_angle": Quantity("angle", minimum=0, doc="pressure angle (default 20 deg)"),
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        pinion, rack = values["pinion"], values["rack"]
+
+        def say(key: str, problem: Sentence, remedy: Sentence, code: str = "reference") -> None:
+            reader.error(node.get(key) or node, place.child(key), problem, remedy, code)
+
+        if pinion == rack:
+            say("rack", Sentence("model.both_links", first=pinion), Sentence("model.two_links"))
+            return None
+        if not any(pinion in owners for owners in reader.names.pins.values()):
+            say(
+                "pinion",
+                Sentence("joints.without_pin", wheel=pinion),
+                Sentence("joints.give_pin", wheel=pinion),
+            )
+            return None
+        if (values.get("radius") is None) == (values.get("module") is None or values.get("teeth") is None):
+            say("radius", Sentence("joints.no_size"), Sentence("joints.give_rack_size"), "missing-key")
+            return None
+        direction = values.pop("direction", None)
+        if isinstance(direction, tuple):
+            p, q = (complex(*links[rack].points[each]) for each in direction)
+            direction = cmath.phase(q - p)
+        radius = values.pop("radius", None) or 0.5 * values["teeth"] * values["module"]
+        values.setdefault("centre", "")
+        return cls(name, direction=direction, side=1, radius=radius, **values)
+
+    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
+        way = self._way(mechanism)
+        if way is None:
+            report(
+                "rack",
+                Sentence("joints.no_guide", rack=self.rack, pinion=self.pinion),
+                Sentence("joints.give_guide"),
+            )
+            return replace(self, direction=self.direction or 0.0)
+        if not way.parallel:
+            report(
+                "direction",
+                Sentence("joints.guide_askew", guide=way.guides[-1][0], rack=self.rack),
+                Sentence("joints.guide_along"),
+            )
+        off = way.gap.imag
+        if abs(abs(off) - self.radius) > FITS * self.radius:
+            key = "module" if self.module is not None else "radius"
+            report(
+                key,
+                Sentence(
+                    "joints.rack_misfit",
+                    centre=way.centre,
+                    distance=length(abs(off)),
+                    radius=length(self.radius),
+                ),
+                Sentence("joints.fit_rack"),
+            )
+        return replace(self, direction=way.direction, centre=way.centre, side=1 if off > 0 else -1)
+
+    def drawn(self, drawing: Drawing) -> Joint:
+        if self.phase is not None:
+            return self
+        pinion, rack = drawing.angle(self.pinion), drawing.angle(self.rack)
+        centre = drawing.place(self.pinion, self.centre)
+        start = drawing.place(self.rack, self.through)
+        if pinion is None or rack is None or centre is None or start is None:
+            return replace(self, phase=0.0)
+        along = cmath.exp(1j * (rack + self.direction)).conjugate() * (complex(*centre) - complex(*start))
+        return replace(self, phase=pinion - rack + self.side * along.real / self.radius)
+
+    def written(self) -> dict[str, Any]:
+        found: dict[str, Any] = {"pinion": self.pinion, "rack": self.rack}
+        found |= {"through": self.through, "centre": self.centre}
+        if self.direction:
+            found["direction"] = self.direction
+        found |= (
+            {"radius": self.radius} if self.module is None else {"teeth": self.teeth, "module": self.module}
+        )
+        if self.phase:
+            found["phase"] = self.phase
+        if self.pressure_angle != STANDARD:
+            found["pressure_angle"] = self.pressure_angle
+        return found
+
+    def dimensions(self) -> Mapping[str, float]:
+        size = {"radius": self.radius} if self.module is None else {"module": self.module}
+        values = {
+            **size,
+            "direction": self.direction,
+            "phase": self.phase or 0.0,
+            "pressure_angle": self.pressure_angle,
+        }
+        return {f"{self.name}.{key}": value for key, value in values.items()}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> RackPair:
+        new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
+        if self.teeth is not None and "module" in new:
+            new["radius"] = 0.5 * self.teeth * new["module"]
+        return replace(self, **new)  # type: ignore[arg-type]
+
+    # structure --------------------------------------------------------------------------------
+    def constrain(self, graph: ConstraintGraph) -> None:
+        graph.demand(self.name, self.joined)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if grouping.within(self.joined, links):
+            yield grouping.connection(self, self.pinion, self.rack, None)
+
+    # motion -----------------------------------------------------------------------------------
+    def cut(self, connection: Connection, dimensions: Dimensions) -> RackCut:
+        name = self.name
+        radius = (
+            dimensions(f"{name}.radius")
+            if self.module is None
+            else 0.5 * (self.teeth or 0.0) * dimensions(f"{name}.module")
+        )
+        return RackCut(
+            connection,
+            dimensions.point(self.pinion, self.centre),
+            dimensions.point(self.rack, self.through),
+            dimensions.unit(f"{name}.direction"),
+            radius * self.side,
+            dimensions(f"{name}.phase"),
+            tan(dimensions(f"{name}.pressure_angle")),
+            self.side,
+        )
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        way = self._way(build.mechanism)
+        assert way is not None
+        lever = self.side * self.radius
+        factors = {self.pinion: lever, self.rack: -lever}
+        slides: dict[str, float] = {}
+        for name, sign in way.guides:
+            slides[name] = slides.get(name, 0.0) + sign
+        build.sum(factors, slides, way.gap.real - lever * (self.phase or 0.0))
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.pinion, self.centre),)
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        yield system.rolling(self, places)
+
+    def _way(self, mechanism: Mechanism) -> _Way | None:
+        return _Search(self, mechanism).found()
+
+
+@dataclass(frozen=True)
+class _Way:
+    """From the rack through guides to the pinion's carrier: their names, 1 where a growing slide moves the centre
+    along the line; ``gap``: the centre's place along and across it with all slides at zero."""
+
+    guides: tuple[tuple[str, float], ...]
+    centre: str
+    gap: complex
+    direction: float
+    parallel: bool
+
+
+class _Search:
+    """Looks for guides between the rack and a link on which the pinion is pinned."""
+
+    def __init__(self, pair: RackPair, mechanism: Mechanism) -> None:
+        self.pair, self.mechanism = pair, mechanism
+        self.guides = [j for j in mechanism.joints.values() if isinstance(j, PrismaticJoint)]
+
+    def found(self) -> _Way | None:
+        carriers = self._carriers()
+        routes: list[tuple[str, tuple[PrismaticJoint, ...]]] = [(self.pair.rack, ())]
+        seen = {self.pair.rack}
+        for link, route in routes:
+            if link in carriers and route:
+                return self._measured(link, carriers[link], route)
+            for joint in self.guides:
+                for here, there in (joint.ties, joint.ties[::-1]):
+                    if here == link and there not in seen:
+                        seen.add(there)
+                        routes.append((there, (*route, joint)))
+        return None
+
+    def _carriers(self) -> dict[str, str]:
+        """Links on which the pinion is pinned, with the pin."""
+        pinion, centre = self.pair.pinion, self.pair.centre
+        return {
+            link: name
+            for name, joint in self.mechanism.joints.items()
+            if joint.coordinate == "turn" and pinion in joint.joined and centre in ("", name)
+            for link in joint.joined
+            if link != pinion
+        }
+
+    def _measured(self, carrier: str, centre: str, route: Sequence[PrismaticJoint]) -> _Way:
+        """The route in axes whose x axis is the pitch line."""
+        pair, link = self.pair, self.pair.rack
+        first = route[0]
+        on_rack = first.angle_of_guide(self.mechanism) if first.guide == link else first.block_angle
+        direction = on_rack if pair.direction is None else pair.direction
+        axes, here, parallel = -direction, self._local(link, pair.through), True
+        gap, guides = 0j, []
+        for joint in route:
+            outward = joint.guide == link
+            along = joint.angle_of_guide(self.mechanism) if outward else joint.block_angle
+            start, end = (joint.through, joint.at) if outward else (joint.at, joint.through)
+            sign = 1.0 if outward else -1.0
+            n = cmath.exp(1j * (axes + along))
+            gap += cmath.exp(1j * axes) * (self._local(link, start) - here) + sign * 1j * n * joint.offset
+            guides.append((joint.name, sign * n.real))
+            parallel &= abs(n.imag) < FITS
+            turn = joint.angle_of_guide(self.mechanism) - joint.block_angle
+            axes += turn if outward else -turn
+            link = joint.block if outward else joint.guide
+            here = self._local(link, end)
+        gap += cmath.exp(1j * axes) * (self._local(carrier, centre) - here)
+        return _Way(tuple(guides), centre, gap, direction, parallel)
+
+    def _local(self, link: str, point: str) -> complex:
+        return complex(*self.mechanism.link(link).points[point])
+
+
+@dataclass(frozen=True)
+class RackCut:
+    """The traced row; ``centre`` in the pinion's axes, ``through`` and ``direction`` in the rack's, ``lever`` the
+    radius with the sign of the side, ``slope`` tan α."""
+
+    connection: Connection
+    centre: Vec
+    through: Vec
+    direction: Vec
+    lever: Scalar
+    phase: Scalar
+    slope: Scalar
+    side: int
+
+    @property
+    def rows(self) -> int:
+        return 1
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        return self.connection.a, self.connection.b
+
+    @property
+    def on(self) -> str:
+        return self.connection.a
+
+    def _line(self, poses: Poses) -> Vec:
+        return poses[self.connection.b].spin(self.direction)
+
+    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
+        pinion, rack = self.ends
+        gap = poses[pinion].point(self.centre) - poses[rack].point(self.through)
+        turned = angles(pinion) - angles(rack) - self.phase
+        return [self._line(poses).dot(gap) + self.lever * turned]
+
+    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
+        sign = 1.0 if end == self.connection.a else -1.0
+        return [(self._line(poses).dot(shift) + self.lever * turn) * sign]
+
+    def drift(self, states: States) -> list[Scalar]:
+        pinion, rack = (states[end] for end in self.ends)
+        arm = pinion.pose.point(self.centre) - rack.pose.place
+        gap = pinion.velocity_of(self.centre) - rack.velocity_at(arm)
+        return [rack.pose.spin(self.direction).dot(gap) + self.lever * (pinion.omega - rack.omega)]
+
+    def bend(self, states: States) -> list[Scalar]:
+        pinion, rack = (states[end] for end in self.ends)
+        arm = pinion.pose.point(self.centre) - rack.pose.place
+        gap = pinion.acceleration_of(self.centre) - rack.acceleration_at(arm)
+        return [rack.pose.spin(self.direction).dot(gap) + self.lever * (pinion.alpha - rack.alpha)]
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        """For the Jacobian the pinion's centre, at which both ends' motions are compared."""
+        return poses[self.connection.a].point(self.centre)
+
+    def arm(self, end: str, poses: Poses) -> Vec:
+        return self.place(end, poses) - poses[end].place
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        """At the pinion's centre, with the moment of the force at the pitch point."""
+        force, couple = self._line(poses) * multipliers[0], self.lever * multipliers[0]
+        return (force, couple) if end == self.connection.a else (-force, -couple)
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        if isinstance(self.slope, float) and self.slope == 0.0:
+            return None
+        return self._line(poses).perp * (self.side * self.slope * absolute(multipliers[0]))

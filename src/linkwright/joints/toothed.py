@@ -1,0 +1,373 @@
+"""What the pairs of two wheels on one carrier have in common: gears, rolling wheels, belts and chains.
+
+The equality of the two pitch-line velocities is linear in the rotations θ of the wheels a, b and of their carrier c,
+
+    k_a (θ_a - θ_c) + k_b (θ_b - θ_c) = const,      ratio i = (ω_b - ω_c) / (ω_a - ω_c) = -k_a / k_b,
+
+with the lever arms k in m, so that it holds with turns and its multiplier is the tangential force (Willis 1841;
+Müller, Epicyclic Drive Trains, ch. 2).
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
+from linkwright.joints.base import Angles, Joint, Poses, States
+from linkwright.model.fields import Field, Quantities, Quantity
+from linkwright.model.reference_fields import LinkName, LinkNames
+from linkwright.units import format as shown
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.joints.base import Cut
+    from linkwright.kinematics.closed_loops import LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.model.drawing import Drawing
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection
+
+#: A centre distance or a ratio may differ from what the wheels ask for by this share.
+FITS = 1e-6
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class WheelPair(Joint):
+    """Two wheels, ``links`` (a, b), whose ``centres`` are pins on the link ``carrier``.
+
+    Sizes by numbers of ``teeth``, by pitch ``radii`` (m), or by their ``ratio`` (ω_b - ω_c) / (ω_a - ω_c) alone.
+    ``phase`` (rad): angle of b's x axis to the carrier's when a's has none.
+    """
+
+    freedoms: ClassVar[int] = 2
+    higher: ClassVar[bool] = True
+    rotations_only: ClassVar[bool] = True
+    links: tuple[str, str]
+    carrier: str
+    centres: tuple[str, str]
+    teeth: Pair | None = None
+    radii: Pair | None = None
+    ratio: float | None = None
+    phase: float | None = None
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return self.links
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        return (*self.links, self.carrier)
+
+    @property
+    @abstractmethod
+    def sense(self) -> float:
+        """1 where both wheels turn the same way on their carrier, -1 where they turn against each other."""
+
+    @property
+    def transmission(self) -> float:
+        """Ratio (ω_b - ω_c) / (ω_a - ω_c), with its sign."""
+        if self.ratio is not None:
+            return self.ratio
+        a, b = self.teeth or self.radii or (1.0, 1.0)
+        return self.sense * a / b
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        return {
+            "links": LinkNames(required=True, doc="the two wheels [a, b]"),
+            "teeth": Numbers(doc="their numbers of teeth [a, b]"),
+            "radii": Quantities("length", count=2, doc="their pitch radii [a, b]"),
+            "carrier": LinkName(doc="the link on which both wheels have their pins, where it is in doubt"),
+            "phase": Quantity(
+                "angle", doc="angle of b's x axis to the carrier's when a's has none (default: drawn)"
+            ),
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        held = _Centres(reader, node, place, values["links"], values.pop("carrier", None)).found(cls.kind)
+        if held is None or not _one_size(reader, node, place, values, cls.sizes()):
+            return None
+        joint = cls(name, carrier=held[0], centres=held[1:], **values)
+        points = links[held[0]].points if held[0] in links else {}
+        if all(each in points for each in joint.centres):
+            joint.check(reader, node, place, math.dist(*(points[each] for each in joint.centres)))
+        return joint
+
+    @classmethod
+    def sizes(cls) -> tuple[str, ...]:
+        """The keys of which one gives the sizes."""
+        return ("teeth", "radii", "ratio")
+
+    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+        """Adds findings where the sizes do not fit the distance (m) between the centres."""
+
+    def drawn(self, drawing: Drawing) -> Joint:
+        if self.phase is not None:
+            return self
+        a, b, c = (drawing.angle(link) for link in self.turning)
+        if a is None or b is None or c is None:
+            return replace(self, phase=0.0)
+        return replace(self, phase=(b - c) - self.transmission * (a - c))
+
+    def written(self) -> dict[str, Any]:
+        found: dict[str, Any] = {"links": list(self.links), "carrier": self.carrier}
+        for key in ("teeth", "radii", "ratio", "phase"):
+            value = getattr(self, key)
+            if value:
+                found[key] = value
+        return found
+
+    def dimensions(self) -> Mapping[str, float]:
+        found: dict[str, float] = {}
+        for key in ("teeth", "radii"):
+            for index, value in enumerate(getattr(self, key) or ()):
+                found[f"{self.name}.{key}.{index}"] = value
+        if self.ratio is not None:
+            found[f"{self.name}.ratio"] = self.ratio
+        return {**found, f"{self.name}.phase": self.phase or 0.0}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> WheelPair:
+        def both(key: str) -> Pair | None:
+            given = getattr(self, key) is not None
+            return (value(f"{self.name}.{key}.0"), value(f"{self.name}.{key}.1")) if given else None
+
+        ratio = None if self.ratio is None else value(f"{self.name}.ratio")
+        phase = value(f"{self.name}.phase")
+        return replace(self, teeth=both("teeth"), radii=both("radii"), ratio=ratio, phase=phase)
+
+    # structure --------------------------------------------------------------------------------
+    def constrain(self, graph: ConstraintGraph) -> None:
+        i = self.transmission
+        graph.sum_rotations(self.name, dict(zip(self.turning, (i, -1.0, 1.0 - i), strict=True)))
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if self.name in grouping.redundant or links.isdisjoint(self.turning):
+            return
+        if grouping.within(self.turning, links):
+            yield grouping.connection(self, *self.links, None)
+
+    # motion -----------------------------------------------------------------------------------
+    @abstractmethod
+    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+        """Lever arms k_a, k_b of the row, m."""
+
+    @abstractmethod
+    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut: ...
+
+    def traced_ratio(self, dimensions: Dimensions) -> Scalar:
+        """The ratio as a traced value of the dimensions."""
+        if self.ratio is not None:
+            return dimensions(f"{self.name}.ratio")
+        key = "teeth" if self.teeth is not None else "radii"
+        return self.sense * dimensions(f"{self.name}.{key}.0") / dimensions(f"{self.name}.{key}.1")
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        i = self.transmission
+        a, b, c = self.turning
+        factors: dict[str, float] = {}
+        for link, factor in ((a, i), (b, -1.0), (c, 1.0 - i)):
+            factors[link] = factors.get(link, 0.0) + factor
+        build.sum(factors, {}, self.phase or 0.0)
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.carrier, self.centres[0]), (self.carrier, self.centres[1]))
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        i = self.transmission
+        a, b, c = self.turning
+        theta = {link: places[link].angle for link in (a, b, c)}
+        gap = i * (theta[a] - theta[c]) - (theta[b] - theta[c]) + (self.phase or 0.0)
+        yield system.row(self.name, gap, {a: i, b: -1.0, c: 1.0 - i})
+
+
+@dataclass(frozen=True)
+class WheelCut:
+    """The row of two wheels: arms ``k`` of a, b and the carrier, ``rest`` the constant; (m).
+
+    ``centre_a``, ``centre_b``: the pins in the carrier's axes.
+    """
+
+    connection: Connection
+    carrier: str
+    k: tuple[Scalar, Scalar, Scalar]
+    rest: Scalar
+    centre_a: Vec
+    centre_b: Vec
+
+    @property
+    def rows(self) -> int:
+        return 1
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        return self.connection.a, self.connection.b, self.carrier
+
+    @property
+    def on(self) -> str:
+        return self.connection.a
+
+    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
+        return [self._sum(angles) + self.rest]
+
+    def _sum(self, value: Callable[[str], Scalar]) -> Scalar:
+        total: Scalar = 0.0
+        for factor, end in zip(self.k, self.ends, strict=True):
+            total = total + factor * value(end)
+        return total
+
+    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
+        return [self.k[self.ends.index(end)] * turn]
+
+    def drift(self, states: States) -> list[Scalar]:
+        return [self._sum(lambda end: states[end].omega)]
+
+    def bend(self, states: States) -> list[Scalar]:
+        return [self._sum(lambda end: states[end].alpha)]
+
+    def centre_line(self, poses: Poses) -> Vec:
+        """From the centre of a to that of b, in frame axes."""
+        return poses[self.carrier].spin(self.centre_b - self.centre_a)
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        """The centre of wheel a."""
+        return poses[self.carrier].point(self.centre_a)
+
+    def arm(self, end: str, poses: Poses) -> Vec:
+        return self.place(end, poses) - poses[end].place
+
+    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+        return None
+
+
+class Numbers(Field):
+    """Two whole numbers above zero."""
+
+    def read(self, reader: Reader, node: Any, place: Where, given: Mapping[str, Any]) -> Pair | None:
+        items = reader.items(node, place, 2, "[20, 60]")
+        if items is None:
+            return None
+        found = [reader.quantity(item, place.child(str(i)), "dimensionless") for i, item in enumerate(items)]
+        for item, value in zip(items, found, strict=True):
+            if value is not None and (value < 1 or value != round(value)):
+                reader.error(
+                    item,
+                    place,
+                    Sentence("joints.no_teeth", value=value),
+                    Sentence("joints.whole_teeth"),
+                    "range",
+                )
+                return None
+        a, b = found
+        return None if a is None or b is None else (a, b)
+
+    def shape(self) -> dict[str, Any]:
+        whole = {"type": ["integer", "string"], "minimum": 1}
+        return {"type": "array", "items": whole, "minItems": 2, "maxItems": 2}
+
+    def written(self, value: Any) -> Any:
+        return [int(each) if each == round(each) else each for each in value]
+
+
+def _one_size(
+    reader: Reader, node: MappingNode, place: Where, values: Mapping[str, Any], keys: tuple[str, ...]
+) -> bool:
+    given = [key for key in keys if values.get(key) is not None]
+    if not given:
+        reader.error(
+            node, place, Sentence("joints.no_size"), Sentence("joints.give_size", keys=keys), "missing-key"
+        )
+        return False
+    if "radii" in given and min(values["radii"]) <= 0:
+        reader.error(
+            node.get("radii") or node,
+            place.child("radii"),
+            Sentence("joints.bad_radius"),
+            Sentence("joints.positive_radius"),
+            "range",
+        )
+        return False
+    return True
+
+
+@dataclass(frozen=True)
+class _Centres:
+    """Looks for the link that carries both wheels, and for their pins on it."""
+
+    reader: Reader
+    node: MappingNode
+    place: Where
+    wheels: tuple[str, str]
+    named: str | None
+
+    def found(self, kind: str) -> tuple[str, str, str] | None:
+        """Carrier and centres; None after a finding."""
+        pins = self.reader.names.pins
+        own = [[pin for pin, links in pins.items() if wheel in links] for wheel in self.wheels]
+        for wheel, mine in zip(self.wheels, own, strict=True):
+            if not mine:
+                self._say(
+                    Sentence(f"joints.{self._without(kind)}", wheel=wheel),
+                    Sentence("joints.give_pin", wheel=wheel),
+                )
+                return None
+        ways = [
+            (link, p, q)
+            for p in own[0]
+            for q in own[1]
+            if p != q
+            for link in pins[p]
+            if link in pins[q] and link not in self.wheels and self.named in (None, link)
+        ]
+        if not ways:
+            self._say(
+                Sentence("joints.no_carrier", wheels=self.wheels),
+                Sentence("joints.give_carrier", wheels=self.wheels),
+            )
+            return None
+        ways.sort(key=lambda way: way[0] != "frame")
+        if (len(ways) > 1 and ways[0][0] != "frame") or len([w for w in ways if w[0] == ways[0][0]]) > 1:
+            self._say(
+                Sentence("joints.carriers", names=tuple(f"{link} ({p}, {q})" for link, p, q in ways)),
+                Sentence("joints.name_carrier"),
+            )
+            return None
+        return ways[0]
+
+    @staticmethod
+    def _without(kind: str) -> str:
+        return "does_not_turn" if kind in ("belt", "chain") else "without_pin"
+
+    def _say(self, problem: Sentence, remedy: Sentence) -> None:
+        self.reader.error(
+            self.node.get("links") or self.node, self.place.child("links"), problem, remedy, "reference"
+        )
+
+
+def length(value: float) -> str:
+    """A length as sentences print it."""
+    return shown(value, "length")

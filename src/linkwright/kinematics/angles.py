@@ -1,0 +1,81 @@
+"""Rotations of links with their turns, for the pairs that add rotations up: gears, belts, racks.
+
+A driven link's rotation is its driver's coordinate, a gear's the sum that its pair gives; only a link that a dyad or
+Newton's method places has no turns of its own: its angle is the one nearest to that of the position before, a state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from linkwright.engine.trace import Scalar, angle, nearest_turn
+from linkwright.joints.pose import Pose
+from linkwright.kinematics.dimensions import Dimensions
+from linkwright.structure.group import Group, TreeJoint
+
+
+def turn_state(link: str) -> str:
+    """Name of the state that carries the turns of a link."""
+    return f"turn:{link}"
+
+
+def geared(group: Group) -> bool:
+    """Whether higher pairs take part in a group, so that its rotations are unknown as angles."""
+    return any(cut.higher for cut in group.cuts)
+
+
+def counted_links(groups: Iterable[Group], touched: Mapping[str, tuple[str, ...]]) -> list[str]:
+    """Links placed without turns whose turns a later pair needs; ``touched``: links that a pair's rows turn."""
+    steps = {step.child: (group, step) for group in groups for step in group.tree}
+    found: dict[str, None] = {}
+    for group in groups:
+        for cut in group.cuts:
+            for link in touched.get(cut.joint, ()) if cut.higher else ():
+                while link in steps:
+                    owner, step = steps[link]
+                    if step.free and step.turns:
+                        if not geared(owner):
+                            found[link] = None
+                        break
+                    link = step.parent
+    return list(found)
+
+
+class Angles:
+    """Gives the rotation of a link's x axis against the frame's with its turns, rad, as a traced value."""
+
+    def __init__(self, groups: Iterable[Group], dimensions: Dimensions, poses: Mapping[str, Pose]) -> None:
+        self.dimensions = dimensions
+        self.poses = poses
+        self.carried: dict[str, Scalar] = {}
+        self._steps = {step.child: (group, step) for group in groups for step in group.tree}
+        self._known: dict[str, Scalar] = {"frame": 0.0}
+
+    def __call__(self, link: str) -> Scalar:
+        if link not in self._known:
+            self._known[link] = self._found(*self._steps[link])
+        return self._known[link]
+
+    def give(self, link: str, value: Scalar) -> None:
+        """Notes the rotation of a link whose group has it as an unknown."""
+        self._known[link] = value
+
+    def forget(self, group: Group) -> None:
+        """Drops what follows from unknowns of a group that are about to change."""
+        for link in group.links:
+            self._known.pop(link, None)
+
+    def _found(self, group: Group, step: TreeJoint) -> Scalar:
+        if step.free and step.turns:
+            now = self.poses[step.child].direction
+            name = turn_state(step.child)
+            found = nearest_turn(angle(now.y, now.x), self.dimensions.trace.state(name))
+            self.carried[name] = found
+            return found
+        if step.turns:
+            assert step.driver is not None
+            own = step.child == self.dimensions.mechanism.drivers[step.driver].link
+            turn = self.dimensions.trace.position(f"turn:{step.driver}")
+            return self(step.parent) + turn if own else self(step.parent) - turn
+        joint = self.dimensions.mechanism.joints[step.joint]
+        return self(step.parent) + joint.turned(step, self.dimensions)

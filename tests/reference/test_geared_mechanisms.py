@@ -1,0 +1,82 @@
+"""Mechanisms with gears, belts and racks against the reference, whose rows know no carriers and no closed forms."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+from tests.reference.agreement import Comparison, floors, force_floors, motion_comparison
+from tests.reference.geared import Geared, pressed_forces
+from tests.reference.geared_mechanisms import GearedCase, geared_case
+from tests.reference.multibody import Motion, Unreachable
+
+import linkwright as lw
+
+TIMES = np.linspace(0.0, 0.12, 5)
+TOLERANCE = 1e-9
+
+
+@cache
+def cases() -> tuple[tuple[GearedCase, Motion], ...]:
+    """Forty mechanisms that the reference can follow and that are well placed."""
+    found = []
+    for seed in range(200):
+        case = geared_case(seed)
+        try:
+            motion = case.motion(TIMES)
+        except Unreachable:
+            continue
+        if motion.condition().max() < 400 and np.abs(motion.qd).max() < 30:
+            found.append((case, motion))
+        if len(found) == 40:
+            break
+    return tuple(found)
+
+
+def test_every_piece_comes_up_and_some_groups_need_newtons_method() -> None:
+    kinds = Counter(kind for case, _ in cases() for kind in case.kinds)
+    assert min(kinds[kind] for kind in ("gear", "belt", "rack", "dyad", "loop")) >= 5
+
+
+@pytest.mark.parametrize("index", range(40))
+def test_motion_and_forces_agree_with_the_reference(index: int) -> None:
+    case, reference = cases()[index]
+    mechanism = lw.loads(case.text)
+    motion = lw.solve_motion(mechanism, times=TIMES)
+    found = motion_comparison(mechanism, motion, reference, derived=False)
+    assert found.failures(TOLERANCE, floors(mechanism, reference)) == []
+    forces = lw.solve_forces(motion)
+    expected, pressing = pressed_forces(reference, case.loads())
+    compared = Comparison()
+    for joint in mechanism.joints.values():
+        for link in joint.joined:
+            force, _ = expected.on(joint.name, link)
+            if joint.name in pressing:
+                force = force + pressing[joint.name] * (1.0 if link == joint.joined[0] else -1.0)
+            compared.add("force", f"{joint.name} on {link}", forces.reaction(joint.name, on=link), force)
+    compared.add("moment", "driver", forces.input_torque, expected.effort("driver driver"))
+    assert compared.failures(TOLERANCE, force_floors(expected)) == []
+    scale = float(np.abs(expected.lam).max())
+    assert forces.balance_residual.max() < 1e-11 * scale
+    assert np.abs(forces.power_residual).max() < 1e-11 * scale
+
+
+def test_the_rows_of_the_reference_have_exact_derivatives() -> None:
+    """Jacobian and quadratic terms of the rows against central differences."""
+    for case, motion in cases()[:6]:
+        system, h = case.system, 1e-5
+        assert isinstance(system, Geared)
+        q, qd = motion.q[0], motion.qd[0]
+        rows = slice(system.first, system.rows)
+
+        def along(t: float, q=q, qd=qd, system=system, rows=rows) -> np.ndarray:  # type: ignore[no-untyped-def,type-arg]
+            return np.array([system.rolled(c, q + t * qd) for c in system.rolling])
+
+        slope = (along(h) - along(-h)) / (2 * h)
+        assert slope == pytest.approx(
+            system.jacobian(q)[rows] @ qd.ravel(), abs=1e-7 * (1 + np.abs(qd).max())
+        )
+        bend = (along(h) - 2 * along(0.0) + along(-h)) / h**2
+        assert bend == pytest.approx(system.quadratic(q, qd)[rows], abs=3e-5 * (1 + np.abs(qd).max() ** 2))
