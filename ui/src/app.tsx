@@ -1,7 +1,7 @@
 // The page: machines side by side, each with its drawing, design numbers, dimensions and curves.
 import { signal } from "@preact/signals";
-import { render } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { type ComponentChildren, render } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { Chart, Hodograph } from "./chart";
 import type { Dimension, PageData } from "./data";
 import { code, isForce, type Values, type Wall } from "./model";
@@ -282,13 +282,17 @@ function Numbers({ page, session }: { page: Page; session: Session }) {
               <td>{quantity(old, figure.quantity, size)}</td>
               {variants.map((each) => <td key={each.number}>{quantity(each.design.numbers[figure.id], figure.quantity, size)}</td>)}
               <td>{quantity(value, figure.quantity, size)}</td>
-              <td class={Math.abs(share) > 0.005 ? "moved" : ""}>{Math.abs(share) > 0.005 ? `${share > 0 ? "+" : ""}${digits(share, 3)} %` : ""}</td>
+              <td class={Math.abs(share) > 0.005 ? "moved" : ""}>{Math.abs(share) > 0.005 ? percent(share) : ""}</td>
             </tr>
           );
         })}
       </tbody>
     </table>
   );
+}
+
+function percent(share: number): string {
+  return Math.abs(share) >= 1000 ? `× ${digits(1 + share / 100, 3)}` : `${share > 0 ? "+" : ""}${digits(share, 3)} %`;
 }
 
 function Slider({ page, session, dimension }: { page: Page; session: Session; dimension: Dimension }) {
@@ -346,6 +350,17 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
   );
 }
 
+/** A section whose content is there only while it is open. */
+function Fold({ title, open, children }: { title: string; open: boolean; children: () => ComponentChildren }) {
+  const [shown, show] = useState(open);
+  return (
+    <details open={shown} onToggle={(event) => show(event.currentTarget.open)}>
+      <summary>{title}</summary>
+      {shown && children()}
+    </details>
+  );
+}
+
 function Dimensions({ page, session }: { page: Page; session: Session }) {
   const { dimensions } = session.data, drivers = new Set(session.data.positions.inputs.map((each) => each.name));
   const drive = dimensions.filter((d) => drivers.has(d.address.split(".")[0]));
@@ -357,10 +372,9 @@ function Dimensions({ page, session }: { page: Page; session: Session }) {
   return (
     <>
       {parts.filter(([, list]) => list.length).map(([title, list, open]) => (
-        <details open={open} key={title}>
-          <summary>{page.say(title)}</summary>
-          {list.map((each) => <Slider key={each.address} page={page} session={session} dimension={each} />)}
-        </details>
+        <Fold title={page.say(title)} open={open} key={title}>
+          {() => list.map((each) => <Slider key={each.address} page={page} session={session} dimension={each} />)}
+        </Fold>
       ))}
     </>
   );

@@ -2,11 +2,20 @@
 import { element } from "./view";
 import { digits } from "./words";
 
-const W = 360, H = 132, LEFT = 50, RIGHT = 8, TOP = 8, BOTTOM = 20;
+// Units of the picture are tenths of a pixel, so that paths are written in whole numbers.
+const W = 3600, H = 1320, LEFT = 500, RIGHT = 80, TOP = 80, BOTTOM = 200;
 
 export interface Curve {
   style: string;
   values: ArrayLike<number>;
+}
+
+function put(of: SVGElement, name: string, value: string): void {
+  if (of.getAttribute(name) !== value) of.setAttribute(name, value);
+}
+
+function write(of: SVGElement, text: string): void {
+  if (of.textContent !== text) of.textContent = text;
 }
 
 /** One diagram: curves over x, a scale of its own, a line at the position that is shown. */
@@ -17,18 +26,21 @@ export class Chart {
   private low = 0;
   private high = 1;
   private x: ArrayLike<number> = [0, 1];
+  // Abscissas as text, and each curve with the scale it was drawn to: what stays is not written again.
+  private across: string[] = [];
+  private readonly written = new Map<number, { values: ArrayLike<number>; low: number; high: number }>();
 
   constructor(host: HTMLElement) {
     this.svg = element("svg", { class: "chart", viewBox: `0 0 ${W} ${H}`, role: "img" }, host);
     const text = (x: number, y: number, anchor: string) => element("text", { x, y, "text-anchor": anchor, class: "tick" }, this.svg);
     this.marks = {
       grid: element("path", { class: "grid" }, this.svg),
-      low: text(LEFT - 5, H - BOTTOM + 3, "end"),
-      high: text(LEFT - 5, TOP + 9, "end"),
-      left: text(LEFT, H - 5, "start"),
-      right: text(W - RIGHT, H - 5, "end"),
+      low: text(LEFT - 50, H - BOTTOM + 30, "end"),
+      high: text(LEFT - 50, TOP + 90, "end"),
+      left: text(LEFT, H - 50, "start"),
+      right: text(W - RIGHT, H - 50, "end"),
       cursor: element("path", { class: "cursor" }, this.svg),
-      dot: element("circle", { class: "dot", r: 3.5 }, this.svg),
+      dot: element("circle", { class: "dot", r: 35 }, this.svg),
     };
   }
 
@@ -38,7 +50,11 @@ export class Chart {
 
   /** The last curve is the current one; values are in units of `factor`. */
   set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string]): void {
-    this.x = x;
+    if (this.x !== x) {
+      this.x = x;
+      this.across = Array.from(x, (each) => `${Math.round(this.u(each))} `);
+      this.written.clear();
+    }
     let [low, high] = [Infinity, -Infinity];
     for (const { values } of curves)
       for (let i = 0; i < values.length; i++) {
@@ -49,18 +65,32 @@ export class Chart {
     if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
     [this.low, this.high] = [low, high];
     curves.forEach(({ style, values }, k) => {
-      const path = this.paths.get(k) ?? element("path", {}, this.svg);
-      this.paths.set(k, path);
-      path.setAttribute("class", `curve ${style}`);
+      const path = this.paths.get(k) ?? this.added(k);
+      put(path, "class", `curve ${style}`);
+      const before = this.written.get(k);
+      if (before?.values === values && before.low === low && before.high === high) return;
+      this.written.set(k, { values, low, high });
       path.setAttribute("d", this.data(values));
     });
-    for (const [k, path] of this.paths) if (k >= curves.length) { path.remove(); this.paths.delete(k); }
+    for (const [k, path] of this.paths)
+      if (k >= curves.length) {
+        path.remove();
+        this.paths.delete(k);
+        this.written.delete(k);
+      }
     const zero = low < 0 && high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
-    this.marks.grid.setAttribute("d", `M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`);
-    this.marks.low.textContent = digits(low / factor, 3);
-    this.marks.high.textContent = digits(high / factor, 3);
-    [this.marks.left.textContent, this.marks.right.textContent] = ends;
-    this.svg.append(this.marks.cursor, this.marks.dot);
+    put(this.marks.grid, "d", `M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`);
+    write(this.marks.low, digits(low / factor, 3));
+    write(this.marks.high, digits(high / factor, 3));
+    write(this.marks.left, ends[0]);
+    write(this.marks.right, ends[1]);
+  }
+
+  private added(k: number): SVGElement {
+    const path = element("path");
+    this.svg.insertBefore(path, this.marks.cursor);
+    this.paths.set(k, path);
+    return path;
   }
 
   cursor(i: number, value: number): void {
@@ -98,7 +128,7 @@ export class Chart {
         down = false;
         continue;
       }
-      d += `${down ? "L" : "M"}${this.u(this.x[i]).toFixed(1)} ${this.v(y).toFixed(1)}`;
+      d += (down ? "L" : "M") + this.across[i] + Math.round(this.v(y));
       down = true;
     }
     return d;

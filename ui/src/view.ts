@@ -25,8 +25,9 @@ export function element(tag: string, attributes: Record<string, string | number>
   return made as SVGElement;
 }
 
+const tenth = (x: number) => Math.round(10 * x) / 10;
 const line = (points: Vec[], closed = false) =>
-  points.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("") + (closed ? "Z" : "");
+  points.map(([x, y], k) => `${k ? "L" : "M"}${tenth(x)} ${tenth(y)}`).join("") + (closed ? "Z" : "");
 const away = ([x, y]: Vec, [u, v]: Vec, far: number, side = 0): Vec => [x + far * u - side * v, y + far * v + side * u];
 
 export class View {
@@ -121,15 +122,15 @@ export class View {
   }
 
   private writeNames(i: number): void {
+    this.layers.names.classList.toggle("hidden", !this.shown.names);
+    if (!this.shown.names) return;
     const used: Vec[] = [];
     for (const [key, label] of this.labels) {
-      label.setAttribute("visibility", this.shown.names ? "visible" : "hidden");
-      if (!this.shown.names) continue;
       let [x, y] = this.at(key, i);
       [x, y] = [x + 9, y - 9];
       while (used.some(([u, v]) => Math.abs(u - x) < 18 && Math.abs(v - y) < 12)) y -= 13;
       used.push([x, y]);
-      place(label, "x", "y", [x, y]);
+      label.setAttribute("transform", `translate(${tenth(x)} ${tenth(y)})`);
     }
   }
 

@@ -36,6 +36,10 @@ export function unitFor(kind: string, size: number): Unit {
 export function digits(value: number, count = 4): string {
   if (!Number.isFinite(value)) return "–";
   if (Math.abs(value) < 1e-12) return "0";
+  if (Math.abs(value) >= 1e7) {
+    const [head, power] = value.toExponential(2).split("e+");
+    return `${head.replace("-", "−")}·10${[...power].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("")}`;
+  }
   const text = value.toPrecision(count);
   return (text.includes("e") ? String(Number(text)) : text.replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "")).replace("-", "−");
 }
