@@ -5,6 +5,16 @@ from linkwright.lazy import offer
 TYPE_CHECKING = False  # type checkers take it for true
 
 if TYPE_CHECKING:
+    from linkwright.cams.cam import Cam as Cam
+    from linkwright.cams.cam import CamConjugate as CamConjugate
+    from linkwright.cams.cam import CamElasticity as CamElasticity
+    from linkwright.cams.cam import CamLimits as CamLimits
+    from linkwright.cams.follower import Follower as Follower
+    from linkwright.cams.loading import CamLoading as CamLoading
+    from linkwright.cams.loading import CamMaterial as CamMaterial
+    from linkwright.cams.loading import CamSpring as CamSpring
+    from linkwright.cams.result import CamDesign as CamDesign
+    from linkwright.cams.sizes import CamChoice as CamChoice
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
@@ -88,6 +98,11 @@ __version__ = "0.1.0"
 
 #: Public names by the module that has them.
 PUBLIC = {
+    "linkwright.cams.cam": ("Cam", "CamConjugate", "CamElasticity", "CamLimits"),
+    "linkwright.cams.follower": ("Follower",),
+    "linkwright.cams.loading": ("CamLoading", "CamMaterial", "CamSpring"),
+    "linkwright.cams.result": ("CamDesign",),
+    "linkwright.cams.sizes": ("CamChoice",),
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
     "linkwright.export.export": ("export",),
     "linkwright.gears.gear": ("Gear",),

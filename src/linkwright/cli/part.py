@@ -59,6 +59,7 @@ COMMANDS = {
     "forces": "statics",
     "rigid_body": "statics",
     "belt": "statics",
+    "cam": "cam",
     "wedge": "statics",
     "vibration": "vibration",
     "follower": "vibration",
@@ -76,8 +77,8 @@ def kinds_of(command: str) -> tuple[str, ...]:
     return tuple(kind for kind, name in COMMANDS.items() if name == command)
 
 
-def show(result: Result, options: argparse.Namespace, session: Session) -> None:
-    """Prints the result; writes its curves and its diagram where asked."""
+def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
+    """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
     from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
     from linkwright.cli.tables import csv_of
@@ -91,7 +92,7 @@ def show(result: Result, options: argparse.Namespace, session: Session) -> None:
         write_whole(path, text, force=options.force)
     if options.plot is not None:
         path = Path(options.plot)
-        content = result.plot(language=session.language).content(path.suffix.lower())
+        content = result.plot(kind, language=session.language).content(path.suffix.lower())
         write_whole(path, content, force=options.force)
     if session.json:
         session.show(json_text({"ok": True, **result.data()}))

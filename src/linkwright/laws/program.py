@@ -59,6 +59,11 @@ class Program(ABC):
         """Smallest and largest lift."""
         return self.extreme(0, "min").value, self.extreme(0, "max").value
 
+    @cached_property
+    def fastest(self) -> float:
+        """Largest size of the velocity."""
+        return max(self.extreme(1, "max").value, -self.extreme(1, "min").value)
+
     def places(self, count: int) -> Floats:
         """About so many places over the period, all edges among them, the last one left out."""
         edges = self.edges
@@ -314,6 +319,11 @@ class MotionProgram(Program):
         shortest = min(moving, default=self.period)
         size = self._size
         return size, size / self.period, size / self.period**2, size / shortest**3
+
+    @property
+    def moved_by(self) -> tuple[tuple[MotionLaw | None, float], ...]:
+        """Law of every segment (None for a dwell) and what it is multiplied by, m or rad."""
+        return tuple((each.law, each.scale) for each in self._pieces)
 
     @property
     def law_names(self) -> tuple[str, ...]:

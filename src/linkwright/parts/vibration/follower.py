@@ -6,13 +6,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from linkwright.errors import Finding, QuantityError
+from linkwright.errors import Finding, QuantityError, RequestError
+from linkwright.laws.base import MOTION_LAWS, MotionLaw
+from linkwright.laws.choice import motion_law
+from linkwright.laws.program_fields import LawField
+from linkwright.laws.residual import residual
 from linkwright.model.expressions import Expression, array_functions, parse
-from linkwright.model.fields import Quantity, Text
+from linkwright.model.fields import Quantity
+from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.model.nodes import Node
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.steps import put
@@ -20,24 +26,51 @@ from linkwright.parts.vibration.linear import Linear
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
-#: Rises of unit lift over u = t/T from 0 to 1 (Norton, Cam Design and Manufacturing Handbook, ch. 3).
-LAWS: Mapping[str, str] = {
-    "cycloidal": "u - sin(2*pi*u)/(2*pi)",
-    "simple_harmonic": "(1 - cos(pi*u))/2",
-    "polynomial_345": "10*u^3 - 15*u^4 + 6*u^5",
-    "polynomial_4567": "35*u^4 - 84*u^5 + 70*u^6 - 20*u^7",
-    "constant_velocity": "u",
-}
-#: Gauss points over the rise, and points of curves.
-GAUSS, POINTS = 400, 801
+if TYPE_CHECKING:
+    from linkwright.model.plain_reader import Place
+    from linkwright.model.reader import Reader
+
+#: Points of curves.
+POINTS = 801
+
+
+@dataclass(frozen=True)
+class ExpressionLaw(MotionLaw):
+    """A rise that is an expression of u, differentiated exactly."""
+
+    key: ClassVar[str] = "expression"
+    source: ClassVar[str] = ""
+    expression: Expression
+
+    @cached_property
+    def _derivatives(self) -> tuple[Expression, ...]:
+        found = [self.expression]
+        for _ in range(3):
+            found.append(found[-1].diff("u"))
+        return tuple(found)
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        with np.errstate(all="ignore"):
+            found = [each.evaluate({"u": u}, array_functions()) + 0.0 * u for each in self._derivatives]
+        s, v, a, j = (np.nan_to_num(each) for each in found)
+        return s, v, a, j
+
+
+@dataclass(frozen=True)
+class LawOrExpression(LawField):
+    """A motion law by its name or its table, or an expression of u."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, MappingNode):
+            return super().read(reader, node, place, given)
+        return reader.text(node, place)
 
 
 @dataclass(frozen=True)
 class FollowerSpring(Problem):
     """A follower of ``mass`` (kg) driven through a ``stiffness`` (N/m) by a rise of ``lift`` (m) in ``rise_time`` s.
 
-    ``law``: a name (cycloidal, simple_harmonic, polynomial_345, polynomial_4567, constant_velocity), or an expression
-    of u from 0 to 1; ``damping_ratio`` ζ.
+    ``law``: a motion law or its name, or an expression of u from 0 to 1; ``damping_ratio`` ζ.
     """
 
     kind: ClassVar[str] = "follower"
@@ -47,28 +80,41 @@ class FollowerSpring(Problem):
         "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"),
         "lift": Quantity("length", required=True, above=0.0, doc="lift of the rise"),
         "rise_time": Quantity("time", required=True, above=0.0, doc="time of the rise"),
-        "law": Text(required=True, doc=f"one of {', '.join(LAWS)}, or an expression of u from 0 to 1"),
+        "law": LawOrExpression(required=True, doc="a motion law, or an expression of u from 0 to 1"),
     }
     mass: float
     stiffness: float
     lift: float
     rise_time: float
-    law: str
+    law: MotionLaw | str
     damping_ratio: float = 0.0
     name: str = ""
     source: str = ""
 
+    @cached_property
+    def motion(self) -> MotionLaw:
+        """The law; raises QuantityError for what is no expression, RequestError for a law that needs values."""
+        if not isinstance(self.law, str):
+            return self.law
+        return motion_law(self.law) if self.law in MOTION_LAWS else ExpressionLaw(parse(self.law, ("u",)))
+
     @property
-    def expression(self) -> Expression:
-        """The law as an expression of u; raises QuantityError."""
-        return parse(LAWS.get(self.law, self.law), ("u",))
+    def said(self) -> str:
+        """The law as worked solutions name it."""
+        return self.law if isinstance(self.law, str) else self.law.key
 
     def findings(self) -> list[Finding]:
+        known = ", ".join(MOTION_LAWS)
         try:
-            law = self.expression
-            ends = [law.evaluate({"u": u}) for u in (0.0, 1.0)]
+            law = self.motion
+            if isinstance(law, ExpressionLaw):
+                ends = [law.expression.evaluate({"u": u}) for u in (0.0, 1.0)]
+            else:
+                ends = np.asarray(law.curves(np.array([0.0, 1.0]))[0], dtype=float).tolist()
         except QuantityError as error:
-            return [fault("vibration.law", "law", law=self.law, why=error.message, known=", ".join(LAWS))]
+            return [fault("vibration.law", "law", law=self.law, why=error.message, known=known)]
+        except RequestError as error:
+            return [fault("vibration.law", "law", law=self.law, why=error.sentence, known=known)]
         if abs(ends[0]) > 1e-9 or abs(ends[1] - 1.0) > 1e-9:
             return [fault("vibration.law_ends", "law", first=ends[0], last=ends[1])]
         return [fault("vibration.overdamped", "damping_ratio")] if self.damping_ratio >= 1.0 else []
@@ -106,21 +152,11 @@ class FollowerVibration(Result):
 
     def residual(self, ratio: Floats | float | None = None) -> Floats:
         """Residual amplitude (m) without damping at ratios n (k,), at its own unless given."""
-        n = np.atleast_1d(np.asarray(self.ratio if ratio is None else ratio, dtype=float))
-        u, weights = np.polynomial.legendre.leggauss(GAUSS)
-        u, weights = (u + 1) / 2, weights / 2
-        turn = np.exp(2j * math.pi * np.outer(n, u))
-        steps = self._law(1, np.array([0.0, 1.0]))
-        whole = turn @ (weights * self._law(2, u)) + steps[0] - steps[1] * np.exp(2j * math.pi * n)
-        return np.asarray(self.problem.lift * np.abs(whole) / (2 * math.pi * n))
+        given = np.asarray(self.ratio if ratio is None else ratio, dtype=float)
+        return self.problem.lift * residual(self.problem.motion, given)
 
     def _law(self, order: int, u: Floats) -> Floats:
-        law = self.problem.expression
-        for _ in range(order):
-            law = law.diff("u")
-        with np.errstate(all="ignore"):
-            found = np.asarray(law.evaluate({"u": u}, array_functions()), dtype=float)
-        return np.broadcast_to(np.nan_to_num(found), u.shape)
+        return np.asarray(self.problem.motion.curves(u)[order], dtype=float)
 
     @cached_property
     def curves(self) -> tuple[Floats, Floats, Floats]:
@@ -154,7 +190,7 @@ class FollowerVibration(Result):
 
     def steps(self, say: Say) -> list[Step]:
         step = Step("1", say("vibration.step_follower"))
-        step.say(f"  s(u) = h·({self.problem.expression.text}), u = t/T")
+        step.say(f"  s(u) = h·({self.problem.said}), u = t/T")
         step.say("  z = x − s,  z̈ + 2ζω·ż + ω²·z = −s̈")
         put(step, "ω", "√(k/m)", self.frequency, "angular_velocity")
         put(step, "n", "ω·T/(2π)", self.ratio)

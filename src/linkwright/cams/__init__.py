@@ -1,0 +1,1 @@
+"""Cams and followers: profiles from motion programs, their checks, sizes and forces."""

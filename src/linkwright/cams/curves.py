@@ -1,0 +1,207 @@
+"""Pitch curve, profile, normals and curvature of a cam, exactly, from its program's derivatives.
+
+Points are complex numbers in the cam's axes, which agree with the frame's at φ = 0; the cam turns by σφ (σ = +1
+counter-clockwise), so a place z of the frame is z e^(-iσφ) there.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cams.follower import Follower
+from linkwright.laws.base import Floats
+from linkwright.laws.program import Program
+
+Points = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Where cam and follower touch at angles φ (n,).
+
+    ``point`` of the profile and ``normal`` (unit, from the cam into the follower) in the cam's axes, m; ``bend`` the
+    profile's curvature (1/m, positive where it is convex); ``growth``: the profile's length over that of the pitch
+    curve (of a flat face: its radius of curvature, m), not positive where the cam would have to fold back;
+    ``pressure_angle`` (rad) between normal and the follower's motion, positive where the cam pushes it to the side
+    that the cam's surface moves to while it rises; ``along``: place of the contact on a flat face, m, from the
+    follower's axis or pivot.
+    """
+
+    point: Points
+    normal: Points
+    bend: Floats
+    growth: Floats
+    pressure_angle: Floats
+    along: Floats
+
+
+class CamCurve(ABC):
+    """A wall of a cam that a follower touches; ``turn`` σ."""
+
+    program: Program
+    closed: bool = True
+
+    @abstractmethod
+    def contact(self, phi: Floats) -> Contact:
+        """The contact at angles φ (n,)."""
+
+    @abstractmethod
+    def reach(self, points: Points, phi: Floats) -> Floats:
+        """How deep (m) the follower at angles φ (n,) reaches beyond points (n,) of the profile."""
+
+    @abstractmethod
+    def reach_table(self, points: Points, phi: Floats) -> Floats:
+        """The same for every point (n,) at every angle (k,): (n, k)."""
+
+    @abstractmethod
+    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+        """First and second derivative of :meth:`reach` along φ."""
+
+
+@dataclass(frozen=True)
+class RollerCurve(CamCurve):
+    """The wall of a disc cam under a roller or a knife; ``outer``: the wall of a groove outside the roller."""
+
+    program: Program
+    follower: Follower
+    base_radius: float
+    turn: float = 1.0
+    outer: bool = False
+
+    def _world(self, phi: Floats) -> tuple[Points, Points, Points, Points]:
+        """Trace point in the frame, its first two derivatives by φ, and the unit vector of its motion with lift."""
+        follower = self.follower
+        s, v, a, _ = self.program.curves(phi)
+        if not follower.oscillating:
+            height = follower.start_height(self.base_radius)
+            assert height is not None
+            return follower.offset + 1j * (height + s), 1j * v, 1j * a, np.full(len(phi), 1j)
+        start, side = follower.start_angle(self.base_radius), follower.side
+        assert start is not None and follower.arm is not None and follower.pivot_distance is not None
+        arm = -follower.arm * np.exp(-1j * side * (start + s))
+        first, second = -1j * side * v, -1j * side * a - v * v
+        return follower.pivot_distance + arm, arm * first, arm * second, -1j * side * arm / follower.arm
+
+    def pitch(self, phi: Floats) -> tuple[Points, Points, Points]:
+        """Pitch curve and its first two derivatives by φ, in the cam's axes."""
+        z, z1, z2, _ = self._world(phi)
+        turned, w = np.exp(-1j * self.turn * phi), 1j * self.turn
+        return z * turned, (z1 - w * z) * turned, (z2 - 2 * w * z1 - z) * turned
+
+    def contact(self, phi: Floats) -> Contact:
+        sign = -1.0 if self.outer else 1.0
+        p, p1, p2 = self.pitch(phi)
+        speed = np.abs(p1)
+        outward = 1j * self.turn * p1 / speed
+        bend = -self.turn * (p1.conj() * p2).imag / speed**3
+        growth = 1.0 - sign * self.follower.roller_radius * bend
+        with np.errstate(divide="ignore"):
+            own = sign * bend / growth
+        direction = self._world(phi)[3] * np.exp(-1j * self.turn * phi)
+        angle = self.turn * np.angle(outward / direction)
+        normal = sign * outward
+        point = p - self.follower.roller_radius * normal
+        return Contact(point, normal, own, growth, angle, np.zeros(len(phi)))
+
+    def reach(self, points: Points, phi: Floats) -> Floats:
+        return np.asarray(self.follower.roller_radius - np.abs(points - self.pitch(phi)[0]))
+
+    def reach_table(self, points: Points, phi: Floats) -> Floats:
+        return np.asarray(self.follower.roller_radius - np.abs(points[:, None] - self.pitch(phi)[0]))
+
+    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+        p, p1, p2 = self.pitch(phi)
+        gap = points - p
+        size = np.maximum(np.abs(gap), 1e-300)
+        along = (gap.conj() * p1).real / size
+        across = (np.abs(p1) ** 2 - (gap.conj() * p2).real - along**2) / size
+        return along, -across
+
+
+@dataclass(frozen=True)
+class BarrelCurve(RollerCurve):
+    """A wall of the groove of a barrel cam of ``radius`` (m), unrolled: x = radius times φ, y the lift."""
+
+    closed = False
+    radius: float = 0.0
+
+    def pitch(self, phi: Floats) -> tuple[Points, Points, Points]:
+        s, v, a, _ = self.program.curves(phi)
+        return self.radius * phi + 1j * s, self.radius + 1j * v, 1j * a
+
+    def contact(self, phi: Floats) -> Contact:
+        sign = -1.0 if self.outer else 1.0
+        _, p1, p2 = self.pitch(phi)
+        speed = np.abs(p1)
+        up = 1j * p1 / speed
+        bend = -(p1.conj() * p2).imag / speed**3
+        growth = 1.0 - sign * self.follower.roller_radius * bend
+        with np.errstate(divide="ignore"):
+            own = sign * bend / growth
+        point = self.pitch(phi)[0] - sign * self.follower.roller_radius * up
+        return Contact(point, sign * up, own, growth, np.angle(p1), np.zeros(len(phi)))
+
+
+@dataclass(frozen=True)
+class FlatCurve(CamCurve):
+    """The profile under a flat face: the envelope of its lines, with support H over the normal's angle θ."""
+
+    program: Program
+    follower: Follower
+    base_radius: float
+    turn: float = 1.0
+
+    def _support(self, phi: Floats) -> tuple[Points, Floats, Floats, Floats]:
+        """Unit normal N in the cam's axes; H, dH/dθ and d²H/dθ²."""
+        follower, turn = self.follower, self.turn
+        s, v, a, _ = self.program.curves(phi)
+        if not follower.oscillating:
+            normal = 1j * np.exp(-1j * turn * phi)
+            return normal, self.base_radius + s, -turn * v, a
+        start, c, side = follower.start_angle(self.base_radius), follower.pivot_distance, follower.side
+        assert start is not None and c is not None
+        psi = start + s
+        normal = 1j * side * np.exp(-1j * (side * psi + turn * phi))
+        rate = -side * v - turn
+        first = c * np.cos(psi) * v
+        second = c * (np.cos(psi) * a - np.sin(psi) * v * v)
+        slope = first / rate
+        return normal, c * np.sin(psi) - follower.face_offset, slope, (second + side * a * slope) / rate**2
+
+    def contact(self, phi: Floats) -> Contact:
+        normal, support, slope, second = self._support(phi)
+        point = (support + 1j * slope) * normal
+        growth = support + second
+        with np.errstate(divide="ignore"):
+            bend = 1.0 / growth
+        none = np.zeros(len(phi))
+        if not self.follower.oscillating:
+            return Contact(point, normal, bend, growth, none, -slope)
+        assert self.follower.pivot_distance is not None
+        turned = np.exp(1j * self.turn * phi)
+        lever = point * turned - self.follower.pivot_distance
+        arm = 1j * self.follower.side * normal * turned
+        direction = -1j * self.follower.side * lever / np.abs(lever)
+        angle = self.turn * np.angle(normal * turned / direction)
+        return Contact(point, normal, bend, growth, angle, (lever * arm.conj()).real)
+
+    def reach(self, points: Points, phi: Floats) -> Floats:
+        normal, support, _, _ = self._support(phi)
+        return np.asarray((points * normal.conj()).real - support)
+
+    def reach_table(self, points: Points, phi: Floats) -> Floats:
+        normal, support, _, _ = self._support(phi)
+        return np.outer(points.real, normal.real) + np.outer(points.imag, normal.imag) - support
+
+    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+        normal, _, slope, second = self._support(phi)
+        rate = -self.turn * np.ones(len(phi))
+        if self.follower.oscillating:
+            rate = -self.follower.side * self.program.curves(phi)[1] - self.turn
+        across = (points * (1j * normal).conj()).real
+        within = (points * normal.conj()).real
+        return (across - slope) * rate, -(within + second) * rate**2

@@ -1,0 +1,67 @@
+"""What rides on a cam: where it is guided and what it touches the cam with."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+KINDS = ("roller", "knife", "flat")
+MOTIONS = ("translating", "oscillating")
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A follower of a disc cam whose centre is the origin; lengths in m, angles in rad.
+
+    ``translating``: it moves up along the line x = ``offset``. ``oscillating``: it turns about a pivot on the x axis
+    at ``pivot_distance``; its ``arm`` points back over the cam (``below``: under it), and the lift is the angle by
+    which it turns away from the cam. ``roller`` (of ``roller_radius``) and ``knife`` touch at the end of the arm; a
+    ``flat`` face is square to a translating follower, and lies along the arm of an oscillating one, ``face_offset``
+    from the pivot towards the cam.
+    """
+
+    kind: str = "roller"
+    motion: str = "translating"
+    roller_radius: float = 0.0
+    offset: float = 0.0
+    pivot_distance: float | None = None
+    arm: float | None = None
+    face_offset: float = 0.0
+    below: bool = False
+
+    @property
+    def oscillating(self) -> bool:
+        """Whether it turns about a pivot."""
+        return self.motion == "oscillating"
+
+    @property
+    def lift_dimension(self) -> str:
+        """Dimension of its coordinate: ``angle`` or ``length``."""
+        return "angle" if self.oscillating else "length"
+
+    @property
+    def side(self) -> float:
+        """+1 where the arm points over the cam, -1 below it."""
+        return -1.0 if self.below else 1.0
+
+    def start_angle(self, base_radius: float) -> float | None:
+        """Angle ψ₀ (rad) of the arm over the line to the cam's centre at zero lift, None where it cannot be.
+
+        Roller and knife: c² + l² - 2cl cos ψ₀ = (r_b + r_r)²; flat: c sin ψ₀ = r_b + f.
+        """
+        assert self.pivot_distance is not None
+        c = self.pivot_distance
+        if self.kind == "flat":
+            share = (base_radius + self.face_offset) / c
+            return math.asin(share) if abs(share) < 1 else None
+        assert self.arm is not None
+        prime = base_radius + self.roller_radius
+        share = (c * c + self.arm**2 - prime**2) / (2 * c * self.arm)
+        return math.acos(share) if abs(share) < 1 else None
+
+    def start_height(self, base_radius: float) -> float | None:
+        """Height d (m) of a translating trace point above the centre when the lift is zero: √((r_b + r_r)² - e²)."""
+        if self.kind == "flat":
+            return base_radius
+        prime = base_radius + self.roller_radius
+        return math.sqrt(prime**2 - self.offset**2) if prime > abs(self.offset) else None

@@ -1,0 +1,111 @@
+"""What acts between cam and follower at constant speed: contact force, torque, Hertzian pressure, springs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from linkwright.cams.curves import Contact
+from linkwright.cams.follower import Follower
+from linkwright.laws.base import Floats
+from linkwright.laws.program import Program
+
+
+@dataclass(frozen=True)
+class CamSpring:
+    """Presses the follower on the cam: ``stiffness`` (N/m or N·m/rad), ``preload`` (N or N·m) at zero lift."""
+
+    stiffness: float | None = None
+    preload: float | None = None
+
+
+@dataclass(frozen=True)
+class CamMaterial:
+    """Young's moduli (Pa) and Poisson's ratios of cam and follower."""
+
+    modulus: float = 210e9
+    poisson: float = 0.3
+    follower_modulus: float | None = None
+    follower_poisson: float | None = None
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, Pa."""
+        other = self.modulus if self.follower_modulus is None else self.follower_modulus
+        ratio = self.poisson if self.follower_poisson is None else self.follower_poisson
+        return 1.0 / ((1 - self.poisson**2) / self.modulus + (1 - ratio**2) / other)
+
+
+@dataclass(frozen=True)
+class CamLoading:
+    """``speed`` ω of the cam (rad/s), ``mass`` (kg or kg·m²) of the follower, a constant ``load`` towards the cam."""
+
+    speed: float = 0.0
+    mass: float = 0.0
+    load: float = 0.0
+    spring: CamSpring = CamSpring()
+
+    def demand(self, program: Program, phi: Floats) -> Floats:
+        """Force (moment) towards the cam that inertia and load leave to the spring, (n,)."""
+        return np.asarray(-self.mass * self.speed**2 * program.curves(phi)[2] - self.load)
+
+    def effort(self, program: Program, phi: Floats) -> Floats:
+        """What the cam must exert along the follower's coordinate, N or N·m: m ω² s'' + load + F₀ + k s."""
+        s = program.curves(phi)[0]
+        pressed = (self.spring.preload or 0.0) + (self.spring.stiffness or 0.0) * s
+        return np.asarray(pressed - self.demand(program, phi))
+
+    def with_spring(self, program: Program, phi: Floats, least: float) -> CamLoading:
+        """The loading with a spring that keeps an effort of ``least``: what is not given is chosen.
+
+        Without stiffness and preload those with the least mean force, a linear program of two unknowns.
+        """
+        need = self.demand(program, phi) + least
+        s = program.curves(phi)[0]
+        k, preload = self.spring.stiffness, self.spring.preload
+        if k is None and preload is None:
+            k = _best_stiffness(s, need)
+        if preload is None:
+            assert k is not None
+            preload = max(0.0, float((need - k * s).max()))
+        if k is None:
+            lifted = s > 1e-9 * max(float(np.ptp(s)), 1e-12)
+            k = max(0.0, float(((need[lifted] - preload) / s[lifted]).max(initial=0.0)))
+        return replace(self, spring=CamSpring(k, preload))
+
+
+def _best_stiffness(s: Floats, need: Floats) -> float:
+    """The stiffness with which the mean of F₀ + k s is least, while F₀ + k s >= need everywhere."""
+    from scipy.optimize import linprog
+
+    height = float(s.max())
+    size = max(float(np.abs(need).max()), 1e-12)
+    found = linprog(
+        [1.0, float(s.mean()) / height],
+        A_ub=-np.column_stack([np.ones(len(s)), s / height]),
+        b_ub=-need / size,
+        bounds=[(0, None), (0, None)],
+        method="highs",
+    )
+    return float(found.x[1]) * size / height
+
+
+def leverage(follower: Follower, contact: Contact) -> Floats:
+    """Normal velocity of the follower at the contact per unit of its coordinate's rate, (n,): 1 or m per rad."""
+    arm: Floats = np.ones(len(contact.bend))
+    if follower.oscillating:
+        arm = np.abs(contact.along) if follower.kind == "flat" else np.full(len(arm), follower.arm or 0.0)
+        if follower.kind == "flat":
+            return np.asarray(arm)
+    return np.asarray(arm * np.cos(contact.pressure_angle))
+
+
+def contact_pressure(
+    force: Floats, contact: Contact, follower: Follower, width: float, material: CamMaterial
+) -> Floats:
+    """Hertz's pressure (Pa) of the line contact: √(F E*/(π b R)), 1/R of profile and roller; 0 without force."""
+    bend = contact.bend + (1.0 / follower.roller_radius if follower.kind == "roller" else 0.0)
+    inside = np.maximum(force, 0.0) * material.contact_modulus * np.maximum(bend, 0.0) / (math.pi * width)
+    return np.asarray(np.sqrt(inside))

@@ -1,0 +1,225 @@
+"""The numbers of a cam in blocks, and the way to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.laws.found import FoundProgram
+from linkwright.laws.program import MotionProgram
+from linkwright.parts.base import Block, Row
+from linkwright.parts.display import number, shown
+from linkwright.parts.steps import put
+from linkwright.words import Say
+from linkwright.words.sentence import in_language
+from linkwright.worked.page import Step
+
+if TYPE_CHECKING:
+    from linkwright.cams.result import CamDesign
+
+#: Dimensions of lift and its derivatives over time, by what the lift is.
+RATES = {
+    "length": ("length", "velocity", "acceleration", "jerk"),
+    "angle": ("angle", "angular_velocity", "angular_acceleration", "angular_jerk"),
+}
+
+
+def blocks(design: CamDesign, say: Say) -> list[Block]:
+    """Sizes, motion, shape, forces and vibration, as far as they apply."""
+    makers: list[Callable[[CamDesign, Say], Block | None]] = [_sizes, _motion, _shape, _forces, _vibration]
+    return [block for make in makers if (block := make(design, say)) is not None]
+
+
+def at(place: float, say: Say) -> str:
+    """``at 45.2°``"""
+    return say("cams.at", place=f"{math.degrees(place) % 360:.6g}")
+
+
+def _sizes(design: CamDesign, say: Say) -> Block:
+    cam, follower = design.cam, design.cam.follower
+    rows: list[Row] = []
+    if cam.barrel_radius is not None:
+        rows.append(Row("barrel_radius", cam.barrel_radius, "length"))
+    elif cam.base_radius is not None:
+        rows.append(Row("base_radius", cam.base_radius, "length"))
+    if follower.kind == "roller":
+        rows.append(Row("roller_radius", follower.roller_radius, "length"))
+    if follower.oscillating:
+        start = follower.start_angle(cam.base_radius or 0.0)
+        rows.append(Row("start_angle", start or 0.0, "angle"))
+    elif follower.kind != "flat" and cam.barrel_radius is None:
+        rows.append(Row("offset_row", follower.offset, "length"))
+    if design.face is not None:
+        rows.append(Row("face_width", design.face[1] - design.face[0], "length",
+                        note=say("cams.face_from", low=shown(design.face[0], "length"),
+                                 high=shown(design.face[1], "length"))))  # fmt: skip
+    return Block("sizes", say("cams.sizes"), rows)
+
+
+def _motion(design: CamDesign, say: Say) -> Block:
+    program, speed = design.cam.program, design.loading.speed
+    kinds = RATES[design.cam.follower.lift_dimension]
+    rows = [Row("lift", program.lifts[1] - program.lifts[0], kinds[0])]
+    for order, key in ((1, "velocity"), (2, "acceleration")):
+        high, low = program.extreme(order, "max"), program.extreme(order, "min")
+        for extreme, word in ((high, "largest"), (low, "smallest")):
+            if speed:
+                rows.append(
+                    Row(
+                        f"{word}_{key}",
+                        extreme.value * speed**order,
+                        kinds[order],
+                        note=at(extreme.place, say),
+                    )
+                )
+            else:
+                unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
+                label = f"{say(f'cams.{word}_{key}')} ({unit})"
+                rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place, say)))
+    return Block("motion", say("cams.motion"), rows, _remarks(design, say))
+
+
+def _remarks(design: CamDesign, say: Say) -> list[str]:
+    """Junctions where something jumps; what binds a program that was found."""
+    program = design.cam.program
+    if isinstance(program, FoundProgram):
+        named = ", ".join(in_language(each.what, _language(say)) for each in program.binding) or "–"
+        return [say("cams.binding", names=named)]
+    if not isinstance(program, MotionProgram):
+        return []
+    words = ("cams.acceleration_jumps", "cams.jerk_jumps")
+    found = []
+    for order, key in zip((2, 3), words, strict=True):
+        places = [f"{math.degrees(each.place):.6g}°" for each in program.junctions if each.jumps[order]]
+        if places:
+            found.append(say(key, places=", ".join(places)))
+    return found
+
+
+def _language(say: Say) -> str:
+    return str(getattr(say, "keywords", {}).get("language", "en"))
+
+
+def _shape(design: CamDesign, say: Say) -> Block:
+    rows = []
+    flat = design.cam.follower.kind == "flat" and not design.cam.follower.oscillating
+    if not flat:
+        for key, extreme in (("rise", design.pressure_angle_rise), ("fall", design.pressure_angle_fall)):
+            rows.append(Row(f"pressure_angle_{key}", extreme.value, "angle", note=at(extreme.place, say)))
+    smallest, hollow = design.smallest_radius, design.hollow_radius
+    if smallest is not None:
+        rows.append(Row("smallest_radius", smallest.value, "length", note=at(smallest.place, say)))
+    if hollow is not None:
+        rows.append(Row("hollow_radius", hollow.value, "length", note=at(hollow.place, say)))
+    return Block("shape", say("cams.shape"), rows, _broken_limits(design, say))
+
+
+def _broken_limits(design: CamDesign, say: Say) -> list[str]:
+    limits, found = design.cam.limits, []
+    pairs = zip((design.pressure_angle_rise, design.pressure_angle_fall), limits.angles, strict=True)
+    for extreme, limit in pairs:
+        if abs(extreme.value) > limit * (1 + 1e-6):
+            found.append(say("cams.angle_over", angle=shown(abs(extreme.value), "angle"),
+                             limit=shown(limit, "angle"), at=at(extreme.place, say)))  # fmt: skip
+    smallest = design.smallest_radius
+    if (
+        limits.curvature_radius
+        and smallest is not None
+        and smallest.value < limits.curvature_radius * (1 - 1e-6)
+    ):
+        found.append(say("cams.radius_under", radius=shown(smallest.value, "length"),
+                         limit=shown(limits.curvature_radius, "length"), at=at(smallest.place, say)))  # fmt: skip
+    pressure = design.pressure
+    if (
+        limits.contact_pressure
+        and pressure is not None
+        and pressure.max() > limits.contact_pressure * (1 + 1e-6)
+    ):
+        place = float(design.angles[int(pressure.argmax())])
+        found.append(say("cams.pressure_over", pressure=shown(float(pressure.max()), "pressure"),
+                         limit=shown(limits.contact_pressure, "pressure"), at=at(place, say)))  # fmt: skip
+    return found
+
+
+def _forces(design: CamDesign, say: Say) -> Block | None:
+    if not design.loaded or design.cam.barrel_radius is not None:
+        return None
+    turning = design.cam.follower.oscillating
+    rows, remarks = [], []
+    spring = design.loading.spring
+    if spring.preload is not None or spring.stiffness is not None:
+        rows.append(
+            Row("stiffness", spring.stiffness or 0.0, "torsional_stiffness" if turning else "stiffness")
+        )
+        rows.append(Row("preload", spring.preload or 0.0, "torque" if turning else "force"))
+    curves = [("contact_force", design.contact_force, "force"), ("torque", design.torque, "torque")]
+    if design.pressure is not None:
+        curves.append(("contact_pressure", design.pressure, "pressure"))
+    for key, values, dimension in curves:
+        for word, k in (("largest", int(values.argmax())), ("smallest", int(values.argmin()))):
+            if key != "contact_pressure" or word == "largest":
+                rows.append(
+                    Row(f"{word}_{key}", float(values[k]), dimension, note=at(float(design.angles[k]), say))
+                )
+    if design.cam.closure != "force":
+        force = design.contact_force
+        pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
+        flips = pressed[1:][np.diff(np.sign(force[pressed])) != 0]
+        if len(flips):
+            places = ", ".join(f"{math.degrees(design.angles[k]):.4g}°" for k in flips)
+            remarks.append(say("cams.wall_changes", places=places))
+    return Block("forces", say("cams.forces"), rows, remarks)
+
+
+def _vibration(design: CamDesign, say: Say) -> Block | None:
+    cam, speed = design.cam, design.loading.speed
+    if cam.elasticity is None or not design.loading.mass or not speed:
+        return None
+    length = cam.follower.lift_dimension
+    rows = [
+        Row("own_frequency", design.own_frequency / (2 * math.pi), "frequency"),
+        Row("steady_deviation", float(design.steady_deviation(np.array([speed]))[0]), length),
+    ]
+    if isinstance(cam.program, MotionProgram):
+        rows.append(Row("residual", float(design.residual_vibration(np.array([speed])).max()), length))
+    return Block("vibration", say("cams.vibration"), rows)
+
+
+def steps(design: CamDesign, say: Say) -> list[Step]:
+    """Start position, pressure angle and curvature with their formulas and numbers."""
+    cam, follower = design.cam, design.cam.follower
+    first = Step("1", say("cams.step_start"))
+    base = cam.base_radius or 0.0
+    prime = base + follower.roller_radius
+    if cam.barrel_radius is not None:
+        first.say("  x = R·φ,  y = s(φ)")
+        put(first, "R", "", cam.barrel_radius, "length")
+    elif follower.kind == "flat":
+        first.say("  H(θ) = r_b + s" if not follower.oscillating else "  H(θ) = c·sin(ψ₀ + s) − f")
+        put(first, "r_b", "", base, "length")
+    elif follower.oscillating:
+        put(first, "ψ₀", "arccos((c² + l² − (r_b + r_r)²)/(2cl))", follower.start_angle(base) or 0.0, "angle")
+    else:
+        numbers = f"√({number(prime, 'length')}² − {number(follower.offset, 'length')}²)"
+        put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
+    second = Step("2", say("cams.step_angle"))
+    extreme = max((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: abs(each.value))
+    formula = (
+        "arctan((s′ − e)/(d + s))" if not follower.oscillating and follower.kind != "flat" else "∠(n, v)"
+    )
+    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle")
+    third = Step("3", say("cams.step_radius"))
+    radius = design.smallest_radius
+    if radius is not None:
+        formula = "H + d²H/dθ²" if follower.kind == "flat" else "|p′|³/|p′ × p″| − r_r"
+        put(third, f"ρ({math.degrees(radius.place):.5g}°)", formula, radius.value, "length")
+    if not design.loaded:
+        return [first, second, third]
+    fourth = Step("4", say("cams.step_force"))
+    fourth.say("  F = m·ω²·s″ + F₀ + k·s + F_l,  N = F/cos α,  T = F·s′")
+    put(fourth, "N_max", "", float(design.contact_force.max()), "force")
+    put(fourth, "T_max", "", float(design.torque.max()), "torque")
+    return [first, second, third, fourth]

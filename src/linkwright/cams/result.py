@@ -1,0 +1,298 @@
+"""A finished cam: its curves over the turn, its extremes with their places, its profile as points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from linkwright.cams.curves import RollerCurve
+from linkwright.cams.loading import contact_pressure, leverage
+from linkwright.cams.vibration import residual_amplitude, steady_deviation
+from linkwright.core.piecewise import Piecewise
+from linkwright.errors import RequestError
+from linkwright.laws.base import Floats
+from linkwright.laws.program import MotionProgram
+from linkwright.parts.base import Block, Result
+from linkwright.words import Say
+from linkwright.words.sentence import Sentence
+from linkwright.worked.page import Step
+
+if TYPE_CHECKING:
+    from linkwright.cams.cam import Cam
+    from linkwright.cams.curves import CamCurve, Contact
+    from linkwright.cams.loading import CamLoading
+    from linkwright.plot.drawing.picture import Drawing
+
+#: Places of the curves.
+POINTS = 1440
+_FEWEST, _MOST = 36, 100_000
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The largest or smallest value over the turn, with its place (rad)."""
+
+    value: float
+    place: float
+
+
+@dataclass(frozen=True, repr=False)
+class CamDesign(Result):
+    """A cam whose sizes are settled: ``cam`` has base circle, offset and roller, ``cam.loaded`` the spring.
+
+    Curves are over ``angles`` (n,) of one turn, in rad, the end included; walls are those of ``cam.walls``.
+    """
+
+    area: ClassVar[str] = "cams"
+    cam: Cam
+
+    @property
+    def title(self) -> str:
+        return self.cam.name
+
+    @cached_property
+    def angles(self) -> Floats:
+        """Angles of the curves, rad: equal steps, and every edge of the program."""
+        return np.append(self.cam.program.places(POINTS), self.cam.program.period)
+
+    @cached_property
+    def motion(self) -> Floats:
+        """Lift, velocity, acceleration and jerk (4, n), m or rad over powers of rad."""
+        inside = np.minimum(self.angles, np.nextafter(self.cam.program.period, 0.0))
+        return np.array(self.cam.program.curves(inside))
+
+    @cached_property
+    def wall(self) -> CamCurve:
+        """The wall that the follower is pressed on."""
+        return self.cam.walls[0]
+
+    @cached_property
+    def contact(self) -> Contact:
+        """The contact on the first wall."""
+        return self.wall.contact(np.minimum(self.angles, np.nextafter(self.cam.program.period, 0.0)))
+
+    @property
+    def loading(self) -> CamLoading:
+        """Speed, mass, load and spring, the chosen one among them."""
+        return self.cam.loaded
+
+    # extremes -----------------------------------------------------------------------------
+    def _extreme(self, values: Any, kind: str) -> Extreme:
+        program = self.cam.program
+        inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
+        found = Piecewise.of(values, 0.0, program.period, pieces=24, knots=inner).extreme(kind)
+        return Extreme(found.value, found.place)
+
+    @cached_property
+    def pressure_angle_rise(self) -> Extreme:
+        """The pressure angle (rad) of largest size while the follower rises."""
+        return self._steepest(1.0)
+
+    @cached_property
+    def pressure_angle_fall(self) -> Extreme:
+        """The pressure angle (rad) of largest size while it falls."""
+        return self._steepest(-1.0)
+
+    def _steepest(self, way: float) -> Extreme:
+        rate = self.motion[1]
+        moving = way * rate > 1e-9 * np.abs(rate).max()
+        if not moving.any():
+            return Extreme(0.0, 0.0)
+        size = np.where(moving, np.abs(self.contact.pressure_angle), -1.0)
+        k = int(size.argmax())
+        low, high = self.angles[max(k - 1, 0)], self.angles[min(k + 1, len(size) - 1)]
+        for _ in range(8):
+            phi = np.linspace(low, high, 33)
+            angle = self.wall.contact(phi).pressure_angle
+            j = int(np.abs(angle).argmax())
+            low, high = phi[max(j - 1, 0)], phi[min(j + 1, 32)]
+        return Extreme(float(angle[j]), float(phi[j]))
+
+    @cached_property
+    def smallest_radius(self) -> Extreme | None:
+        """The profile's smallest radius of curvature where it is convex (m), over all walls; None without any."""
+        found = [self._extreme(lambda phi, w=wall: w.contact(phi).bend, "max") for wall in self.cam.walls]
+        sharpest = max(found, key=lambda each: each.value)
+        return Extreme(1.0 / sharpest.value, sharpest.place) if sharpest.value > 0 else None
+
+    @cached_property
+    def hollow_radius(self) -> Extreme | None:
+        """The smallest radius where the first wall is hollow (m): no larger cutter fits; None where it is convex."""
+        found = self._extreme(lambda phi: self.wall.contact(phi).bend, "min")
+        return Extreme(-1.0 / found.value, found.place) if found.value < -1e-9 * abs(self.size) else None
+
+    @property
+    def size(self) -> float:
+        """Largest distance of the profile from the centre, m."""
+        return float(np.abs(self.contact.point).max())
+
+    @property
+    def face(self) -> tuple[float, float] | None:
+        """The part of a flat face that touches, from and to (m) along it; None for other followers."""
+        if self.cam.follower.kind != "flat":
+            return None
+        low = self._extreme(lambda phi: self.wall.contact(phi).along, "min")
+        high = self._extreme(lambda phi: self.wall.contact(phi).along, "max")
+        return low.value, high.value
+
+    # forces -------------------------------------------------------------------------------
+    @property
+    def loaded(self) -> bool:
+        """Whether anything presses follower and cam together."""
+        loading = self.loading
+        return bool(loading.mass and loading.speed) or bool(loading.load) or bool(loading.spring.preload)
+
+    @cached_property
+    def contact_force(self) -> Floats:
+        """Normal force between cam and follower (n,) N; negative: on the other wall of a groove or pair."""
+        effort = self.loading.effort(self.cam.program, self._inside)
+        force = effort / leverage(self.cam.follower, self.contact)
+        if self._other is None:
+            return np.asarray(force)
+        back = effort / leverage(self._other.follower, self._other.contact(self._inside))
+        return np.where(effort < 0, -np.abs(back), np.abs(force))
+
+    @property
+    def _other(self) -> RollerCurve | None:
+        """The wall that pushes the follower back, of a groove or a pair."""
+        walls = self.cam.walls
+        return walls[1] if len(walls) > 1 and isinstance(walls[1], RollerCurve) else None
+
+    @property
+    def _inside(self) -> Floats:
+        return np.minimum(self.angles, np.nextafter(self.cam.program.period, 0.0))
+
+    @cached_property
+    def torque(self) -> Floats:
+        """Torque (n,) N·m with which the cam must be driven, positive in its sense of turning: effort times s'."""
+        return np.asarray(self.loading.effort(self.cam.program, self._inside) * self.motion[1])
+
+    @cached_property
+    def pressure(self) -> Floats | None:
+        """Hertz's pressure (n,) Pa on the wall that is pressed; None without width or for a knife."""
+        cam = self.cam
+        if cam.width is None or cam.follower.kind == "knife" or not self.loaded:
+            return None
+        force = self.contact_force
+        found = contact_pressure(force, self.contact, cam.follower, cam.width, cam.material)
+        if self._other is None:
+            return found
+        back = self._other.contact(self._inside)
+        return found + contact_pressure(-force, back, self._other.follower, cam.width, cam.material)
+
+    # points -------------------------------------------------------------------------------
+    def profile(self, points: int = 720, wall: int = 0) -> Floats:
+        """The profile as points (n, 2) m in the cam's axes, exact; of a barrel cam unrolled, from 0 to 2π."""
+        contact = self.cam.walls[wall].contact(self.places(points))
+        return np.stack([contact.point.real, contact.point.imag], axis=1)
+
+    def pitch_curve(self, points: int = 720, wall: int = 0) -> Floats:
+        """The path of the roller's centre or the edge (n, 2) m; raises RequestError for a flat face."""
+        return self.cutter_path(self.cam.follower.roller_radius, points, wall)
+
+    def cutter_path(self, radius: float | None = None, points: int = 720, wall: int = 0) -> Floats:
+        """The centre of a round cutter of ``radius`` (m) along the profile, (n, 2) m.
+
+        Raises RequestError for a cutter that does not fit into the hollow parts of the profile.
+        """
+        radius = self.cam.cutter_radius if radius is None else radius
+        if radius is None or not radius >= 0:
+            raise RequestError(Sentence("cams.no_cutter"))
+        contact = self.cam.walls[wall].contact(self.places(points))
+        hollow = -float(contact.bend.min())
+        if hollow * radius > 1 + 1e-9:
+            raise RequestError(
+                Sentence("cams.cutter_large", radius=f"{1e3 * radius:.6g}", most=f"{1e3 / hollow:.6g}")
+            )
+        path = contact.point + radius * contact.normal
+        return np.stack([path.real, path.imag], axis=1)
+
+    def places(self, points: int) -> Floats:
+        """Angles (rad) of so many points of the profile; raises RequestError for too few or too many."""
+        if not _FEWEST <= points <= _MOST:
+            raise RequestError(Sentence("cams.points", points=points, least=_FEWEST, most=_MOST))
+        end = self.cam.barrel_radius is not None
+        return np.linspace(0.0, 2 * math.pi, points + end, endpoint=end)
+
+    def save_profile(self, path: str | Path, points: int = 720, *, force: bool = False) -> Path:
+        """Writes the profile: ``.dxf`` (mm, layers), ``.csv`` (angle, points, normals), ``.txt`` (x y z in mm).
+
+        Raises RequestError for another ending, LinkwrightError for a file that exists (without ``force``).
+        """
+        from linkwright.export.dxf.cams import save_profile
+
+        return save_profile(self, Path(path), points, force=force)
+
+    def draw(self, angle: float = 0.0, language: str = "en") -> Drawing:
+        """Cam and follower at an angle (rad), as SVG."""
+        from linkwright.plot.cams import draw_cam
+
+        return draw_cam(self, angle, language)
+
+    # what it says -------------------------------------------------------------------------
+    def columns(self) -> dict[str, Floats]:
+        lift = "rad" if self.cam.follower.oscillating else "m"
+        s, v, a, j = self.motion
+        contact = self.contact
+        with np.errstate(divide="ignore"):
+            radius = 1.0 / contact.bend
+        found = {
+            "angle [rad]": self.angles,
+            f"lift [{lift}]": s,
+            f"velocity [{lift}/rad]": v,
+            f"acceleration [{lift}/rad²]": a,
+            f"jerk [{lift}/rad³]": j,
+            "profile x [m]": contact.point.real,
+            "profile y [m]": contact.point.imag,
+            "normal x": contact.normal.real,
+            "normal y": contact.normal.imag,
+            "radius of curvature [m]": radius,
+            "pressure angle [rad]": contact.pressure_angle,
+        }
+        if self.loaded:
+            found |= {"contact force [N]": self.contact_force, "torque [N·m]": self.torque}
+        if self.pressure is not None:
+            found["contact pressure [Pa]"] = self.pressure
+        return found
+
+    def blocks(self, say: Say) -> list[Block]:
+        from linkwright.cams.report import blocks
+
+        return blocks(self, say)
+
+    def steps(self, say: Say) -> list[Step]:
+        from linkwright.cams.report import steps
+
+        return steps(self, say)
+
+    # vibration ----------------------------------------------------------------------------
+    def residual_vibration(self, speeds: Floats) -> Floats:
+        """Amplitude left after each rise and fall (n, k) at speeds of the cam (n,) rad/s, without damping, m or rad.
+
+        Raises RequestError without ``elasticity`` and mass, and for a program that is not made of segments.
+        """
+        if self.cam.elasticity is None or not self.loading.mass:
+            raise RequestError(Sentence("cams.no_elasticity"))
+        if not isinstance(self.cam.program, MotionProgram):
+            raise RequestError(Sentence("cams.no_segments"))
+        return residual_amplitude(self.cam.program, self.own_frequency, np.asarray(speeds, dtype=float))
+
+    def steady_deviation(self, speeds: Floats) -> Floats:
+        """Largest distance of the follower's mass from what the cam asks (n,) at speeds (n,), in steady turning."""
+        if self.cam.elasticity is None or not self.loading.mass:
+            raise RequestError(Sentence("cams.no_elasticity"))
+        damping = self.cam.elasticity.damping_ratio
+        return steady_deviation(
+            self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float)
+        )
+
+    @property
+    def own_frequency(self) -> float:
+        """Natural frequency of the follower on its elasticity, rad/s."""
+        assert self.cam.elasticity is not None
+        return math.sqrt(self.cam.elasticity.stiffness / self.loading.mass)

@@ -1,0 +1,60 @@
+"""``linkwright cam``: a cam from its program to profile, checks, diagrams, drawing and points for a mill."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.part import kinds_of, part_arguments, read, refuse_outputs, show
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.cams.result import CamDesign
+
+DIAGRAMS = ("cam_motion", "cam_checks", "cam_profile", "cam_vibration")
+PROFILES, DRAWINGS = (".dxf", ".csv", ".txt"), (".svg", ".pdf", ".png")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    part_arguments(parser, say)
+    parser.add_argument("--kind", choices=DIAGRAMS, default=DIAGRAMS[0], help=say("cam.kind_help"))
+    parser.add_argument("--profile", metavar="FILE", help=say("cam.profile_help"))
+    parser.add_argument("--points", type=whole_number, default=720, metavar="N", help=say("cam.points_help"))
+    parser.add_argument("--draw", metavar="FILE", help=say("cam.draw_help"))
+    parser.add_argument("--at", type=float, default=0.0, metavar="DEG", help=say("cam.at_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Solves the file's cam, shows its numbers and writes what is asked for."""
+    from linkwright.cli.tables import refuse_output
+
+    refuse_outputs(options, session)
+    refuse_output(options.profile, PROFILES, session.say, force=options.force)
+    refuse_output(options.draw, DRAWINGS, session.say, force=options.force)
+    if not math.isfinite(options.at):
+        raise UsageError(session.say("cam.bad_angle", angle=options.at))
+    from linkwright.cams.cam import Cam
+
+    problem = read(options.file, kinds_of("cam"), session)
+    assert isinstance(problem, Cam)
+    design = problem.solve()
+    show(design, options, session, kind=options.kind)
+    _write(design, options, session)
+    return 0
+
+
+def _write(design: CamDesign, options: argparse.Namespace, session: Session) -> None:
+    written = []
+    if options.profile is not None:
+        written.append(design.save_profile(options.profile, options.points, force=options.force))
+    if options.draw is not None:
+        written.append(design.draw(math.radians(options.at), session.language).save(Path(options.draw)))
+    if not session.json:
+        for path in written:
+            session.show(session.say("cli.written", path=path))

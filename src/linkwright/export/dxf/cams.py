@@ -1,0 +1,90 @@
+"""Profiles of cams for drawings and mills: DXF at true scale, tables of points."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.export.base import package
+from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.cams.result import CamDesign
+
+ENDINGS = (".dxf", ".csv", ".txt")
+#: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
+LAYERS = {"profile": 7, "pitch": 8, "cutter": 3, "base": 150}
+_MM = 1e3
+
+
+def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> Path:
+    """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
+    if path.suffix.lower() not in ENDINGS:
+        raise RequestError(Sentence("cams.profile_ending", path=path, endings=", ".join(ENDINGS)))
+    refuse_target(path, force=force, remedy="force=True")
+    if path.suffix.lower() == ".dxf":
+        return write_whole(path, _drawing(design, points))
+    text = _table(design, points) if path.suffix.lower() == ".csv" else _mill(design, points)
+    return write_whole(path, text.encode("utf-8"))
+
+
+def _drawing(design: CamDesign, points: int) -> bytes:
+    """Closed polylines whose corners lie on the exact curves, mm; of a barrel cam open and unrolled."""
+    ezdxf = package("ezdxf", "dxf_drawings")
+    document = ezdxf.new("R2010", setup=["linetypes"])
+    document.units = 4
+    for name, colour in LAYERS.items():
+        document.layers.add(name, color=colour)
+    space, cam = document.modelspace(), design.cam
+    closed = cam.barrel_radius is None
+
+    def add(places: np.ndarray, layer: str, **attributes: str) -> None:
+        given = {"layer": layer, **attributes}
+        space.add_lwpolyline((_MM * places).tolist(), close=closed, dxfattribs=given)
+
+    for wall in range(len(cam.walls)):
+        sign = -1.0 if wall and cam.conjugate is not None and not cam.follower.oscillating else 1.0
+        add(sign * design.profile(points, wall), "profile")
+        if cam.cutter_radius is not None:
+            add(sign * design.cutter_path(None, points, wall), "cutter", linetype="DASHED")
+    if cam.follower.kind == "roller":
+        add(design.pitch_curve(points), "pitch", linetype="DASHDOT")
+    if closed and cam.base_radius is not None:
+        space.add_circle((0.0, 0.0), _MM * cam.base_radius, dxfattribs={"layer": "base"})
+        space.add_point((0.0, 0.0), dxfattribs={"layer": "base"})
+    stream = io.StringIO()
+    document.write(stream)
+    return bytes(document.encode(stream.getvalue()))
+
+
+def _table(design: CamDesign, points: int) -> str:
+    """Angle, profile, unit normal and radius of curvature, one point a line."""
+    phi = design.places(points)
+    lines = ["wall,angle [deg],x [mm],y [mm],normal x,normal y,radius of curvature [mm]"]
+    for number, wall in enumerate(design.cam.walls):
+        contact = wall.contact(phi)
+        with np.errstate(divide="ignore"):
+            radius = _MM / contact.bend
+        rows = zip(np.degrees(phi), contact.point, contact.normal, radius, strict=True)
+        lines += [
+            f"{number},{a:.9g},{_MM * p.real:.9g},{_MM * p.imag:.9g},{n.real:.9g},{n.imag:.9g},{r:.9g}"
+            for a, p, n, r in rows
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _mill(design: CamDesign, points: int) -> str:
+    """The cutter's centre where its radius is known, else the profile: x y z in mm, walls apart by an empty line."""
+    parts = []
+    for wall in range(len(design.cam.walls)):
+        known = design.cam.cutter_radius is not None
+        places = design.cutter_path(None, points, wall) if known else design.profile(points, wall)
+        if design.cam.barrel_radius is None:
+            places = np.concatenate([places, places[:1]])
+        parts.append("".join(f"{_MM * x:.6f} {_MM * y:.6f} {0.0:.6f}\n" for x, y in places.tolist()))
+    return "\n".join(parts)

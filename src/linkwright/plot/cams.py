@@ -1,0 +1,164 @@
+"""A cam and its follower, drawn at true shape."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.cams.curves import RollerCurve
+from linkwright.errors import RequestError
+from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
+from linkwright.plot.svg.element import Element, Floats, circle, path
+from linkwright.plot.svg.text import text_element, width
+from linkwright.plot.symbols.base import points
+from linkwright.words import LANGUAGES, say
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.cams.result import CamDesign
+
+DIAGONAL, SIZE = 620.0, 13.0
+_ARM = 6.0
+
+
+def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Drawing:
+    """Profiles, pitch curve as a chain line, base circle thin, follower and frame at an angle (rad) of the cam."""
+    if language not in LANGUAGES:
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    cam = design.cam
+    barrel = cam.barrel_radius is not None
+    walls = [
+        _turned(design.profile(720, k), 0.0 if barrel else cam.turn * angle) for k in range(len(cam.walls))
+    ]
+    if cam.conjugate is not None and not cam.follower.oscillating:
+        walls[1] = -walls[1]
+    follower = _follower(design, angle)
+    pitch = np.empty((0, 2))
+    if cam.follower.kind != "flat":
+        pitch = _turned(design.pitch_curve(), 0.0 if barrel else cam.turn * angle)
+    cloud = np.concatenate([*walls, pitch, *follower.values()])
+    scale = DIAGONAL / float(np.hypot(*np.ptp(cloud, axis=0)))
+
+    def paper(places: Floats) -> Floats:
+        return np.asarray(places) * (scale, -scale)
+
+    content: list[Element] = []
+    for k, wall in enumerate(walls):
+        filled = not barrel and k == 0 and cam.closure != "groove"
+        content.append(path(paper(wall), "lw-gear" if filled else "lw-ground", closed=not barrel))
+    if len(pitch):
+        content.append(path(paper(pitch), "lw-pitch", closed=not barrel))
+    if not barrel:
+        content += _centre(scale * (cam.base_radius or 0.0))
+    content += _drawn(follower, paper, scale * cam.follower.roller_radius, cam.follower.kind)
+    if cam.conjugate is not None:
+        content += _second(design, angle, paper, scale)
+    box = bounds([paper(cloud)])
+    lines = _lines(design, angle, language)
+    content += [
+        text_element(box[0], box[3] + 24.0 + 20.0 * n, line, "lw-legend", SIZE)
+        for n, line in enumerate(lines)
+    ]
+    wide = max(width(line, SIZE) for line in lines)
+    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
+    return Drawing(document(content, whole, say("cams.drawing", language, name=design.title), None))
+
+
+def _turned(places: Floats, angle: float) -> Floats:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.asarray(places @ np.array([[c, s], [-s, c]]))
+
+
+def _centre(base: float) -> list[Element]:
+    return [
+        circle((0.0, 0.0), base, "lw-hatch"),
+        path(points([(-_ARM, 0.0), (_ARM, 0.0)]), "lw-hatch"),
+        path(points([(0.0, -_ARM), (0.0, _ARM)]), "lw-hatch"),
+    ]
+
+
+def _follower(design: CamDesign, angle: float) -> dict[str, Floats]:
+    """Places (n, 2) of the follower's parts in the frame: roller, arm, stem or face, pivot."""
+    cam, follower = design.cam, design.cam.follower
+    lift = float(cam.program.curves(np.array([angle]))[0][0])
+    size = design.size
+    if cam.barrel_radius is not None:
+        at = np.array([cam.barrel_radius * angle, lift])
+        return {"roller": _round(at, follower.roller_radius)}
+    base = cam.base_radius or 0.0
+    if not follower.oscillating:
+        height = (follower.start_height(base) or 0.0) + lift
+        tip = np.array([follower.offset, height])
+        top = tip + np.array([0.0, 0.8 * size])
+        if follower.kind == "flat":
+            low, high = design.face or (0.0, 0.0)
+            face = np.array([(low, height), (high, height)])
+            return {"face": face, "stem": np.array([tip, top])}
+        parts = {"stem": np.array([tip, top])}
+    else:
+        assert follower.pivot_distance is not None
+        psi = (follower.start_angle(base) or 0.0) + lift
+        pivot = np.array([follower.pivot_distance, 0.0])
+        along = np.array([-math.cos(psi), follower.side * math.sin(psi)])
+        if follower.kind == "flat":
+            low, high = design.face or (0.0, 0.0)
+            toward = np.array([-math.sin(psi), -follower.side * math.cos(psi)]) * follower.face_offset
+            face = np.array([pivot + toward + low * along, pivot + toward + high * along])
+            return {"face": face, "stem": np.array([pivot, pivot + toward, face[0]]), "pivot": pivot[None]}
+        tip = pivot + (follower.arm or 0.0) * along
+        parts = {"stem": np.array([pivot, tip]), "pivot": pivot[None]}
+    return {**parts, "roller": _round(tip, follower.roller_radius)}
+
+
+def _round(at: Floats, radius: float) -> Floats:
+    """The corners of a roller's square, its centre in the middle."""
+    corners = np.array([(-1, -1), (0, 0), (1, 1)])
+    return np.asarray(at + radius * corners)
+
+
+def _drawn(
+    parts: dict[str, Floats], paper: Callable[[Floats], Floats], roller: float, kind: str
+) -> list[Element]:
+    """Stem, face, roller and pivot."""
+    found: list[Element] = []
+    if "stem" in parts:
+        found.append(path(paper(parts["stem"]), "lw-bar"))
+    if "face" in parts:
+        found.append(path(paper(parts["face"]), "lw-bar"))
+    if "roller" in parts and kind == "roller":
+        x, y = paper(parts["roller"][1]).tolist()
+        found += [circle((x, y), roller, "lw-pin"), circle((x, y), 2.0, "lw-point")]
+    if "pivot" in parts:
+        x, y = paper(parts["pivot"][0]).tolist()
+        found.append(circle((x, y), 5.0, "lw-pin"))
+    return found
+
+
+def _second(
+    design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float
+) -> list[Element]:
+    """The second roller of a pair, rigid with the first."""
+    wall = design.cam.walls[1]
+    assert isinstance(wall, RollerCurve)
+    at = wall.pitch(np.array([angle]))[0] * np.exp(1j * design.cam.turn * angle)
+    if not design.cam.follower.oscillating:
+        at = -at
+    place = np.array([at[0].real, at[0].imag])
+    x, y = paper(place).tolist()
+    parts = [circle((x, y), scale * wall.follower.roller_radius, "lw-pin"), circle((x, y), 2.0, "lw-point")]
+    pivot = design.cam.follower.pivot_distance
+    if design.cam.follower.oscillating and pivot is not None:
+        parts.insert(0, path(paper(np.array([(pivot, 0.0), place])), "lw-bar"))
+    return parts
+
+
+def _lines(design: CamDesign, angle: float, language: str) -> list[str]:
+    cam = design.cam
+    degrees = f"{math.degrees(angle):.6g}"
+    if cam.barrel_radius is not None:
+        return [say("cams.drawn_barrel", language, radius=f"{1e3 * cam.barrel_radius:.6g}", angle=degrees)]
+    radius = f"{1e3 * (cam.base_radius or 0.0):.6g}"
+    return [say("cams.drawn", language, radius=radius, angle=degrees)]

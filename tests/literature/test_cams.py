@@ -1,0 +1,343 @@
+"""Cams against published cases, closed forms and dense polygons."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from math import radians
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.reference.cam_offsets import disagreement, random_cam
+
+import linkwright as lw
+from linkwright import parts
+from linkwright.cams.curves import RollerCurve
+from linkwright.cams.loading import CamMaterial
+from linkwright.cams.undercut import cusps, undercuts
+from linkwright.errors import LinkwrightError, ModelError
+
+INCH = 0.0254
+
+
+def program(rise: float = 0.024, law: str = "cycloidal", beta: float = 90.0) -> lw.MotionProgram:
+    over = radians(beta)
+    rest = (2 * math.pi - 2 * over) / 2
+    return lw.MotionProgram(
+        (
+            lw.Segment(over, rise, law=law),
+            lw.Segment(rest),
+            lw.Segment(over, -rise, law=law),
+            lw.Segment(rest),
+        )
+    )
+
+
+def test_the_flat_face_has_the_published_base_circle_and_width() -> None:
+    """Cycloidal rise of 1 in over 90°, dwells of 90°, radius 0.25 in: base radius 1.893 in, width 2.55 in."""
+    design = parts.load("gallery:cam_flat_face").solve()
+    assert design.cam.base_radius / INCH == pytest.approx(1.893, abs=5e-4)
+    low, high = design.face
+    assert (high - low) / INCH == pytest.approx(2.55, abs=5e-3)
+    assert design.smallest_radius.value == pytest.approx(0.25 * INCH, rel=1e-8)
+
+
+def test_the_cycloidal_cam_of_the_lecture() -> None:
+    """S, V, A, J of the sine acceleration over β = 60°, rise and return, in closed form."""
+    design = parts.load("gallery:cam_lecture").solve()
+    h, beta = 0.010, radians(60)
+    phi = np.radians(np.linspace(0.0, 119.9, 500))
+    u = np.where(phi < beta, phi, phi - beta) / beta
+    sign = np.where(phi < beta, 1.0, -1.0)
+    w = 2 * np.pi
+    expected = [
+        h * (np.where(phi < beta, 0, 1) + sign * (u - np.sin(w * u) / w)),
+        sign * h / beta * (1 - np.cos(w * u)),
+        sign * h / beta**2 * w * np.sin(w * u),
+        sign * h / beta**3 * w * w * np.cos(w * u),
+    ]
+    for found, exact in zip(design.cam.program.curves(phi), expected, strict=True):
+        assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+@pytest.mark.parametrize("offset", [-0.006, 0.0, 0.009])
+def test_pressure_angle_and_curvature_are_those_of_the_closed_forms(turn: float, offset: float) -> None:
+    """tan α = (s' - σe)/(d + s) and ρ of a curve in polar form (no offset)."""
+    motion = program()
+    cam = lw.Cam(motion, lw.Follower(roller_radius=0.008, offset=offset), 0.03, turn)
+    wall = cam.walls[0]
+    phi = np.linspace(0.01, 6.2, 301)
+    s, v, a, _ = motion.curves(phi)
+    height = math.sqrt(0.038**2 - offset**2) + s
+    contact = wall.contact(phi)
+    assert contact.pressure_angle == pytest.approx(np.arctan((v - turn * offset) / height), abs=1e-13)
+    if offset == 0.0:
+        bend = (height**2 + 2 * v**2 - height * a) / (height**2 + v**2) ** 1.5
+        assert 1 / contact.bend == pytest.approx(1 / bend - 0.008, rel=1e-10)
+
+
+@pytest.mark.parametrize("kind", ["roller", "flat"])
+@pytest.mark.parametrize("below", [False, True])
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+def test_an_oscillating_follower_touches_its_cam_and_does_not_cut_it(
+    kind: str, below: bool, turn: float
+) -> None:
+    """Rolled over by the follower at other angles, no contact point lies inside it; the contact lies on it."""
+    follower = lw.Follower(
+        kind, "oscillating", 0.01 if kind == "roller" else 0.0, pivot_distance=0.16, arm=0.13, below=below
+    )
+    cam = lw.Cam(program(0.25, "polynomial_4567", 120.0), follower, 0.07, turn)
+    wall = cam.walls[0]
+    phi = np.linspace(0.0, 2 * np.pi, 361)
+    points = wall.contact(phi).point
+    reach = wall.reach_table(points, phi)
+    assert np.abs(np.diag(reach)).max() < 1e-15
+    assert reach.max() < 1e-15
+    h = 1e-6
+    ahead, behind = (wall.contact(phi + d).point for d in (h, -h))
+    slide = ((ahead - behind) * wall.contact(phi).normal.conj()).real / (2 * h)
+    assert np.abs(slide).max() < 1e-9
+
+
+def test_power_is_in_balance() -> None:
+    """N·(normal velocity of the follower) = T·ω at every angle, for all followers."""
+    loading = lw.CamLoading(30.0, 0.8, 10.0, lw.CamSpring(3000.0, 60.0))
+    turning = lw.CamLoading(10.0, 0.02, 1.0, lw.CamSpring(20.0, 8.0))
+    flat = lw.Follower("flat")
+    arm = lw.Follower("roller", "oscillating", 0.01, pivot_distance=0.16, arm=0.13)
+    face = lw.Follower("flat", "oscillating", pivot_distance=0.16)
+    for follower, load, lift in (
+        (lw.Follower(roller_radius=0.008, offset=0.005), loading, 0.02),
+        (flat, loading, 0.01),
+        (arm, turning, 0.25),
+        (face, turning, 0.25),
+    ):
+        design = lw.Cam(program(lift, "modified_sine", 120.0), follower, 0.07, loading=load).solve()
+        contact = design.contact
+        h = 1e-6
+        places = [design.wall.contact(design._inside + d) for d in (h, -h)]
+        turns = [np.exp(1j * (design._inside + d)) for d in (h, -h)]
+        normal = contact.normal * np.exp(1j * design._inside)
+        # the contact moves along the cam's surface; its normal velocity in the frame is that of follower and cam
+        moved = (places[0].point * turns[0] - places[1].point * turns[1]) / (2 * h)
+        normal_speed = (moved * normal.conj()).real
+        smooth = slice(2, -2)
+        assert design.torque[smooth] == pytest.approx(
+            (design.contact_force * normal_speed)[smooth], abs=2e-6 * np.abs(design.torque).max()
+        )
+
+
+def test_hertz_pressure_is_that_of_the_textbook() -> None:
+    """Two cylinders of 20 and 30 mm radius, 10 mm wide, steel (206 GPa, 0.3), 1 kN: p = 0.418 √(F E/(b R))."""
+    from linkwright.cams.loading import contact_pressure
+
+    still = lw.MotionProgram((lw.Segment(2 * math.pi),))
+    cam = lw.Cam(still, lw.Follower(roller_radius=0.03), 0.02, width=0.01, material=CamMaterial(206e9))
+    contact = cam.walls[0].contact(np.array([1.0]))
+    pressure = contact_pressure(np.array([1000.0]), contact, cam.follower, 0.01, cam.material)
+    assert pressure[0] == pytest.approx(0.418 * math.sqrt(1000 * 206e9 / (0.01 * 0.012)), rel=2e-3)
+
+
+def test_a_chosen_spring_just_holds_the_contact() -> None:
+    design = parts.load("gallery:cam_roller").solve()
+    effort = design.loading.effort(design.cam.program, np.linspace(0, 6.28, 5000))
+    assert effort.min() == pytest.approx(20.0, abs=1e-2)
+    weaker = replace(design.cam, loading=replace(design.loading, spring=lw.CamSpring(1000.0, 5.0)))
+    with pytest.raises(ModelError, match=r"contact is lost at \d+.*preload larger by"):
+        weaker.solve()
+
+
+def test_chosen_sizes_just_keep_their_limits() -> None:
+    design = parts.load("gallery:cam_roller").solve()
+    limits = design.cam.limits
+    assert abs(design.pressure_angle_rise.value) <= limits.pressure_angle * (1 + 1e-12)
+    assert abs(design.pressure_angle_fall.value) <= limits.pressure_angle_fall * (1 + 1e-12)
+    reached = [
+        abs(design.pressure_angle_rise.value) / limits.pressure_angle,
+        abs(design.pressure_angle_fall.value) / limits.pressure_angle_fall,
+    ]
+    assert max(reached) > 1 - 1e-6 and min(reached) > 0.999
+    assert not any("limit" in each for each in design.text().splitlines())
+
+
+def test_without_offset_and_limits_of_curvature_the_base_circle_is_known() -> None:
+    """The smallest d with s' <= (d + s) tan α everywhere: max of s'/tan α - s."""
+    motion = program(0.02, "polynomial_345", 100.0)
+    phi = np.linspace(0, 2 * np.pi, 400_001)
+    s, v, _, _ = motion.curves(phi)
+    least = (np.abs(v) / math.tan(radians(25.0)) - s).max()
+    limits = lw.CamLimits(pressure_angle=radians(25.0))
+    design = lw.Cam(motion, lw.Follower(roller_radius=0.005), limits=limits).solve()
+    assert design.cam.base_radius + 0.005 == pytest.approx(least, rel=1e-7)
+
+
+def test_a_sample_of_random_cams_agrees_with_dense_polygons() -> None:
+    """All of them: python -m tests.reference.cam_offsets 1000."""
+    rng = np.random.default_rng(7)
+    cams = [random_cam(rng) for _ in range(7)]
+    assert [said for cam in cams if (said := disagreement(cam))] == []
+    assert 1 <= sum(bool(cam.found) for cam in cams) < 7
+
+
+def test_a_roller_as_large_as_the_radius_of_curvature_makes_a_cusp() -> None:
+    wall = RollerCurve(program(), lw.Follower(roller_radius=0.008), 0.03)
+    sharp = 0.008 + 1 / max(wall.contact(np.linspace(0, 2 * np.pi, 200_001)).bend)
+    base = 0.038 - sharp
+    for share, cut in ((0.999, False), (1.001, True)):
+        roller = share * sharp
+        there = RollerCurve(wall.program, lw.Follower(roller_radius=roller), base + sharp - roller)
+        assert bool(undercuts(there)) is cut
+        assert bool(cusps(there.program, there)) is cut
+
+
+def test_an_undercut_is_refused_with_place_and_a_roller_that_fits() -> None:
+    cam = lw.Cam(program(0.03, "cycloidal", 40.0), lw.Follower(roller_radius=0.03), 0.04)
+    with pytest.raises(ModelError, match=r"from 2\d\.\d+° to \d+") as caught:
+        cam.solve()
+    fault = caught.value.findings[0]
+    fits = float(str(fault.remedy).split("less than ")[1].split(" mm")[0])
+    smaller = replace(
+        cam, follower=replace(cam.follower, roller_radius=0.95e-3 * fits), base_radius=0.07 - 0.95e-3 * fits
+    )
+    assert not undercuts(smaller.walls[0])
+
+
+def test_rollers_of_a_pair_are_rigid_with_each_other() -> None:
+    """The second roller keeps its distance from the first one and from the pivot, turned by the same angle."""
+    design = parts.load("gallery:cam_oscillating").solve()
+    phi = np.linspace(0, 2 * np.pi, 200)
+    turned = np.exp(1j * phi)
+    first, second = (wall.pitch(phi)[0] * turned for wall in design.cam.walls)
+    assert np.abs(first - second) == pytest.approx(np.full(200, abs(first[0] - second[0])), rel=1e-12)
+    yoke = lw.Cam(
+        program(),
+        lw.Follower(roller_radius=0.01),
+        0.04,
+        closure="conjugate",
+        conjugate=lw.CamConjugate(0.045),
+    ).solve()
+    up, down = (wall.pitch(phi)[0] * turned for wall in yoke.cam.walls)
+    assert np.abs(up + down) == pytest.approx(np.full(200, abs(up[0] + down[0])), rel=1e-12)
+
+
+def test_a_groove_has_two_walls_a_roller_apart() -> None:
+    design = lw.Cam(program(), lw.Follower(roller_radius=0.008), 0.04, closure="groove").solve()
+    inner, outer = design.profile(180, 0), design.profile(180, 1)
+    assert np.hypot(*(outer - inner).T) == pytest.approx(np.full(180, 0.016), rel=1e-12)
+
+
+def test_the_barrel_is_its_unrolled_curve() -> None:
+    design = parts.load("gallery:cam_barrel").solve()
+    steady = design.motion[1][(design.angles > radians(40)) & (design.angles < radians(140))]
+    assert design.pressure_angle_rise.value == pytest.approx(math.atan(steady.max() / 0.045), rel=1e-9)
+
+
+def test_residual_vibration_of_the_cam_is_that_of_its_rises() -> None:
+    """The cycloidal law leaves h |sin πn|/(πn|1 - n²|) behind (closed form)."""
+    cam = lw.Cam(
+        program(0.02, "cycloidal", 90.0), lw.Follower(roller_radius=0.008), 0.06,
+        loading=lw.CamLoading(40.0, 0.5), elasticity=lw.CamElasticity(3e6), spring_wanted=True,
+    )  # fmt: skip
+    design = cam.solve()
+    speeds = np.array([40.0, 90.0, 140.0])
+    n = design.own_frequency / (2 * np.pi) * radians(90.0) / speeds
+    exact = 0.02 * np.abs(np.sin(np.pi * n)) / (np.pi * n * np.abs(1 - n**2))
+    assert design.residual_vibration(speeds)[:, 0] == pytest.approx(exact, rel=1e-8)
+
+
+def test_steady_deviation_against_integration() -> None:
+    from scipy.integrate import solve_ivp
+
+    motion = program(0.02, "modified_sine", 90.0)
+    cam = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(60.0, 0.5),
+                 elasticity=lw.CamElasticity(4e5, 0.2), spring_wanted=True)  # fmt: skip
+    design = cam.solve()
+    w, speed = design.own_frequency, 60.0
+    period = 2 * math.pi / speed
+
+    def bend(phi: float) -> float:
+        return float(motion.curves(np.array([phi]))[2][0])
+
+    found = solve_ivp(
+        lambda t, y: [y[1], -0.4 * w * y[1] - w * w * y[0] - speed**2 * bend(speed * t)],
+        (0.0, 4 * period), [0.0, 0.0], t_eval=np.linspace(3 * period, 4 * period, 2001), rtol=1e-7, atol=1e-10,
+        max_step=period / 60,
+    )  # fmt: skip
+    assert design.steady_deviation(np.array([speed]))[0] == pytest.approx(np.abs(found.y[0]).max(), rel=1e-4)
+
+
+def test_profiles_are_written_for_drawing_and_mill(tmp_path: Path) -> None:
+    ezdxf = pytest.importorskip("ezdxf")
+    design = parts.load("gallery:cam_roller").solve()
+    drawn = ezdxf.readfile(design.save_profile(tmp_path / "cam.dxf", 360))
+    outlines = {e.dxf.layer: np.array(e.get_points("xy")) for e in drawn.modelspace().query("LWPOLYLINE")}
+    assert set(outlines) == {"profile", "pitch", "cutter"}
+    assert outlines["profile"] == pytest.approx(1e3 * design.profile(360), abs=1e-9)
+    assert outlines["cutter"] == pytest.approx(1e3 * design.pitch_curve(360), abs=1e-9)
+    mill = np.loadtxt(design.save_profile(tmp_path / "cam.txt", 360))
+    assert mill[:-1, :2] == pytest.approx(outlines["cutter"], abs=1e-6) and np.all(mill[0] == mill[-1])
+    lines = design.save_profile(tmp_path / "cam.csv", 360).read_text("utf-8").splitlines()
+    assert len(lines) == 361 and lines[0].startswith("wall,angle [deg],x [mm]")
+    with pytest.raises(LinkwrightError, match="exists"):
+        design.save_profile(tmp_path / "cam.csv")
+    with pytest.raises(LinkwrightError, match="at most"):
+        design.cutter_path(10.0)
+    assert design.draw(0.5, "zh").svg.count("lw-gear") >= 1
+
+
+FILE = """
+format: 1
+kind: cam
+name: c
+follower: {FOLLOWER}
+program:
+  - {rise: 20 mm, over: 90 deg, law: cycloidal}
+  - {dwell: 90 deg}
+  - {fall: 20 mm, over: 90 deg, law: cycloidal}
+  - {dwell: 90 deg}
+REST
+"""
+ROLLER = "kind: roller, roller_radius: 8 mm"
+WEAK = "base_radius: 40 mm\nspeed: 900 rpm\nmass: 2 kg\nspring: {stiffness: 1 N/mm, preload: 5 N}"
+PRESSED = "limits: {pressure_angle: 30 deg, contact_pressure: 1 MPa}\nwidth: 1 mm\nload: 500 N"
+
+
+@pytest.mark.parametrize(
+    ("follower", "rest", "said"),
+    [
+        (ROLLER, "base_radius: -3 mm", "base_radius: .*-3 mm"),
+        (ROLLER, "", "neither a base circle nor limits"),
+        (f"{ROLLER}, offset: 60 mm", "base_radius: 40 mm", "offset of 60 mm"),
+        ("kind: roller", "base_radius: 40 mm", "roller has no radius"),
+        ("kind: flat", "base_radius: 5 mm", "flat face cuts away .* larger by more than"),
+        ("kind: roller, roller_radius: 45 mm", "base_radius: 5 mm", "roller of 45 mm cuts away"),
+        ("kind: knife", "base_radius: 40 mm\nclosure: groove", "only a roller"),
+        (ROLLER, "base_radius: 40 mm\nclosure: conjugate", "second cam go together"),
+        (
+            ROLLER,
+            "base_radius: 40 mm\nspeed: 900 rpm\nmass: 2 kg\nspring: {stiffness: 1 N/mm, preload: 5 N}",
+            "lost at",
+        ),
+        (
+            ROLLER,
+            "limits: {pressure_angle: 30 deg, contact_pressure: 1 MPa}\nwidth: 1 mm\nload: 500 N",
+            "no base circle",
+        ),
+        (ROLLER, "barrel_radius: 40 mm\nbase_radius: 40 mm\nclosure: conjugate", "go together"),
+        ("kind: wheel", "base_radius: 40 mm", "roller"),
+    ],
+)
+def test_what_is_no_cam_is_refused_with_place_and_remedy(follower: str, rest: str, said: str) -> None:
+    text = FILE.replace("FOLLOWER", follower).replace("REST", rest)
+    with pytest.raises(ModelError, match=said) as caught:
+        parts.loads(text).solve()
+    assert all(each.remedy for each in caught.value.findings)
+    assert caught.value.findings[0].say("zh") != caught.value.findings[0].say("en")
+
+
+def test_the_lift_has_the_followers_dimension() -> None:
+    swinging = "kind: roller, motion: oscillating, roller_radius: 8 mm, pivot_distance: 90 mm, arm: 80 mm"
+    with pytest.raises(ModelError, match="angle"):
+        parts.loads(FILE.replace("FOLLOWER", swinging).replace("REST", "base_radius: 40 mm"))
