@@ -20,7 +20,8 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
     ``public``: the names by the module that has them. Where a function has the name of a subpackage
     (``linkwright.structure``), the attribute is the subpackage, and calling it calls the function: both
     ``linkwright.structure(mechanism)`` and ``linkwright.structure.Group`` work, however either was imported.
-    A plain module of the same name stays importable; the attribute is the public name.
+    A plain module of the same name stays importable; the attribute is the public name. Other subpackages
+    (``linkwright.parts``) are imported when they are first used.
     """
     home = {name: module for module, names in public.items() for name in names}
 
@@ -37,6 +38,8 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
         def __getattr__(self, name: str) -> Any:
             if name == "__all__":
                 return sorted(home)
+            if name not in home and not name.startswith("_") and _is_package(f"{package}.{name}"):
+                return import_module(f"{package}.{name}")
             if name not in home:
                 raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
             if _is_package(f"{package}.{name}"):

@@ -1,19 +1,24 @@
-"""The schema command: the same schema as in Python, with an identity, and it knows the whole gallery's keys."""
+"""The schema command: models, tasks and calculations, with an identity; it knows the whole gallery's keys."""
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import linkwright as lw
+from linkwright import gallery
 from linkwright.cli import main
+from linkwright.model.file import read_root
+from linkwright.parts.file import file_schema
 
 
 def test_the_schema_is_printed_and_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["schema"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert printed == json.loads(json.dumps(lw.json_schema()))
-    assert printed["$id"] == "urn:linkwright:model:1"
+    model = json.loads(json.dumps(lw.json_schema()))
+    assert printed["else"]["else"]["properties"] == model["properties"]
+    assert printed["$id"] == "urn:linkwright:file:1"
     assert printed["$schema"].endswith("2020-12/schema")
     path = tmp_path / "linkwright.schema.json"
     assert main(["schema", "--output", str(path)]) == 0
@@ -32,3 +37,74 @@ def test_parts_of_strokes_are_in_the_schema() -> None:
     ]
     swings = [form["properties"] for form in phases if "of" in form["properties"]]
     assert swings and all({"first", "last", "free"} <= set(form) for form in swings)
+
+
+def faults(value: Any, shape: dict[str, Any], place: str = "") -> list[str]:
+    """What a schema says against a value; only the words of JSON Schema that are used here."""
+    found = [
+        f"{place}: {key}" for key in shape.get("required", ()) if isinstance(value, dict) and key not in value
+    ]
+    if "const" in shape and value != shape["const"]:
+        found.append(f"{place}: not {shape['const']}")
+    if "enum" in shape and value not in shape["enum"]:
+        found.append(f"{place}: none of {shape['enum']}")
+    for each in shape.get("allOf", ()):
+        found += faults(value, each, place)
+    if "if" in shape:
+        holds = not faults(value, shape["if"], place)
+        found += faults(value, shape.get("then" if holds else "else", {}), place)
+    if "not" in shape and not faults(value, shape["not"], place):
+        found.append(f"{place}: not wanted")
+    for word in ("oneOf", "anyOf"):
+        if word in shape and all(faults(value, each, place) for each in shape[word]):
+            found.append(f"{place}: fits no form")
+    kinds = {"object": dict, "array": list, "string": str, "number": (int, float)}
+    wanted = shape.get("type", [])
+    wanted = [wanted] if isinstance(wanted, str) else wanted
+    if any(each in kinds for each in wanted) and not any(
+        isinstance(value, kinds[each]) for each in wanted if each in kinds
+    ):
+        found.append(f"{place}: no {wanted}")
+    if isinstance(value, dict):
+        known = shape.get("properties", {})
+        more = shape.get("additionalProperties", True)
+        for key, each in value.items():
+            if key in known:
+                found += faults(each, known[key], f"{place}.{key}")
+            elif more is False:
+                found.append(f"{place}: unknown {key}")
+            elif isinstance(more, dict):
+                found += faults(each, more, f"{place}.{key}")
+    if isinstance(value, list) and isinstance(shape.get("items"), dict):
+        for number, each in enumerate(value):
+            found += faults(each, shape["items"], f"{place}.{number}")
+    return found
+
+
+def plain(node: Any) -> Any:
+    """A file's content as YAML gives it to an editor."""
+    if hasattr(node, "entries"):
+        return {entry.key.text: plain(entry.value) for entry in node.entries}
+    if hasattr(node, "items"):
+        return [plain(each) for each in node.items]
+    try:
+        return json.loads(node.text) if node.plain else node.text
+    except (ValueError, AttributeError):
+        return node.text
+
+
+@pytest.mark.parametrize("name", gallery.calculations())
+def test_the_schema_fits_every_calculation_of_the_gallery_and_no_misspelt_one(name: str) -> None:
+    root, _ = read_root(gallery.file(name).read_text(encoding="utf-8"), name)
+    content, shape = plain(root), json.loads(json.dumps(file_schema()))
+    assert faults(content, shape) == []
+    key = next(key for key in content if key not in ("format", "kind", "parameters"))
+    assert faults({**content, f"{key}x": content[key]}, shape) != []
+    assert faults({**content, "kind": "bem"}, shape) != []
+
+
+def test_a_file_with_a_task_alone_is_known() -> None:
+    shape = json.loads(json.dumps(file_schema()))
+    task = {"format": 1, "synthesis": {"task": "toggle"}}
+    assert faults(task, shape) == [] and faults({**task, "sythesis": {}}, shape) != []
+    assert faults({"format": 1}, shape) != []

@@ -66,3 +66,26 @@ def test_picture(tmp_path: Path) -> None:
 def test_misuse(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(words) == 2
     assert told in capsys.readouterr().err
+
+
+TASK = "format: 1\nsynthesis:\n  task: slider_crank\n  stroke: 40 mm\n  rod_ratio: 4\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        (TASK, 0, ["fine", "slider_crank"]),
+        (TASK.replace("stroke", "strok"), 1, ["synthesis.strok", "4:3"]),
+        (TASK.replace("4\n", "4 m\n") + "sythesis: {}\n", 1, ["rod_ratio", "dimensionless", "sythesis"]),
+        (TASK.replace("slider_crank", "slider_crnk"), 1, ["synthesis.task", "slider_crank"]),
+        ("format: 1\nsynthesis: [1]\n", 1, ["synthesis"]),
+    ],
+)
+def test_a_file_with_a_task_alone_is_checked(
+    text: str, code: int, said: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "task.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert main(["check", str(path)]) == code
+    shown = capsys.readouterr().out
+    assert all(word in shown for word in said), shown

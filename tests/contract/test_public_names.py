@@ -69,3 +69,11 @@ def test_packages_and_functions_work_side_by_side() -> None:
     assert "transmission_angle" in linkwright.metrics.METRICS
     assert linkwright.metrics(linkwright.solve_motion(mechanism, steps=36)).rows
     assert linkwright.loads(linkwright.dump(mechanism)) == mechanism
+
+
+def test_subpackages_are_there_without_an_import_of_their_own() -> None:
+    code = "import linkwright as lw; print(lw.parts.load('gallery:simple_beam').kind, lw.tolerance.Clearance)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("beam <class") and "Clearance" in done.stdout
+    with pytest.raises(AttributeError, match="no attribute 'nothing_like_it'"):
+        _ = linkwright.nothing_like_it

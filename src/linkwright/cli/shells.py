@@ -55,10 +55,10 @@ def options_of(parser: argparse.ArgumentParser) -> list[Option]:
 
 
 def models() -> list[str]:
-    """Names of the models of the gallery as commands take them."""
-    from linkwright.model.file import gallery_names
+    """Names of the models and calculations of the gallery as commands take them."""
+    from linkwright import gallery
 
-    return [f"gallery:{name}" for name in gallery_names()]
+    return [f"gallery:{name}" for name in (*gallery.names(), *gallery.calculations())]
 
 
 def _bash(table: dict[str, list[Option]]) -> str:

@@ -48,6 +48,8 @@ SECTIONS = (
     "gravity",
     "loads",
 )
+#: Keys of a file that holds a task of synthesis and no model.
+TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
 WORDS = ("left", "right", "forward", "backward")
 HEADER: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),

@@ -16,8 +16,9 @@ from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar
 from linkwright.model.nodes import Sequence as SequenceNode
 from linkwright.model.plain_reader import Place
-from linkwright.model.read_model import FORMAT, read_parameters
+from linkwright.model.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.model.reader import Reader
+from linkwright.model.schema import json_schema
 from linkwright.model.source import read_source
 from linkwright.parts.base import Problem
 from linkwright.words.sentence import Sentence
@@ -102,6 +103,32 @@ def schema(kind: str) -> dict[str, Any]:
     shape = table_schema({**HEADING, **problem_class(kind).fields})
     shape["properties"]["kind"] = {"const": kind, "description": HEADING["kind"].doc}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": kind, **shape}
+
+
+def file_schema() -> dict[str, Any]:
+    """JSON Schema of all files: models, tasks of synthesis, and calculations by the kind that they declare."""
+    of_kind = [
+        {"if": {"properties": {"kind": {"const": kind}}}, "then": _inner(schema(kind))} for kind in KINDS
+    ]
+    kinds, model = {"enum": list(KINDS), "description": HEADING["kind"].doc}, _inner(json_schema())
+    task = {key: model["properties"][key] for key in TASK_KEYS}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:linkwright:file:{FORMAT}",
+        "title": "Linkwright file",
+        "type": "object",
+        "if": {"required": ["kind"]},
+        "then": {"properties": {"kind": kinds}, "allOf": of_kind},
+        "else": {
+            "if": {"required": ["synthesis"], "not": {"required": ["links"]}},
+            "then": {"properties": task, "required": ["format"], "additionalProperties": False},
+            "else": model,
+        },
+    }
+
+
+def _inner(whole: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in whole.items() if not key.startswith("$")}
 
 
 def _text(source: str | Path) -> tuple[str, str, Path]:

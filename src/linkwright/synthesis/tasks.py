@@ -13,6 +13,9 @@ from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.model.compose import compose
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar, Sequence
+from linkwright.model.plain_reader import Place
+from linkwright.model.read_model import TASK_KEYS
+from linkwright.model.reader import Reader
 from linkwright.model.source import read_source
 from linkwright.registry import nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
@@ -96,6 +99,31 @@ def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
         raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])
     task, demands = read_section(section, name)
     return synthesize(task, **demands)
+
+
+def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:
+    """Findings about a text that holds a task and no model, and the task; None for every other text."""
+    root, remarks = compose(text.removeprefix("\ufeff"))
+    if remarks or not isinstance(root, MappingNode) or root.get("synthesis") is None:
+        return None
+    if root.get("links") is not None or root.get("frame") is not None:
+        return None
+    reader = Reader(name)
+    reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
+    section = root.get("synthesis")
+    if not isinstance(section, MappingNode):
+        reader.mapping(section, "synthesis")
+        return reader.findings, ""
+    try:
+        task, demands = read_section(section, name)
+    except ModelError as error:
+        return [*reader.findings, *error.findings], ""
+    own = _Reader(name)
+    for key in tasks()[task].needed:
+        if key not in demands:
+            form = _form(tasks()[task].demands[key])
+            own.add(section, "synthesis", note("task.missing", task=task, demand=key, form=form))
+    return [*reader.findings, *own.findings], task
 
 
 def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:

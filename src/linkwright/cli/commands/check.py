@@ -41,12 +41,17 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     from linkwright.model.source import read_source
     from linkwright.parts.file import check as check_calculation
     from linkwright.parts.file import kind_of
+    from linkwright.synthesis.tasks import check_text as check_task
 
     try:
         kind = kind_of(name)
         if kind is not None:
             return check_calculation(name), {"kind": kind}
-        mechanism, found = read_text(*read_source(name))
+        text = read_source(name)
+        task = check_task(*text)
+        if task is not None:
+            return task[0], {"kind": f"synthesis, {task[1]}"}
+        mechanism, found = read_text(*text)
     except ModelError as error:
         return list(error.findings), {}
     if mechanism is None:

@@ -1,4 +1,4 @@
-"""``linkwright schema``: the JSON Schema of model files, for editors."""
+"""``linkwright schema``: the JSON Schema of models and calculations, for editors."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
-    from linkwright.model.schema import json_schema
+    from linkwright.parts.file import file_schema
 
-    text = json_text(json_schema())
+    text = json_text(file_schema())
     if options.output is None:
         session.show(text)
         return 0

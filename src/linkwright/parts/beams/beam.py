@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Quantities, Quantity, Word
+from linkwright.model.fields import Quantities, Quantity, Schema, Word, quantity_schema
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import Material, material_field
@@ -90,6 +90,9 @@ class LineLoad(Quantities):
             return super().read(reader, node, place, given)
         value = reader.quantity(node, place, self.dimension)
         return None if value is None else (value, value)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [quantity_schema(self.dimension), super().shape()]}
 
 
 LOAD_FIELDS = {

@@ -1,8 +1,8 @@
 """The command ``schema``."""
 
 WORDS = {
-    "summary": "JSON Schema of model files, for editors",
-    "description": "Prints the JSON Schema of model files (draft 2020-12), generated from the model "
+    "summary": "JSON Schema of models and calculations, for editors",
+    "description": "Prints the JSON Schema of models and calculations (draft 2020-12), generated from the model "
     "itself.\nEditors complete keys and mark mistakes with it: write as the first line of a model\n# "
     "yaml-language-server: $schema=./linkwright.schema.json",
     "examples": "linkwright schema --output linkwright.schema.json\nlinkwright schema | less",
