@@ -186,6 +186,7 @@ class Named:
             if given.turn is None:
                 seeds[trace.position(f"slide:{driver.name}")] = given.rate
             else:
+                seeds[trace.position(f"turn:{driver.name}")] = given.rate
                 seeds[trace.position(f"cos:{driver.name}")] = -given.turn.y * given.rate
                 seeds[trace.position(f"sin:{driver.name}")] = given.turn.x * given.rate
         return slope(value, seeds)

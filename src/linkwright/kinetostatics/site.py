@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from linkwright.engine.trace import Scalar, cos, sin
+from linkwright.engine.trace import Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
 from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
 from linkwright.model.signal_fields import Output
@@ -13,6 +14,41 @@ from linkwright.model.signal_fields import Output
 def limit_name(output: Output, kind: str) -> str:
     """Name of the parameter that holds the input of an output's limit."""
     return f"limit:{output}:{kind}"
+
+
+def constant_name(load: str, field: str) -> str:
+    """Name of the parameter that holds a number of a load that is no dimension."""
+    return f"constant:{load}:{field}"
+
+
+def value_name(output: Output, kind: str) -> str:
+    """Name of the parameter that holds an output at its limit."""
+    return f"value:{output}:{kind}"
+
+
+def middle_name(a: str, b: str) -> str:
+    """Name of the parameter near which, within half a turn, the angle of link b against link a stays."""
+    return f"middle:{a}|{b}"
+
+
+def angle_between(motion: MotionTrace, a: str, b: str) -> Scalar:
+    """Angle of link b against link a, rad, for links that do not turn through: near a known middle."""
+    middle = motion.trace.parameter(middle_name(a, b))
+    from_a, c, s = motion.poses[a].direction, cos(middle), sin(middle)
+    e = motion.poses[b].direction
+    along, across = from_a.dot(e), from_a.cross(e)
+    return middle + angle(across * c - along * s, along * c + across * s)
+
+
+def output_value(motion: MotionTrace, output: Output) -> Scalar:
+    """An output as a traced value; an angle that of a link that does not turn through."""
+    if output.kind == "angle":
+        return angle_between(motion, "frame", output.owner)
+    outputs = MotionOutputs(motion)
+    if output.kind == "displacement":
+        return outputs.slide(output.owner)[0]
+    place = outputs.point(output.owner)[0]
+    return place.x if output.kind == "x" else place.y
 
 
 def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
@@ -81,10 +117,36 @@ class TracedSite:
         return self.motion.trace.parameter(f"{next(iter(self.motion.mechanism.drivers))}.speed")
 
     def named(self, name: str) -> Scalar:
-        """A parameter of the model, ``t`` or ``input``."""
+        """A parameter of the model, ``t``, ``input`` or an output."""
         if name in self.motion.mechanism.parameters:
             return self.motion.dimensions(name)
-        return self.input if name == "input" else self.motion.trace.position("time")
+        if name in ("t", "input"):
+            return self.input if name == "input" else self.motion.trace.position("time")
+        from linkwright.loads.formulas import output_named
+
+        found = output_named(name, self.motion.mechanism)
+        assert found is not None
+        return self.output(found)
+
+    def output(self, output: Output) -> Scalar:
+        """An output; angles are continuous over the cycle."""
+        return output_value(self.motion, output)
+
+    def angle_between(self, a: str, b: str) -> Scalar:
+        """Angle of link b against link a."""
+        return angle_between(self.motion, a, b)
+
+    def constant(self, field: str) -> Scalar:
+        """A number of the load that is no dimension."""
+        return self.motion.trace.parameter(constant_name(self.load.name, field))
+
+    def lookup(self, x: Scalar) -> Scalar:
+        """The load's table at a place."""
+        return self.motion.trace.lookup(f"load:{self.load.name}", x)
+
+    def limit_value(self, output: Output, kind: str) -> Scalar:
+        """An output at its limit: a number per design, found before."""
+        return self.motion.trace.parameter(value_name(output, kind))
 
     def limit(self, output: Output, kind: str) -> Scalar:
         """The input at which an output has its only ``max`` or ``min``: a number per design, found before."""

@@ -1,18 +1,21 @@
-"""Magnitudes of loads that follow the input, or an output's way between its limits, as traced values.
+"""Magnitudes of loads as traced values: expressions, ramps, tables and parts of strokes, within their phases.
 
-For mechanisms with one turning driver of constant speed over one closed turn, where everything is a function of the
-input. What is found per design before, the inputs of the limits, enters as a number.
+For mechanisms with one turning driver of constant speed over one closed turn. What is found per design before, the
+inputs of limit positions and the values there, enters as numbers; so do the numbers of a load that are no dimensions.
 """
 
 from __future__ import annotations
 
 from typing import Protocol
 
-from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, minimum, select, sign
+from linkwright.engine.trace import Mask, Scalar, Value, absolute, floor, maximum, minimum, select, sign
 from linkwright.loads.base import Load
+from linkwright.loads.formulas import denominators, output_named
 from linkwright.loads.phases import NEAR, TURN
+from linkwright.model.expression_tree import Number
 from linkwright.model.expressions import Expression
-from linkwright.model.signal_fields import InputPhase, Output, SwingPhase
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.model.traced_expressions import traced
 
 
@@ -30,43 +33,112 @@ class Course(Protocol):
         ...
 
     def named(self, name: str) -> Scalar:
-        """A parameter of the model, ``t`` or ``input``."""
+        """A parameter of the model, ``t``, ``input`` or an output."""
         ...
 
     def dimension(self, field: str) -> Scalar:
         """A quantity of the load."""
         ...
 
+    def constant(self, field: str) -> Scalar:
+        """A number of the load that is no dimension."""
+        ...
+
     def limit(self, output: Output, kind: str) -> Scalar:
         """The input, rad, at which an output has its only ``max`` or ``min``."""
         ...
 
+    def limit_value(self, output: Output, kind: str) -> Scalar:
+        """The output there."""
+        ...
 
-def follows_input(load: Load, parameters: frozenset[str]) -> bool:
-    """Whether the magnitude of a load is of this kind; ``parameters``: names of the model's."""
-    if type(load).from_cycle is not Load.from_cycle or getattr(load, "table", None) is not None:
-        return False
-    phase, magnitude = getattr(load, "phase", None), getattr(load, "magnitude", None)
-    if isinstance(phase, SwingPhase):
-        if phase.part is not None:
-            return False
-    elif not (phase is None or isinstance(phase, InputPhase)):
-        return False
-    return not isinstance(magnitude, Expression) or magnitude.names <= parameters | {"t", "input"}
+    def output(self, output: Output) -> Scalar:
+        """An output; angles are continuous over the cycle."""
+        ...
+
+    def angle_between(self, a: str, b: str) -> Scalar:
+        """Angle of link b against link a, rad, continuous over the cycle."""
+        ...
+
+    def lookup(self, x: Scalar) -> Scalar:
+        """The load's table at a place."""
+        ...
+
+
+def followed(load: Load, mechanism: Mechanism) -> bool:
+    """Whether the magnitude of a load can be traced.
+
+    Not where a kind finds it in a way of its own, and where an expression divides by an output, which may go through
+    zero between two positions.
+    """
+    if type(load).from_cycle is not Load.from_cycle:
+        return type(load).traced is not Load.traced
+    given = getattr(load, "magnitude", None)
+    if isinstance(given, Expression):
+        found = [output_named(n, mechanism) for n in given.names - {*mechanism.parameters, "t", "input"}]
+        divides = any(not isinstance(each, Number) for each in denominators(given.tree))
+        return None not in found and not (found and divides)
+    return True
+
+
+def outputs_of(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
+    """The outputs whose values the magnitude of a load takes."""
+    given, table, phase = (getattr(load, name, None) for name in ("magnitude", "table", "phase"))
+    found: list[Output] = []
+    if isinstance(given, Expression):
+        named = [output_named(n, mechanism) for n in given.names - {*mechanism.parameters, "t", "input"}]
+        found += [each for each in named if each is not None]
+    if isinstance(table, Table) and isinstance(table.over, Output):
+        found.append(table.over)
+    if isinstance(phase, SwingPhase) and phase.part is not None:
+        found.append(phase.output)
+    return tuple(dict.fromkeys(found))
+
+
+def constants(load: Load) -> dict[str, float]:
+    """Numbers of a load that are no dimensions, by the names that ``Course.constant`` takes."""
+    found: dict[str, float] = {}
+    table, phase = getattr(load, "table", None), getattr(load, "phase", None)
+    if isinstance(table, Table):
+        found |= {"first": table.x[0], "last": table.x[-1]}
+    if isinstance(phase, SwingPhase) and phase.part is not None:
+        found |= {f"part.{k}": amount.value for k, amount in enumerate(phase.part.amounts)}
+    return found
 
 
 def magnitude(load: Load, course: Course) -> Scalar:
-    """The magnitude of a load that follows the input; zero outside its phase."""
+    """The magnitude of a load; zero outside its phase, NaN where a table or a part of a stroke is too short."""
+    own = load.traced(course)
+    if own is not None:
+        return own
     acts, share = _phase(load, course)
-    given = getattr(load, "magnitude", None)
+    given, table = getattr(load, "magnitude", None), getattr(load, "table", None)
     if getattr(load, "ramp", None) is not None:
         first, last = course.dimension("ramp.0"), course.dimension("ramp.1")
         size: Scalar = first + (last - first) * share
     elif isinstance(given, Expression):
         size = traced(given, course.named)
+    elif isinstance(table, Table):
+        size = _interpolated(table, course)
     else:
         size = 1.0 if given is None else course.dimension("magnitude")
     return select(acts, size, 0.0)
+
+
+def _interpolated(table: Table, course: Course) -> Scalar:
+    over = table.over
+    x = course.output(over) if isinstance(over, Output) else course.named("t" if over == "time" else "input")
+    first, last = course.constant("first"), course.constant("last")
+    span = last - first
+    if (over.dimension if isinstance(over, Output) else table.across) == "angle" and over != "time":
+        turns = floor(span / TURN + 0.5)
+        whole = TURN * maximum(1.0, turns)
+        gone = x - first - whole * floor((x - first) / whole)
+        moved = first + select(gone > whole - NEAR, gone - whole, gone)
+        x = select(span > TURN, select(absolute(span - whole) > NEAR, x, moved), moved)
+    slack = NEAR * span
+    found = select(x >= first - slack, course.lookup(x), float("nan"))
+    return select(x <= last + slack, found, float("nan"))
 
 
 def _phase(load: Load, course: Course) -> tuple[Mask, Scalar]:
@@ -75,11 +147,59 @@ def _phase(load: Load, course: Course) -> tuple[Mask, Scalar]:
     match phase:
         case InputPhase():
             return _between(course)
+        case MovingPhase():
+            ends = ("min", "max") if phase.direction == "increasing" else ("max", "min")
+            gone, length = _way(course, phase.output, *ends)
+            way = turned(gone)
+            inside = _both(way > NEAR * TURN, way < length - NEAR * TURN)
+            return inside, way / length
         case SwingPhase():
-            sense = sign(course.speed)
-            begin, end = (course.limit(phase.output, kind) for kind in (phase.start, phase.end))
-            return _within(sense * (course.input - begin), turned(sense * (end - begin)))
+            gone, length = _way(course, phase.output, phase.start, phase.end)
+            acts, share = _within(gone, length)
+            return (acts, share) if phase.part is None else _in_part(phase, acts, course)
     return True, 0.0
+
+
+def _way(course: Course, output: Output, start: str, end: str) -> tuple[Scalar, Scalar]:
+    """Way of the input since one limit of an output, and from there to the other one, rad."""
+    sense = sign(course.speed)
+    begin, until = course.limit(output, start), course.limit(output, end)
+    return sense * (course.input - begin), turned(sense * (until - begin))
+
+
+def part_ends(phase: SwingPhase, course: Course) -> tuple[Scalar, Scalar, Scalar]:
+    """Of a part of a stroke: where it begins and ends, as ways from the beginning, and the whole stroke with its
+    sign."""
+    part = phase.part
+    assert part is not None
+    stroke = course.limit_value(phase.output, phase.end) - course.limit_value(phase.output, phase.start)
+    size = absolute(stroke)
+    ways = [
+        course.constant(f"part.{k}") * (size if amount.share else 1.0)
+        for k, amount in enumerate(part.amounts)
+    ]
+    if part.word == "first":
+        return 0.0, ways[0], stroke
+    if part.word == "last":
+        return size - ways[0], size, stroke
+    return ways[0], size - ways[-1], stroke
+
+
+def _in_part(phase: SwingPhase, acts: Mask, course: Course) -> tuple[Mask, Scalar]:
+    """Where the output itself is in a part of its stroke; NaN everywhere where the stroke is too short for it."""
+    begin, end, stroke = part_ends(phase, course)
+    size = absolute(stroke)
+    slack = NEAR * size
+    gone = (course.output(phase.output) - course.limit_value(phase.output, phase.start)) * sign(stroke)
+    fits = _both(_both(begin >= -slack, end <= size + slack), begin < end)
+    inside = _both(_both(acts, gone >= begin - slack), gone <= end + slack)
+    return inside, select(fits, (gone - begin) / (end - begin), float("nan"))
+
+
+def _both(a: Mask, b: Mask) -> Mask:
+    if isinstance(a, Value) and isinstance(b, Value):
+        return a & b
+    return (b if a else False) if isinstance(a, bool) else (a if b else False)
 
 
 def _between(course: Course) -> tuple[Mask, Scalar]:

@@ -35,6 +35,8 @@ from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
+    from linkwright.engine.trace import Scalar
+    from linkwright.loads.along_input import Course
     from linkwright.loads.signals import Array, Signals
     from linkwright.loads.site import Site, Wrench
     from linkwright.model.nodes import Node
@@ -107,6 +109,10 @@ class Load:
 
         None for kinds whose magnitude is a number, an expression, a ramp or a table.
         """
+        return None
+
+    def traced(self, course: Course) -> Scalar | None:
+        """The same as a traced value; None for kinds without ``from_cycle``, and for those that do not trace it."""
         return None
 
     @classmethod

@@ -10,6 +10,7 @@ from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot
 from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.model.expressions import Expression, array_functions
+from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import offered
 from linkwright.units import LARGEST
@@ -46,16 +47,15 @@ def _column(name: str, signals: Signals) -> Array:
         return column(mechanism.parameters[name], count)
     if name in ("t", "input"):
         return signals.time if name == "t" else signals.input
-    found = output_named(name, signals)
+    found = output_named(name, signals.mechanism)
     if found is None:
         known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
         raise LinkwrightError(Sentence("loads.unknown_in_magnitude", name=name, hint=offered(name, known)))
     return signals.output(found)[0]
 
 
-def output_named(name: str, signals: Signals) -> Output | None:
+def output_named(name: str, mechanism: Mechanism) -> Output | None:
     """The output that a name in an expression means."""
-    mechanism = signals.mechanism
     links = {"frame": mechanism.frame, **mechanism.links}
     kinds = {joint: each.kind for joint, each in mechanism.joints.items()}
     return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, kinds)
@@ -102,7 +102,7 @@ def _with_next(name: str, values: Array, signals: Signals) -> Array:
     assert signals.closes is not None
     period, drift = signals.closes
     gain = {"t": period, "input": drift}.get(name, 0.0)
-    found = None if name in ("t", "input") else output_named(name, signals)
+    found = None if name in ("t", "input") else output_named(name, signals.mechanism)
     if found is not None and found.kind == "angle" and name not in signals.mechanism.parameters:
         gain = 2 * np.pi * np.round((values[-1] - values[0]) / (2 * np.pi))
     return np.append(values, values[0] + gain)

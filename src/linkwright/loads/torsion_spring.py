@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.engine.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.signals import Array, Signals
 from linkwright.loads.site import Site, Wrench
+
+if TYPE_CHECKING:
+    from linkwright.loads.along_input import Course
 
 
 @LOADS.register("torsion_spring")
@@ -35,6 +39,10 @@ class TorsionSpring(Load):
     def from_cycle(self, signals: Signals) -> Array:
         """Angle φ of link b against link a, (n,) rad."""
         return signals.angle_between(*self.links, near=self.free_angle)
+
+    def traced(self, course: Course) -> Scalar:
+        """The same, traced."""
+        return course.angle_between(*self.links)
 
     def wrenches(self, site: Site) -> list[Wrench]:
         a, b = self.links

@@ -75,8 +75,9 @@ class PagePrograms:
         if self.forces is None or self.iterated:
             return frozenset()
         names = [name for name in self._plain.forces.fields_needed() if name.startswith("load:")]
-        found = {name for name in names if along_input(self._plain, self.free, [name]) is not None}
-        return frozenset(name.removeprefix("load:") for name in found)
+        found = [along_input(self._plain, self.free, [name]) for name in names]
+        plain = [each for each in found if each is not None and not (each.constants or each.tables)]
+        return frozenset(name for each in plain for name in each.names)
 
     @cached_property
     def iterated(self) -> bool:

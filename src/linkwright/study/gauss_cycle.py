@@ -26,7 +26,9 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
 from linkwright.model.expressions import Expression
-from linkwright.model.signal_fields import InputPhase, SwingPhase
+from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
+from linkwright.study.limit_stages import edge_name, part_edge
+from linkwright.study.loaded_cycle import AlongInput
 from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -50,10 +52,10 @@ class GaussCycle:
     wanted: int
 
     @classmethod
-    def of(cls, traced: Traced, loads: Iterable[str], wanted: int) -> GaussCycle:
-        """For the loads whose magnitudes are traced over the input."""
+    def of(cls, traced: Traced, loads: AlongInput, wanted: int) -> GaussCycle:
+        """For the loads whose magnitudes are traced."""
         found: dict[str, None] = {}
-        for name in sorted(loads):
+        for name in sorted(loads.names):
             found |= dict.fromkeys(_cuts(traced.mechanism.loads[name]))
         return cls(traced, tuple(found), wanted)
 
@@ -80,10 +82,15 @@ class GaussCycle:
     def positions(self) -> dict[str, Floats]:
         """Inputs (n,): the uniform turn for limit stages, and how places and widths follow from the cuts."""
         shares = (np.arange(self.pieces)[:, None] + 0.5 + 0.5 * NODES).ravel() / self.pieces
-        first, time, speed = self.constants.values()
+        first, time, speed = list(self.constants.values())[:3]
         angle = first + np.sign(speed) * TURN * shares
         (driver,) = self.traced.mechanism.drivers
-        found = {f"cos:{driver}": np.cos(angle), f"sin:{driver}": np.sin(angle), "input": angle}
+        found = {
+            f"cos:{driver}": np.cos(angle),
+            f"sin:{driver}": np.sin(angle),
+            f"turn:{driver}": angle,
+            "input": angle,
+        }
         return {**found, "time": time + shares * TURN / abs(speed), **self._along}
 
     @property
@@ -92,7 +99,14 @@ class GaussCycle:
         known = self.traced.positions
         (driver,) = known.coordinates
         q, rate, _ = known.coordinates[driver]
-        return {FIRST: float(q[0]), "first time": float(known.time[0]), f"{driver}.speed": float(rate[0])}
+        found = {FIRST: float(q[0]), "first time": float(known.time[0]), f"{driver}.speed": float(rate[0])}
+        for load in self.traced.mechanism.loads.values():
+            table = getattr(load, "table", None)
+            if isinstance(table, Table) and not isinstance(table.over, Output):
+                knots = np.array(table.x)
+                inputs = knots if table.over == "input" else q[0] + rate[0] * (knots - known.time[0])
+                found |= {f"knot {load.name} {k}": float(at) for k, at in enumerate(inputs)}
+        return found
 
     @property
     def _along(self) -> dict[str, Floats]:
@@ -116,6 +130,16 @@ class GaussCycle:
     def gap(self) -> float:
         """The largest step of the input between two Gauss points of the uniform turn, rad."""
         return float(np.diff(NODES).max()) * math.pi / self.pieces * 1.01
+
+    def part_stages(self) -> list[Stage]:
+        """The stages that find where parts of strokes begin and end."""
+        found = []
+        for load in self.traced.mechanism.loads.values():
+            phase = getattr(load, "phase", None)
+            if isinstance(phase, SwingPhase):
+                edges = _edges(load.name, phase).items()
+                found += [part_edge(self.traced, load, phase, k) for k, name in edges if name in self.cuts]
+        return found
 
     def cutting(self) -> Stage | None:
         """The stage that brings the cuts into order, as shares of the turn from its beginning."""
@@ -154,18 +178,41 @@ class GaussCycle:
         share = place - floor(place)
         way = sign(t.parameter(f"{driver}.speed")) * TURN * share
         angle = t.parameter(FIRST) + way
-        given = {f"cos:{driver}": cos(angle), f"sin:{driver}": sin(angle), "input": angle}
+        given = {
+            f"cos:{driver}": cos(angle),
+            f"sin:{driver}": sin(angle),
+            f"turn:{driver}": angle,
+            "input": angle,
+        }
         given["time"] = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         found = inlined(source, t, given)
         return t, {**found, SHARE: width}
 
 
+def _edges(load: str, phase: SwingPhase) -> dict[int, str]:
+    """Cycle values where a part of a stroke begins (0) or ends (1) between its limit positions."""
+    part = phase.part
+    if part is None:
+        return {}
+    if part.word != "free" and part.amounts[0].share and part.amounts[0].value == 1.0:
+        return {}
+    if part.word != "free":
+        return {1: edge_name(load, 1)} if part.word == "first" else {0: edge_name(load, 0)}
+    ends = (part.amounts[0], part.amounts[-1])
+    return {which: edge_name(load, which) for which, amount in enumerate(ends) if amount.value}
+
+
 def _cuts(load: Load) -> Iterable[str]:
     """What gives the inputs at which a load jumps or kinks."""
-    phase, magnitude = getattr(load, "phase", None), getattr(load, "magnitude", None)
+    phase, magnitude, table = (getattr(load, name, None) for name in ("phase", "magnitude", "table"))
     if isinstance(phase, InputPhase):
         yield from (f"loads.{load.name}.phase.input.{k}" for k in (0, 1))
-    if isinstance(phase, SwingPhase):
+    if isinstance(phase, SwingPhase | MovingPhase):
         yield from (limit_name(phase.output, kind) for kind in ("max", "min"))
+    if isinstance(phase, SwingPhase):
+        yield from _edges(load.name, phase).values()
     if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
         yield FIRST
+    if isinstance(table, Table) and not isinstance(table.over, Output):
+        yield FIRST
+        yield from (f"knot {load.name} {k}" for k in range(len(table.x)))

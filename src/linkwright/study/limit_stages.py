@@ -14,22 +14,31 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin
-from linkwright.kinetostatics.site import limit_name
-from linkwright.model.signal_fields import Output
+from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
+from linkwright.loads.along_input import part_ends, turned
+from linkwright.loads.base import Load
+from linkwright.loads.phases import NEAR
+from linkwright.model.signal_fields import Output, SwingPhase
 from linkwright.study.load_slopes import RATES
 from linkwright.study.traced import VALID, Traced
 
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
+#: Steps to the edge of a part of a stroke, which may be far from the middle of it.
+EDGE_STEPS = 40
 
 
-def limit_stages(traced: Traced, outputs: Iterable[Output], *, judged: bool = True) -> list[Stage]:
-    """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), and where ``judged``
-    ``doubt:OUTPUT``: above zero where these are not certain to be its only limits."""
+def limit_stages(
+    traced: Traced, outputs: Iterable[Output], *, judged: bool = True, valued: Iterable[Output] = ()
+) -> list[Stage]:
+    """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
+    also ``value:OUTPUT:max`` and ``:min``, and where ``judged`` ``doubt:OUTPUT``: above zero where these are not
+    certain to be its only limits."""
     found: list[Stage] = []
+    known = set(valued)
     for output in dict.fromkeys(outputs):
         found.append(_nearest(traced, output))
-        found += [_refined(traced, output, kind) for kind in ("max", "min")]
+        found += [_refined(traced, output, kind, output in known) for kind in ("max", "min")]
         found += [_counted(traced, output), _doubt(output)] if judged else []
     return found
 
@@ -53,14 +62,17 @@ def _nearest(traced: Traced, output: Output) -> Stage:
     return Stage(program, near, valid=VALID)
 
 
-def _refined(traced: Traced, output: Output, kind: str) -> Stage:
+def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
     """The input where the rate is zero, within one step of the nearest position."""
     t = Trace()
     (driver,) = traced.mechanism.drivers
     x, low, high = (t.state(name) for name in ("x", "low", "high"))
     speed = t.parameter(f"{driver}.speed")
     rate, second = rates(traced, output)
-    motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second})
+    sought = {"rate": rate, "second": second}
+    if valued:
+        sought["value"] = output_value(traced.solver.motion, output)
+    motion = Program.of(traced.solver.motion.trace, sought)
     there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
     falling = there["rate"] if kind == "max" else -there["rate"]
     before = falling > 0.0
@@ -73,16 +85,62 @@ def _refined(traced: Traced, output: Output, kind: str) -> Stage:
     following = select((newton - low1) * (newton - high1) <= 0.0, newton, 0.5 * (low1 + high1))
     program = Program.of(
         t,
-        {"x": following, "rate": there["rate"], "moved": absolute(following - x)},
+        {"x": following, "moved": absolute(following - x), **{name: there[name] for name in sought}},
         {"x": following, "low": low1, "high": high1},
     )
     name = limit_name(output, kind)
     return Stage(
         program,
-        {name: Reduction("x", "last"), f"moved:{output}:{kind}": Reduction("moved", "last")},
+        {
+            name: Reduction("x", "last"),
+            f"moved:{output}:{kind}": Reduction("moved", "last"),
+            **({value_name(output, kind): Reduction("value", "last")} if valued else {}),
+        },
         steps=STEPS,
         starts={"x": f"near:{output}:{kind}", "low": 0.0, "high": 0.0},
         roots={"x": "rate"},
+    )
+
+
+def edge_name(load: str, which: int) -> str:
+    """The cycle value that is the input where a part of a stroke begins (0) or ends (1), rad."""
+    return f"edge:{load}:{which}"
+
+
+def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stage:
+    """The input at which a part of a stroke begins or ends: between the limits, where the output only grows or falls,
+    by Newton's steps, and halvings where these leave the bracket."""
+    source, t = traced.solver.motion, Trace()
+    (driver,) = traced.mechanism.drivers
+    site = TracedSite(source, load, along_input=True)
+    rate, _ = rates(traced, phase.output)
+    begin, end, stroke = part_ends(phase, site)
+    slack = NEAR * absolute(stroke)
+    edge = end + slack if which else begin - slack
+    way = (site.output(phase.output) - site.limit_value(phase.output, phase.start)) * sign(stroke)
+    motion = Program.of(source.trace, {"gap": way - edge, "rate": rate * sign(stroke)})
+    x, low, high = (t.state(name) for name in ("x", "low", "high"))
+    speed = t.parameter(f"{driver}.speed")
+    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
+    first = absolute(low) + absolute(high) <= 0.0
+    begins, ends = (t.parameter(limit_name(phase.output, kind)) for kind in (phase.start, phase.end))
+    low0 = select(first, begins, low)
+    high0 = select(first, begins + sign(speed) * turned(sign(speed) * (ends - begins)), high)
+    before = there["gap"] < 0.0
+    low1, high1 = select(first, low0, select(before, x, low0)), select(first, high0, select(before, high0, x))
+    newton = x - there["gap"] / there["rate"] * speed
+    middle = 0.5 * (low1 + high1)
+    inside = (newton - low1) * (newton - high1) <= 0.0
+    following = select(first, middle, select(inside, newton, middle))
+    program = Program.of(
+        t, {"x": following, "gap": there["gap"]}, {"x": following, "low": low1, "high": high1}
+    )
+    return Stage(
+        program,
+        {edge_name(load.name, which): Reduction("x", "last")},
+        steps=EDGE_STEPS,
+        starts={"x": 0.0, "low": 0.0, "high": 0.0},
+        roots={"x": "gap"},
     )
 
 

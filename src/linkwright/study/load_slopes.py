@@ -85,7 +85,7 @@ class LoadSlopes:
             if name in self.mechanism.parameters:
                 slopes = {by: np.full(self.count, self._own(name, by)) for by in self.by}
             else:
-                output = output_named(name, self.signals)
+                output = output_named(name, self.mechanism)
                 assert output is not None
                 slopes = self.output(output)
             found = {by: found[by] + partial * slopes[by] for by in self.by}
@@ -96,7 +96,7 @@ class LoadSlopes:
             return np.full(self.count, self.mechanism.parameters[name])
         if name in ("t", "input"):
             return self.signals.time if name == "t" else self.signals.input
-        output = output_named(name, self.signals)
+        output = output_named(name, self.mechanism)
         assert output is not None
         return self.signals.output(output)[0]
 

@@ -1,9 +1,9 @@
-"""The cycle program of a mechanism whose loads follow the input: limit positions first, then forces and summaries."""
+"""The cycle program of a mechanism with traced loads: limit positions first, then forces and summaries."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,85 +12,167 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.table import Table
+from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
-from linkwright.loads.along_input import follows_input
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import TracedSite, constant_name, middle_name
+from linkwright.loads.along_input import constants as of_load
+from linkwright.loads.along_input import followed, magnitude, outputs_of
+from linkwright.loads.base import Load
+from linkwright.loads.formulas import denominators
 from linkwright.loads.phases import TURN
-from linkwright.model.signal_fields import Output, SwingPhase
+from linkwright.loads.torsion_spring import TorsionSpring
+from linkwright.model.expressions import Expression
+from linkwright.model.signal_fields import MovingPhase, Output, SwingPhase
 from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.traced import TURNING, VALID, Traced
 
 Floats = NDArray[np.float64]
+#: The output that is the sum of magnitudes which may not exist.
+SIZES = "sizes of loads"
 
 
 @dataclass(frozen=True)
 class LoadedCycle:
-    """The cycle program, and the outputs whose limit positions it finds."""
+    """The cycle program, and what its loads need."""
 
     traced: Traced
     cycle: CycleProgram
-    outputs: tuple[Output, ...]
+    loads: AlongInput
 
     def evaluate(
         self, part: Mapping[str, Floats], threads: int | None, backend: Backend
     ) -> tuple[Results, NDArray[np.intp]]:
-        """Results of designs with the given columns, and the numbers of those whose limits are not certain."""
+        """Results of designs with the given columns, and the numbers of those whose limits are not certain, or whose
+        loads have no value somewhere."""
         results = self.cycle.evaluate(
-            self.table(part), self.traced.positions.arrays, threads=threads, backend=backend
+            self.table(part),
+            self.traced.positions.arrays,
+            tables=self.loads.tables,
+            threads=threads,
+            backend=backend,
         )
-        doubt = sum((np.asarray(results[f"doubt:{each}"]) for each in self.outputs), np.zeros(1))
-        doubt = np.broadcast_to(doubt, (len(next(iter(part.values()))),))
+        doubt = np.zeros(len(next(iter(part.values()))))
+        for each in self.loads.outputs:
+            doubt += results[f"doubt:{each}"]
+        if self.loads.fallible:
+            doubt += 0.0 * results[SIZES]
+        doubt[results[VALID_COUNT] != self.traced.positions.count] = 0.0
         return results, np.flatnonzero(~(doubt == 0.0))
 
     def table(self, part: Mapping[str, Floats]) -> Floats:
         """What the cycle program takes of the designs with the given columns, (designs, dimensions)."""
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced)}
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
         designs = len(next(iter(part.values())))
-        columns = [part.get(name, known.get(name, 0.0)) for name in self.cycle.dimensions]
+        columns = [part[name] if name in part else known[name] for name in self.cycle.dimensions]
         return np.stack([np.broadcast_to(each, designs) for each in columns], axis=1)
 
 
 @dataclass(frozen=True)
 class AlongInput:
-    """Loads whose magnitudes are traced over the input, and the outputs whose limit positions they need."""
+    """Loads whose magnitudes are traced, and what these take.
+
+    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``constants`` by
+    name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
+    value for some designs.
+    """
 
     names: frozenset[str]
-    outputs: tuple[Output, ...]
+    outputs: tuple[Output, ...] = ()
+    valued: tuple[Output, ...] = ()
+    constants: Mapping[str, float] = field(default_factory=dict)
+    tables: Mapping[str, Table] = field(default_factory=dict)
+    fallible: tuple[str, ...] = ()
+
+    def stages(self, traced: Traced, *, judged: bool = True) -> list[Stage]:
+        """The stages that find the limit positions."""
+        return limit_stages(traced, self.outputs, judged=judged, valued=self.valued)
+
+    def sizes(self, traced: Traced) -> Scalar:
+        """Sum of the magnitudes of the fallible loads: not finite where one has no value."""
+        motion = traced.solver.motion
+        total: Scalar = 0.0
+        for name in self.fallible:
+            load = traced.mechanism.loads[name]
+            total = total + magnitude(load, TracedSite(motion, load, along_input=True))
+        return total
 
 
 def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) -> AlongInput | None:
-    """The loads behind a program's inputs per position; None where some input is no load that follows the input, or
-    the cycle is no single turn of one driver of constant speed."""
+    """The loads behind a program's inputs per position; None where some input is no load that can be traced, or the
+    cycle is no single turn of one driver of constant speed."""
     mechanism, given = traced.mechanism, tuple(fields)
     names = frozenset(name.removeprefix("load:") for name in given)
     if not given:
-        return AlongInput(names, ())
+        return AlongInput(names)
     if not one_turn(traced, varied) or any(not name.startswith("load:") for name in given):
         return None
-    loads = [mechanism.loads[name] for name in names]
-    addresses = tuple(f"loads.{each.name}." for each in loads)
-    if any(address.startswith(addresses) for address in mechanism.expressions):
+    loads = [mechanism.loads[name] for name in sorted(names)]
+    if not all(followed(load, mechanism) for load in loads):
         return None
-    if not all(follows_input(load, frozenset(mechanism.parameters)) for load in loads):
+    phases = [
+        phase for each in loads if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
+    ]
+    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
+    middles = _middles(traced, loads)
+    if middles is None:
         return None
-    phases = [phase for each in loads if isinstance(phase := getattr(each, "phase", None), SwingPhase)]
-    return AlongInput(names, tuple(dict.fromkeys(phase.output for phase in phases)))
+    numbers = {constant_name(each.name, key): value for each in loads for key, value in of_load(each).items()}
+    tables = {f"load:{each.name}": each.table for each in loads if getattr(each, "table", None) is not None}  # type: ignore[attr-defined]
+    limits = tuple(dict.fromkeys(phase.output for phase in phases))
+    fallible = tuple(
+        each.name for each in loads if f"load:{each.name}" in tables or of_load(each) or _divides(each)
+    )
+    made = {name: Table.linear(table.x, table.y) for name, table in tables.items()}
+    return AlongInput(names, limits, tuple(dict.fromkeys(parts)), {**numbers, **middles}, made, fallible)
+
+
+def _divides(load: Load) -> bool:
+    given = getattr(load, "magnitude", None)
+    return isinstance(given, Expression) and any(True for _ in denominators(given.tree))
+
+
+def _middles(traced: Traced, loads: Iterable[Load]) -> dict[str, float] | None:
+    """Angles near which the angles that loads take stay; None where a link turns through."""
+    pairs: dict[tuple[str, str], float | None] = {}
+    for load in loads:
+        for output in outputs_of(load, traced.mechanism):
+            if output.kind == "angle":
+                pairs["frame", output.owner] = None
+        if isinstance(load, TorsionSpring):
+            pairs[load.links] = load.free_angle
+    found = {}
+    signals = MotionSignals(traced.nominal) if pairs else None
+    for (a, b), near in pairs.items():
+        assert signals is not None
+        angle = traced.nominal.link(b).angle if near is None else signals.angle_between(a, b, near)
+        low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
+        if not high - low <= TURNING or (near is not None and abs(angle[0] - near) > 0.9 * np.pi):
+            return None
+        found[middle_name(a, b)] = 0.5 * (low + high)
+    return found
 
 
 def loaded_cycle(
     traced: Traced, varied: Iterable[str], names: Iterable[str], reductions: Iterable[Reduction]
 ) -> LoadedCycle | None:
-    """The cycle program of all designs; None where the loads do not follow the input."""
+    """The cycle program of all designs; None where the loads cannot be traced."""
     known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)
     if known is None:
         return None
     over_input = Traced(traced.mechanism, varied, traced.positions, along_input=known.names)
     try:
-        stages = limit_stages(over_input, known.outputs)
+        stages = known.stages(over_input)
     except LinkwrightError:
         return None
     program = over_input.program(over_input.quantities(names))
-    stages.append(Stage(program, {each.name: each for each in reductions}, valid=VALID, count=VALID_COUNT))
-    return LoadedCycle(over_input, CycleProgram(tuple(stages)), known.outputs)
+    made = {each.name: each for each in reductions}
+    if known.fallible:
+        program = over_input.program(over_input.quantities(names), more={SIZES: known.sizes(over_input)})
+        made[SIZES] = Reduction(SIZES, "sum")
+    stages.append(Stage(program, made, valid=VALID, count=VALID_COUNT))
+    return LoadedCycle(over_input, CycleProgram(tuple(stages)), known)
 
 
 def one_turn(traced: Traced, varied: Iterable[str]) -> bool:

@@ -26,10 +26,9 @@ from linkwright.loads.phases import TURN
 from linkwright.metrics import Analysis
 from linkwright.metrics.summary import Summary, one
 from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
 from linkwright.study.limit_stages import limit_stages
-from linkwright.study.loaded_cycle import along_input, one_turn
+from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
 
@@ -75,8 +74,8 @@ def metric_cycle(
     traced = Traced(mechanism, addresses, plain.positions, along_input=loads.names)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     for pieces in PIECES:
-        gauss = GaussCycle.of(traced, loads.names, pieces)
-        found = MetricCycle(traced, gauss, terms, analysis, loads.outputs)
+        gauss = GaussCycle.of(traced, loads, pieces)
+        found = MetricCycle(traced, gauss, terms, analysis, loads)
         if found.evaluate(nominal).certain.all():
             return found
     return None
@@ -100,8 +99,9 @@ class MetricCycle:
         gauss: GaussCycle,
         terms: Sequence[Term],
         analysis: Analysis,
-        outputs: Iterable[Output],
+        loads: AlongInput,
     ) -> None:
+        self.loads = loads
         self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
         self.parts = {text: one(text) for text in all_parts(terms)}
         places = {text: analysis.output(p.output) for text, p in self.parts.items() if p.kind in _PLACES}
@@ -111,7 +111,7 @@ class MetricCycle:
             if output is not None
         }
         self.outputs = tuple(
-            dict.fromkeys([*outputs, *(each for each in places.values() if each is not None)])
+            dict.fromkeys([*loads.outputs, *(each for each in places.values() if each is not None)])
         )
         names = [part.output for text, part in self.parts.items() if text not in self.limited]
         self.quantities = traced.quantities(names)
@@ -149,7 +149,9 @@ class MetricCycle:
         return dict(zip(self._formulas.output_names, row, strict=True)), sure
 
     def _seen(self, table: Floats, backend: Backend) -> _Seen:
-        ((_, known, _),) = self._forwards.blocks(table, self._positions, threads=1, backend=backend)
+        ((_, known, _),) = self._forwards.blocks(
+            table, self._positions, tables=self.loads.tables, threads=1, backend=backend
+        )
         results = {name: np.asarray(column, dtype=float) for name, column in known.values.items()}
         fields = {name: rows.reshape(len(table), POINTS, -1) for name, rows in known.fields.items()}
         with np.errstate(invalid="ignore"):
@@ -172,7 +174,9 @@ class MetricCycle:
     @cached_property
     def _before(self) -> list[Stage]:
         cutting = self.gauss.cutting()
-        return [*limit_stages(self.traced, self.outputs), *([] if cutting is None else [cutting])]
+        limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued)
+        parts = self.gauss.part_stages()
+        return [*limits, *parts, *([] if cutting is None else [cutting])]
 
     @cached_property
     def _forwards(self) -> CycleProgram:
@@ -184,10 +188,10 @@ class MetricCycle:
         return CycleProgram((*self._before, motion))
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
-        known = {**self.traced.solver.nominal.parameters, **self.gauss.constants}
+        known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
         known |= {"step of the input": self.gauss.gap, "positions": float(self.gauss.count)}
         designs = len(next(iter(columns.values())))
-        rows = [columns.get(name, known.get(name, 0.0)) for name in cycle.dimensions]
+        rows = [columns[name] if name in columns else known[name] for name in cycle.dimensions]
         return (
             np.stack([np.broadcast_to(row, designs) for row in rows], axis=1)
             if rows
@@ -217,7 +221,9 @@ class MetricCycle:
             for summary in summaries:
                 fields |= seen.weights(summary)
             table = self._table(backwards.cycle, part)
-            found, slope = backwards.evaluate(table, self._positions, fields, threads=1, backend=backend)
+            found, slope = backwards.evaluate(
+                table, self._positions, fields, tables=self.loads.tables, threads=1, backend=backend
+            )
             found[~seen.certain], slope[~seen.certain] = np.nan, np.nan
             values[first:end], slopes[first:end] = found, slope
 

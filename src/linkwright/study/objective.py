@@ -16,18 +16,20 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
-from linkwright.engine.trace import Scalar, Trace, absolute, maximum
+from linkwright.engine.table import Table
+from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import KINDS, Summary, reductions, wanted
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import along_input
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.terms import is_metric
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
+from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
@@ -74,17 +76,20 @@ class OverPositions:
     gradient: CycleGradient
     arrays: Mapping[str, Floats]
     known: Mapping[str, float]
+    tables: Mapping[str, Table]
     backend: Backend
 
     def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, names)."""
         table = self._table(columns)
-        return self.gradient.evaluate(table, self.arrays, threads=threads, backend=self.backend)
+        return self.gradient.evaluate(
+            table, self.arrays, tables=self.tables, threads=threads, backend=self.backend
+        )
 
     def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
         """Values (designs,)."""
         found = self.gradient.plain.evaluate(
-            self._table(columns), self.arrays, threads=threads, backend=self.backend
+            self._table(columns), self.arrays, tables=self.tables, threads=threads, backend=self.backend
         )
         return np.asarray(found[VALUE])
 
@@ -182,12 +187,11 @@ def objective(
         at: inputs of the first driver, rad or m, instead of the cycle.
         backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
 
-    Extremes of summaries are those of the positions; loads that follow the input or an output's way between its
-    limits are included, limit positions with their derivatives.
+    Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, friction and loads of other kinds, through which
-            no gradient is found yet.
+        LinkwrightError: unknown names; groups without closed form, friction, and the loads that :func:`sweep` finds
+            design by design, through which no gradient is found yet.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
@@ -271,7 +275,7 @@ class _Builder:
         loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
         if loads is None:
             raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
-        self.outputs = loads.outputs
+        self.loads = loads
         self.traced = Traced(mechanism, names, positions, along_input=loads.names) if loads.names else plain
 
     @cached_property
@@ -291,21 +295,29 @@ class _Builder:
 
     def built(self, backend: Backend) -> OverPositions:
         outputs, targets = self._outputs()
-        program = Program.of(
-            self.traced.solver.motion.trace, {**outputs, VALID: self.traced.solver.motion.valid}
-        )
+        program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
         stages = (
-            *limit_stages(self.traced, self.outputs, judged=False),
+            *self.loads.stages(self.traced, judged=False),
             Stage(program, made, valid=VALID, complete=True),
             Stage(self._total(), {VALUE: Reduction(VALUE, "first")}, steps=1),
         )
         cycle = CycleProgram(stages)
         own = tuple(name for name in self.names if name in cycle.dimensions)
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced)}
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
         arrays = {**self.traced.positions.arrays, **targets}
-        return OverPositions(own, cycle_gradient(cycle, VALUE, own), arrays, known, backend)
+        gradient = cycle_gradient(cycle, VALUE, own)
+        return OverPositions(own, gradient, arrays, known, self.loads.tables, backend)
+
+    def _valid(self) -> Mask:
+        """Where a position is reached and all loads have values."""
+        motion = self.traced.solver.motion
+        if not self.loads.fallible:
+            return motion.valid
+        return motion.trace.logic(
+            "and", motion.valid, absolute(self.loads.sizes(self.traced)) <= LARGEST["torque"]
+        )
 
     def _outputs(self) -> tuple[dict[str, Scalar], dict[str, Floats]]:
         """What is reduced, and the targets as inputs per position."""

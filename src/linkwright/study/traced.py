@@ -85,13 +85,15 @@ class Traced:
         """The outputs by their names."""
         return {name: self.named.quantity(name) for name in dict.fromkeys(names)}
 
-    def program(self, quantities: Mapping[str, Quantity], valid: Mask | None = None) -> Program:
-        """What the quantities need, with the truth output ``valid``, and how near change points may be."""
+    def program(
+        self, quantities: Mapping[str, Quantity], more: Mapping[str, Scalar] | None = None
+    ) -> Program:
+        """What the quantities need, ``more`` outputs, the truth output ``valid``, and how near change points are."""
         motion = self.solver.motion
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
         outputs[NEAREST] = self.nearest
-        outputs[VALID] = motion.valid if valid is None else valid
-        return Program.of(motion.trace, outputs)
+        outputs[VALID] = motion.valid
+        return Program.of(motion.trace, {**outputs, **(more or {})})
 
     @cached_property
     def nearest(self) -> Scalar:

@@ -101,8 +101,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_target": "the target of a path error is a list of points [x, y] in m, and all targets have as many "
     "points",
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
-    "objective_loads": "{name!r} has loads or friction that do not follow the input alone or an output's way between "
-    "its limits, so no gradient is found through them; use sensitivity, which takes them one design at a time",
+    "objective_loads": "{name!r} has friction, loads that divide by an output or follow a link that turns through, "
+    "or no single turn at constant speed, so no gradient of many designs is found; use sensitivity, which takes one "
+    "design at a time",
     "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
     "found; use sensitivity",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "

@@ -87,8 +87,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_shape": "各方案的列必须是 {names}，而不是形状 {shape}",
     "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
-    "objective_loads": "{name!r} 的载荷或摩擦不只取决于输入或输出在极限位置之间的行程，因此求不出对它们的梯度；"
-    "请用 sensitivity，它逐个方案计算",
+    "objective_loads": "{name!r} 含有摩擦，或载荷以输出为除数、取决于整转构件的转角，或原动件不是匀速转一整周，"
+    "因此不能成批求梯度；请用 sensitivity，它逐个方案计算",
     "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；请用 sensitivity",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",

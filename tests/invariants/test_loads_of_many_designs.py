@@ -1,0 +1,108 @@
+"""Loads of every kind in many designs at once: those of each design alone, with derivatives those of differences."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.metrics import metrics
+from linkwright.metrics.summary import wanted
+from linkwright.study.metric_cycle import metric_cycle
+from linkwright.study.sweep_run import Manner, SweepRun
+
+MODEL = """
+format: 1
+name: press
+parameters: {F0: 900 N, k: 3000 N/m, unused: 1 N}
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.7 m, mass: 2 kg, inertia: 0.05 kg·m²}
+  piston: {points: [B], mass: 3 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B, offset: 0.05 m}}
+driver: {turn: crank, about: O, speed: 120 rpm, start: 20 deg}
+loads:
+  process: {LOAD}
+  weight_of_what_is_pressed: {kind: force, on: piston, at: B, direction: -90 deg, magnitude: F0 + k*(0.1 m)}
+"""
+AT = "kind: force, on: piston, at: B, direction: 180 deg"
+LOADS = {
+    "while moving": f"{AT}, magnitude: 800 N, phase: {{moving: guide, direction: increasing}}",
+    "ramp while moving": f"{AT}, ramp: [100 N, 900 N], phase: {{moving: guide, direction: decreasing}}",
+    "between limits": f"{AT}, magnitude: F0, phase: {{of: guide, from: min, to: max}}",
+    "last share": f"{AT}, magnitude: 800 N, phase: {{of: guide, from: min, to: max, last: 0.2}}",
+    "first way": f"{AT}, ramp: [100 N, 900 N], phase: {{of: guide, from: max, to: min, first: 60 mm}}",
+    "whole share": f"{AT}, ramp: [100 N, 900 N], phase: {{of: guide, from: max, to: min, first: 1}}",
+    "free ends": f"{AT}, magnitude: 800 N, phase: {{of: guide, from: min, to: max, free: [0.05, 30 mm]}}",
+    "input": f"{AT}, magnitude: 800 N, phase: {{input: [150 deg, 30 deg]}}",
+    "displacement": f"{AT}, magnitude: F0 + k*guide",
+    "angle": f"{AT}, magnitude: F0*(1 + sin(rod)) + 100 N*cos(3*input)",
+    "time": f"{AT}, magnitude: F0*t/(1 s)",
+    "table": f"{AT}, table: {{over: input, x: [0 deg, 90 deg, 200 deg, 360 deg], y: [0 N, 500 N, 900 N, 0 N]}}",
+    "table of output": f"{AT}, table: {{over: guide, x: [300 mm, 600 mm, 700 mm, 1 m], y: [0 N, 500 N, 900 N, 0 N]}}",
+    "torsion spring": "kind: torsion_spring, links: [frame, rod], stiffness: 30 N·m/rad, free_angle: 10 deg",
+}
+BY = "rod.length"
+OUTPUTS = ("driver.effort rms", "driver.effort max", "reaction A on rod mean")
+
+
+def machine(load: str) -> lw.Mechanism:
+    return lw.loads(MODEL.replace("LOAD", LOADS[load]))
+
+
+@pytest.mark.parametrize("load", LOADS)
+def test_sweeps_equal_single_designs(load: str) -> None:
+    mechanism = machine(load)
+    lengths = 0.7 * np.array([1.0, 1.013, 0.97])
+    run = SweepRun(
+        mechanism, {BY: lengths}, wanted(OUTPUTS), over_cycle(mechanism, 360), Manner(backend="numpy")
+    )
+    assert run._loaded is not None and not len(run._loaded.evaluate({BY: lengths}, 1, "numpy")[1])
+    _, found = run.swept()
+    for index, length in enumerate(lengths):
+        forces = lw.solve_forces(mechanism.with_dimensions({BY: float(length)}))
+        torque, force = forces.input_torque, np.hypot(*forces.reaction("A", on="rod").T)
+        alone = [np.sqrt((torque**2).mean()), torque.max(), force.mean()]
+        for summary, value in zip(wanted(OUTPUTS), alone, strict=True):
+            assert found[summary][index] == pytest.approx(value, rel=1e-12), summary.name
+
+
+@pytest.mark.parametrize("load", LOADS)
+def test_gradients_are_those_of_differences_of_single_designs(load: str) -> None:
+    mechanism = machine(load)
+    objective = lw.objective(mechanism, {"driver.effort rms": 1.0}, vary=[BY], backend="numpy")
+    value, gradient = objective(objective.start)
+    step, around = 1e-6, []
+    for k in (-2, -1, 1, 2):
+        torque = lw.solve_forces(mechanism.with_dimensions({BY: 0.7 + k * step})).input_torque
+        around.append(float(np.sqrt((torque**2).mean())))
+    difference = (around[0] - 8 * around[1] + 8 * around[2] - around[3]) / (12 * step)
+    assert gradient[0] == pytest.approx(difference, rel=1e-6, abs=1e-7 * value)
+
+
+@pytest.mark.parametrize("load", [load for load in LOADS if load != "table of output"])
+def test_design_numbers_equal_single_designs(load: str) -> None:
+    """Exact between positions, the moving edges of parts of a stroke among them."""
+    mechanism = machine(load)
+    cycle = metric_cycle(mechanism, [BY], ["rms_input_torque", "peak_reaction"])
+    assert cycle is not None
+    found = cycle.evaluate({BY: np.array([0.71])}, backend="numpy")
+    assert found.certain.all()
+    table = metrics(lw.solve_forces(mechanism.with_dimensions({BY: 0.71})))
+    for name in ("rms_input_torque", "peak_reaction"):
+        assert found.values[name][0] == pytest.approx(table.value(name), rel=1e-11)
+
+
+def test_a_design_whose_load_has_no_value_is_told() -> None:
+    """The table ends where the longer rod brings the piston."""
+    mechanism = machine("table of output")
+    found = lw.sweep(mechanism, {BY: [0.7, 0.85, 0.71]}, outputs=["driver.effort max"])
+    assert found.ok.tolist() == [True, False, True]
+    assert "process" in found.unloaded[1] and "300 mm" not in found.unloaded[1]
+
+
+def test_a_part_longer_than_the_stroke_of_a_design_is_told() -> None:
+    load = LOADS["first way"].replace("60 mm", "401 mm")
+    mechanism = lw.loads(MODEL.replace("LOAD", load))
+    found = lw.sweep(mechanism, {"crank.length": [0.2, 0.19]}, outputs=["driver.effort max"])
+    assert found.ok.tolist() == [True, False]
