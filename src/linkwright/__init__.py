@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from linkwright.cams.loading import CamSpring as CamSpring
     from linkwright.cams.result import CamDesign as CamDesign
     from linkwright.cams.sizes import CamChoice as CamChoice
+    from linkwright.course.grade import Grade as Grade
+    from linkwright.course.grade import grade as grade
+    from linkwright.course.variants import Variants as Variants
+    from linkwright.course.variants import variants as variants
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
@@ -103,6 +107,8 @@ PUBLIC = {
     "linkwright.cams.loading": ("CamLoading", "CamMaterial", "CamSpring"),
     "linkwright.cams.result": ("CamDesign",),
     "linkwright.cams.sizes": ("CamChoice",),
+    "linkwright.course.grade": ("Grade", "grade"),
+    "linkwright.course.variants": ("Variants", "variants"),
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
     "linkwright.export.export": ("export",),
     "linkwright.gears.gear": ("Gear",),

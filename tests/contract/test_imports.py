@@ -31,7 +31,7 @@ STAGES = (
     ("kinetostatics",),
     ("metrics", "machine", "worked"),
     ("study", "synthesis", "cams", "gears", "parts", "tolerance"),
-    ("report", "plot", "export", "page", "validation"),
+    ("report", "plot", "export", "page", "validation", "course"),
     ("cli", "server", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}

@@ -149,6 +149,7 @@ class Mechanism(Frozen):
     expected: Mapping[str, Any] = field(default_factory=dict)
     synthesis: Mapping[str, Any] = field(default_factory=dict)
     report: Mapping[str, Any] = field(default_factory=dict)
+    course: Mapping[str, Any] = field(default_factory=dict)
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""

@@ -36,6 +36,7 @@ SECTIONS = (
     "expected",
     "synthesis",
     "report",
+    "course",
     "parameters",
     "frame",
     "links",
@@ -59,6 +60,7 @@ HEADER: Mapping[str, Field] = {
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "report": Free(doc="title, own text, order of sections and more for the command report"),
+    "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
     "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
 
@@ -117,6 +119,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         expected=header.get("expected") or {},
         synthesis=header.get("synthesis") or {},
         report=header.get("report") or {},
+        course=header.get("course") or {},
     )
     check_whole(reader, root, mechanism)
     if reader.error_count:

@@ -61,6 +61,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["expected"] = dict(mechanism.expected)
     data["synthesis"] = dict(mechanism.synthesis)
     data["report"] = dict(mechanism.report)
+    data["course"] = dict(mechanism.course)
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 

@@ -90,7 +90,8 @@ Block = Heading | Paragraph | Formula | Table | Figure | Source
 class Document:
     """A report: title, lines under it, blocks; ``number`` counts what is counted, in reading order.
 
-    ``missing``: sentences on what is not there; ``broken``: whether an error of the program is the reason of one.
+    ``missing``: sentences on what is not there; ``broken``: whether an error of the program is the reason of one;
+    ``contents``: whether it has a list of its sections.
     """
 
     title: str
@@ -100,6 +101,7 @@ class Document:
     blocks: list[Block] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
     broken: bool = False
+    contents: bool = True
 
     def number(self) -> Numbers:
         """Numbers of headings, formulas, tables and figures, and where labels are."""

@@ -173,7 +173,11 @@ class _Writer:
         )
         title = f'#align(center)[#text(19pt, weight: "bold")[{_words(document.title)}]]\n'
         under = "".join(f"#align(center)[{_words(line)}]\n" for line in document.lines)
-        contents = f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
+        contents = (
+            ""
+            if not document.contents
+            else f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
+        )
         parts = [self._block(i, block) for i, block in enumerate(document.blocks)]
         return "\n".join([head, title, under, contents, *parts])
 

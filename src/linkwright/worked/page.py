@@ -45,7 +45,8 @@ class Equation:
     """One result: symbol, formula, the formula with its numbers put in, and the result with its unit.
 
     ``value`` is the result to full precision, SI, angles in degrees; ``column`` the name of the result's column
-    in the table of all results, if it is one; ``formula`` is empty for what is given.
+    in the table of all results, if it is one; ``formula`` is empty for what is given; ``terms``: result and formula
+    as they can be reckoned again.
     """
 
     symbol: str
@@ -58,6 +59,7 @@ class Equation:
     unit: str
     value: float
     column: str = ""
+    terms: tuple[Term, Term] | None = field(default=None, repr=False, compare=False)
 
     def data(self) -> dict[str, object]:
         """Plain data."""
@@ -120,7 +122,9 @@ class Step:
         value, mark = result.amount, "°" if result.degrees else ""
         text = put_in(result, 6).rstrip("°")
         name = (plain(result), latex(result))
-        self.items.append(Equation(*name, "", "", "", "", text, mark or unit, value, column))
+        self.items.append(
+            Equation(*name, "", "", "", "", text, mark or unit, value, column, (result, result))
+        )
         return result
 
     def data(self) -> dict[str, object]:
@@ -145,5 +149,5 @@ def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
         shown = (*shown[:2], "", "")
     return Equation(
         plain(result), latex(result), *shown, text,
-        "°" if result.degrees else unit, value, column,
+        "°" if result.degrees else unit, value, column, (result, formula),
     )  # fmt: skip

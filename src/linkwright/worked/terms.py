@@ -70,7 +70,7 @@ class Term:
         if not self.args:
             return leaf(self)
         try:
-            return _APPLY[self.op](self, [each.reckon(leaf) for each in self.args])
+            return APPLY[self.op](self, [each.reckon(leaf) for each in self.args])
         except (ValueError, ZeroDivisionError, OverflowError):
             return math.nan
 
@@ -83,7 +83,8 @@ def _add(term: Term, values: list[float]) -> float:
     return sum(sign * value for sign, value in zip(term.signs, values, strict=True))
 
 
-_APPLY: dict[str, Callable[[Term, list[float]], float]] = {
+#: What every operation does with the values of its terms.
+APPLY: dict[str, Callable[[Term, list[float]], float]] = {
     "sum": _add,
     "product": lambda _, v: math.prod(v),
     "quotient": lambda _, v: v[0] / v[1],

@@ -34,7 +34,7 @@ class Task(Section):
         yield _links(case)
         if mechanism.parameters:
             rows = tuple(
-                (literal(name), literal(_written(value))) for name, value in data["parameters"].items()
+                (literal(name), literal(written(value))) for name, value in data["parameters"].items()
             )
             yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
         drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
@@ -44,7 +44,7 @@ class Task(Section):
             ("loads", data.get("loads", {})),
         ):
             if part:
-                rows = tuple((literal(name), literal(_written(value))) for name, value in part.items())
+                rows = tuple((literal(name), literal(written(value))) for name, value in part.items())
                 yield Table(say(f"report.{title}"), (say("report.name"), say("report.as_given")), rows, "<<")
         if any(mechanism.gravity):
             x, y = (f"{value:g}" for value in mechanism.gravity)
@@ -88,12 +88,12 @@ def _or_dash(value: float) -> str:
     return f"{value:.6g}" if value else "–"
 
 
-def _written(value: Any) -> str:
-    """A value of a model file in one line."""
+def written(value: Any) -> str:
+    """A value of a model file in one line, angles in degrees, numbers with six digits."""
     if isinstance(value, Mapping):
-        return "; ".join(f"{key}: {_written(each)}" for key, each in value.items())
+        return "; ".join(f"{key}: {written(each)}" for key, each in value.items())
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_written(each) for each in value) + "]"
+        return "[" + ", ".join(written(each) for each in value) + "]"
     return _rounded(str(value))
 
 

@@ -1,0 +1,52 @@
+"""``linkwright variants``: variants of a task for a course."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+COUNT = 30
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
+    parser.add_argument(
+        "--count", type=whole_number, default=COUNT, metavar="N", help=say("variants.count_help")
+    )
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help=say("variants.seed_help"))
+    parser.add_argument("--to", nargs="+", default=[], metavar="FORM", help=say("variants.to_help"))
+    parser.add_argument("--output", metavar="FOLDER", help=say("variants.output_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Finds the variants and writes their files."""
+    from linkwright.cli.data import json_text
+    from linkwright.cli.progress import progress
+    from linkwright.cli.source import read_model
+    from linkwright.course.questions import FORMS
+    from linkwright.course.variants import variants
+
+    say = session.say
+    unknown = next((form for form in options.to if form not in FORMS), None)
+    if unknown is not None:
+        raise UsageError(say("course.no_form", name=unknown, forms=", ".join(FORMS)))
+    folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
+    if folder.exists() and not options.force:
+        raise UsageError(say("variants.folder_exists", path=folder))
+    mechanism, _ = read_model(options.file, session)
+    with progress(say("variants.working")) as told:
+        found = variants(mechanism, options.count, seed=options.seed, told=told)
+        files = found.save(folder, options.to, session.language)
+    if session.json:
+        session.show(json_text({"ok": True, "files": [str(path) for path in files], "key": found.key()}))
+    else:
+        questions = len(found.task.questions)
+        session.show(say("variants.written", count=options.count, questions=questions, path=folder))
+    return 0

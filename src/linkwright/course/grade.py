@@ -1,0 +1,176 @@
+"""Grading: which numbers of a sheet are off, and by what usual mistake."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from linkwright.course.variants import FORMAT, close
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words import speaker
+from linkwright.words.sentence import Sentence
+
+
+@dataclass(frozen=True)
+class Grade:
+    """One sheet: which answers are right (None: not answered), and the mistakes that explain all wrong ones.
+
+    ``mistakes``: names, the likeliest first, more than one only where the numbers cannot tell them apart; ``where``:
+    the symbol, group or link of the first one.
+    """
+
+    student: str
+    variant: int
+    right: tuple[bool | None, ...]
+    mistakes: tuple[str, ...] = ()
+    where: str = ""
+
+    @property
+    def score(self) -> float:
+        """Share of right answers."""
+        return sum(each is True for each in self.right) / len(self.right)
+
+
+def grade(
+    key: Mapping[str, Any] | str | Path, answers: str | Path | Sequence[Mapping[str, str]]
+) -> list[Grade]:
+    """Grades sheets with an answer key.
+
+    Args:
+        key: the key, or the path of ``key.json``.
+        answers: rows, or the path of a CSV file: columns ``student``, ``variant``, and one per question by its name.
+
+    Returns:
+        One grade per row.
+
+    Raises:
+        LinkwrightError: a file that cannot be read, a column or a variant that does not exist, an answer that is no
+            number.
+    """
+    held = _key(key)
+    rows = _rows(answers)
+    return [_graded(held, row, line) for line, row in enumerate(rows, 2)]
+
+
+def _key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
+    if isinstance(given, Mapping):
+        return given
+    try:
+        found = json.loads(Path(given).read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise RequestError(Sentence("course.bad_key", path=given, why=str(error))) from None
+    if not isinstance(found, dict) or found.get("format") != FORMAT or "variants" not in found:
+        raise RequestError(Sentence("course.no_key", path=given))
+    return found
+
+
+def _rows(given: str | Path | Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
+    if not isinstance(given, str | Path):
+        return list(given)
+    try:
+        text = Path(given).read_text("utf-8-sig")
+    except (OSError, ValueError) as error:
+        raise RequestError(Sentence("course.bad_answers", path=given, why=str(error))) from None
+    first = text.partition("\n")[0]
+    separator = ";" if first.count(";") > first.count(",") else ","
+    return list(csv.DictReader(io.StringIO(text), delimiter=separator))
+
+
+def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
+    variant = _variant(key, row, line)
+    questions, tolerance = key["questions"], float(key["tolerance"])
+    missing = [each["name"] for each in questions if each["name"] not in row]
+    if missing:
+        raise RequestError(Sentence("course.no_column", name=missing[0]))
+    given = [_number(row[each["name"]], line, each["name"]) for each in questions]
+    units = [each["unit"] for each in questions]
+    right = tuple(
+        None if a is None else close(a, b, tolerance, u)
+        for a, b, u in zip(given, variant["answers"], units, strict=True)
+    )
+    student = row.get("student") or str(line - 1)
+    if False not in right:
+        return Grade(student, variant["number"], right)
+    found = _explained(variant, given, units, tolerance)
+    return Grade(
+        student,
+        variant["number"],
+        right,
+        tuple(dict.fromkeys(name for name, _ in found)),
+        found[0][1] if found else "",
+    )
+
+
+def _explained(
+    variant: Mapping[str, Any], given: Sequence[float | None], units: Sequence[str], tolerance: float
+) -> list[tuple[str, str]]:
+    """Mistakes that explain every wrong answer, those first that explain the right ones as well, then the nearest.
+
+    An answer may be right although the mistake would have spoiled it: another way of reckoning has no such line.
+    """
+    found = []
+    for each in variant["mistakes"]:
+        escaped, gap = 0, 0.0
+        for a, b, right, unit in zip(given, each["answers"], variant["answers"], units, strict=True):
+            if a is None:
+                continue
+            if b is not None and close(a, b, tolerance, unit):
+                gap = max(gap, _gap(a, b, unit))
+            elif close(a, right, tolerance, unit):
+                escaped += 1
+            else:
+                break
+        else:
+            found.append((escaped, gap, each["mistake"], each["where"]))
+    least = min((each[0] for each in found), default=0)
+    nearest = sorted((each for each in found if each[0] == least), key=lambda each: each[1])
+    return [(mistake, where) for _, _, mistake, where in nearest]
+
+
+def _gap(answer: float, wanted: float, unit: str) -> float:
+    """How far an answer is from one that a mistake leads to."""
+    if unit == "°":
+        return abs(math.remainder(answer - wanted, 360.0)) / 50.0
+    return abs(answer - wanted) / max(abs(wanted), 1e-300)
+
+
+def _variant(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Mapping[str, Any]:
+    text = (row.get("variant") or "").strip()
+    for each in key["variants"]:
+        if str(each["number"]) == text:
+            return each  # type: ignore[no-any-return]
+    raise LinkwrightError(Sentence("course.no_variant", line=line, text=text, count=len(key["variants"])))
+
+
+def _number(text: str | None, line: int, name: str) -> float | None:
+    """An answer; a decimal comma is a point; an empty one is none."""
+    shown = (text or "").strip().replace("−", "-")
+    if not shown:
+        return None
+    try:
+        return float(shown.replace(",", ".")) if shown.count(",") <= 1 and "." not in shown else float(shown)
+    except ValueError:
+        raise LinkwrightError(Sentence("course.no_answer", line=line, name=name, text=shown)) from None
+
+
+def text(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> list[list[str]]:
+    """Rows of a table: student, variant, score, wrong numbers, mistake."""
+    say = speaker(language)
+    rows = [[say(f"course.{each}") for each in ("student", "variant", "score", "wrong", "mistake")]]
+    for each in grades:
+        wrong = [name for name, ok in zip(names, each.right, strict=True) if ok is False]
+        open_ = [name for name, ok in zip(names, each.right, strict=True) if ok is None]
+        said = say("course.or").join(say(f"course.mistake_{name}") for name in each.mistakes)
+        if wrong and not said:
+            said = say("course.unknown_mistake")
+        if each.where and said:
+            said = f"{said} ({each.where})"
+        shown = ", ".join([*wrong, *(say("course.open", name=name) for name in open_)])
+        rows.append([each.student, str(each.variant), f"{100 * each.score:.0f} %", shown, said])
+    return rows

@@ -1,0 +1,245 @@
+"""The usual mistakes of worked solutions, and the answers that each of them leads to.
+
+Every mistake changes a line of the solution, a function or a given number; all that follows is reckoned with it, as
+on a student's sheet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+from linkwright.course.chain import Change, Line, lines_of, run, with_terms
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.kinematics.cycle import at_inputs
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import solve_forces
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.force_names import carries
+from linkwright.worked.solution import worked
+from linkwright.worked.terms import TWO, ZERO, Term
+
+RPM = 2.0 * math.pi / 60.0
+#: Off the middle of its link by this share of its length, a mass centre can be measured from the wrong end.
+OFF = 1e-6
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """What a mistake leads to: its name, where it was made, and all results with it (angles in degrees)."""
+
+    mistake: str
+    where: str
+    values: dict[str, float]
+
+
+class Sheet:
+    """The solution of one position of a mechanism, as it is reckoned on paper."""
+
+    def __init__(self, mechanism: Mechanism, at: float) -> None:
+        self.mechanism, self.at = mechanism, at
+        self.lines = _lines(mechanism, at)
+        self.values = run(self.lines)
+
+    def consequences(self) -> Iterator[Consequence]:
+        """The answers of every usual mistake, at every place where it can be made."""
+        for name, make in MISTAKES.items():
+            for where, values in make(self):
+                if values != self.values:
+                    yield Consequence(name, where, values)
+
+
+def _lines(mechanism: Mechanism, at: float) -> tuple[Line, ...]:
+    """The equations of the position that the cycle passes at an input."""
+    motion, index = passed(mechanism, at)
+    source = solve_forces(motion) if carries(mechanism) else motion
+    return lines_of(worked(source, index))
+
+
+def passed(mechanism: Mechanism, at: float) -> tuple[Motion, int]:
+    """A motion that passes an input on the way of its cycle, and the index there."""
+    time = float(at_inputs(mechanism, [at]).time[0])
+    return solve_motion(mechanism, times=[time]), 0
+
+
+Made = Iterator[tuple[str, dict[str, float]]]
+
+
+def degrees_for_radians(sheet: Sheet) -> Made:
+    """The input's degrees are put into the functions as radians; or an angle is answered in radians."""
+    q = next((line.result for line in sheet.lines if line.result.plain == "q"), None)
+    if q is not None and q.degrees:
+        yield "q", run(sheet.lines, given={"q": math.degrees(q.amount)})
+    radians = {
+        name: math.radians(value) if "[rad]" in name else value for name, value in sheet.values.items()
+    }
+    yield "answer", radians
+
+
+def rpm_for_radians(sheet: Sheet) -> Made:
+    """The speed in revolutions per minute is put in as if it were in radians per second."""
+    driver = next(iter(sheet.mechanism.drivers.values()))
+    if isinstance(sheet.mechanism.joints[driver.joint], RevoluteJoint):
+        rate = next((line.result.amount for line in sheet.lines if line.result.plain == "q'"), 0.0)
+        yield "q'", run(sheet.lines, given={"q'": rate / RPM})
+
+
+def wrong_assembly_mode(sheet: Sheet) -> Made:
+    """The other root of a group."""
+    for group in dict.fromkeys(line.group for line in sheet.lines if line.result.plain == "ρ"):
+        start = next(
+            i for i, line in enumerate(sheet.lines) if line.group == group and line.result.plain == "ρ"
+        )
+
+        def change(number: int, _: Term, formula: Term, group: str = group, start: int = start) -> Term:
+            line = sheet.lines[number]
+            return with_terms(formula, _negated("ρ")) if line.group == group and number > start else formula
+
+        yield group, run(sheet.lines, change)
+
+
+def _negated(name: str) -> Callable[[Term], Term | None]:
+    return lambda term: -term if term.op == "symbol" and term.plain == name else None
+
+
+def missing_parenthesis(sheet: Sheet) -> Made:
+    """Of a quotient only the last term is divided, or only the first factor divides; in one line of the solution."""
+    for number, line in enumerate(sheet.lines):
+        for wrong in _slips(line.formula):
+            yield line.result.plain, run(sheet.lines, _only(number, wrong))
+    yield from _pairs(sheet)
+
+
+def _pairs(sheet: Sheet) -> Made:
+    """The same slip in both coordinates of a point."""
+    for number, line in enumerate(sheet.lines[:-1]):
+        follower = sheet.lines[number + 1]
+        if (
+            line.result.plain[1:] != follower.result.plain[1:]
+            and line.result.plain[:-1] != follower.result.plain[:-1]
+        ):
+            continue
+        for first, second in zip(_slips(line.formula), _slips(follower.formula), strict=False):
+
+            def change(
+                k: int, _: Term, formula: Term, n: int = number, a: Term = first, b: Term = second
+            ) -> Term:
+                return a if k == n else b if k == n + 1 else formula
+
+            yield f"{line.result.plain}, {follower.result.plain}", run(sheet.lines, change)
+
+
+def _only(number: int, wrong: Term) -> Change:
+    return lambda k, _, formula: wrong if k == number else formula
+
+
+def _slips(formula: Term) -> Iterator[Term]:
+    """A formula with the parentheses of one of its quotients left out, above or below the line, or of one factor."""
+    for product in _parts(formula, "product"):
+        for place, factor in enumerate(product.args):
+            if place and factor.op == "sum" and len(factor.args) > 1:
+                head = Term("product", (*product.args[:place], factor.args[0]))
+                rest = zip(factor.args[1:], factor.signs[1:], strict=True)
+                tail = [Term("product", (last, *product.args[place + 1 :])) for last, _ in rest]
+                signs = (1, *factor.signs[1:])
+                yield with_terms(formula, _put(product, Term("sum", (head, *tail), signs)))
+    for quotient in _parts(formula, "quotient"):
+        above, below = quotient.args
+        if above.op == "sum" and len(above.args) > 1:
+            yield from (with_terms(formula, _put(quotient, wrong)) for wrong in _undivided(above, below))
+        if below.op == "product":
+            first = Term("quotient", (above, below.args[0]))
+            yield with_terms(formula, _put(quotient, Term("product", (first, *below.args[1:]))))
+
+
+def _undivided(above: Term, below: Term) -> Iterator[Term]:
+    """Of a sum only the last or only the first term divided, the others with the sign of either way to write it."""
+    for divided in (len(above.args) - 1, 0):
+        rest = [i for i in range(len(above.args)) if i != divided]
+        part = Term("quotient", (above.args[divided], below))
+        others = tuple(above.args[i] for i in rest)
+        for sense in (1, -1):
+            signs = tuple(sense * above.signs[i] for i in rest)
+            yield Term("sum", (*others, part), (*signs, above.signs[divided]))
+
+
+def _put(old: Term, new: Term) -> Callable[[Term], Term | None]:
+    return lambda term: new if term is old else None
+
+
+def _parts(term: Term, operation: str) -> Iterator[Term]:
+    """All parts of a term that are one operation."""
+    if term.op == operation:
+        yield term
+    for each in term.args:
+        yield from _parts(each, operation)
+
+
+def arctangent_quadrant(sheet: Sheet) -> Made:
+    """arctan(y/x) without regard to the signs, so between -90° and 90°: in all lines, or in one."""
+
+    def principal(_: Term, values: list[float]) -> float:
+        return math.degrees(math.atan(values[0] / values[1])) if values[1] else math.copysign(90.0, values[0])
+
+    yield "", run(sheet.lines, functions={"atan2": principal})
+    for number, line in enumerate(sheet.lines):
+        if line.formula.op == "atan2":
+            y, x = line.formula.args
+            wrong = Term("atan2", (y / x, Term("number", amount=1.0)))
+            yield line.result.plain, run(sheet.lines, _only(number, wrong))
+
+
+def inertia_couple_sign(sheet: Sheet) -> Made:
+    """The inertia couples are taken along the angular accelerations: of all links, or of one."""
+    places = [
+        i for i, line in enumerate(sheet.lines) if line.result.plain.startswith("M_J") and not line.given
+    ]
+
+    for chosen in dict.fromkeys((tuple(places), *((place,) for place in places))):
+        where = ", ".join(sheet.lines[place].result.plain for place in chosen)
+        yield where, run(sheet.lines, partial(_reversed, chosen))
+
+
+def _reversed(chosen: tuple[int, ...], number: int, _: Term, formula: Term) -> Term:
+    return -formula if number in chosen else formula
+
+
+def missing_coriolis(sheet: Sheet) -> Made:
+    """The Coriolis accelerations 2 ω s' are left out."""
+
+    def coriolis(term: Term) -> Term | None:
+        if term.op != "product" or TWO not in term.args:
+            return None
+        names = [each.plain for each in term.args if each.op == "symbol"]
+        slides = any(name.startswith("s'") and not name.startswith("s''") for name in names)
+        return ZERO if slides and any(name.startswith("ω") for name in names) else None
+
+    yield "", run(sheet.lines, lambda _, __, formula: with_terms(formula, coriolis))
+
+
+def mass_centre_wrong_end(sheet: Sheet) -> Made:
+    """The mass centre's distance is measured from the link's other end: of one link, or of all."""
+    turned = {}
+    for name, link in sheet.mechanism.links.items():
+        if link.mass and link.mass_centre is not None and len(link.points) > 1:
+            (ax, ay), (bx, by) = list(link.points.values())[:2]
+            x, y = link.mass_centre
+            moved = (ax + bx - x, ay + by - y)
+            if math.dist(moved, (x, y)) > OFF * math.dist((ax, ay), (bx, by)):
+                turned[name] = replace(link, mass_centre=moved)
+    for names in dict.fromkeys([*((name,) for name in turned), tuple(turned)]):
+        if names:
+            links = {**sheet.mechanism.links, **{name: turned[name] for name in names}}
+            yield ", ".join(names), run(_lines(replace(sheet.mechanism, links=links), sheet.at))
+
+
+MISTAKES: dict[str, Callable[[Sheet], Made]] = {
+    make.__name__: make
+    for make in (
+        degrees_for_radians, wrong_assembly_mode, missing_parenthesis, arctangent_quadrant, inertia_couple_sign,
+        missing_coriolis, mass_centre_wrong_end, rpm_for_radians,
+    )
+}  # fmt: skip

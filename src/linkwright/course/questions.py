@@ -1,0 +1,356 @@
+"""Variants as files: sheets, answer key, questions for PrairieLearn, Moodle and QTI."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import json
+import re
+import uuid
+import zipfile
+from collections.abc import Callable, Sequence
+from xml.sax.saxutils import escape, quoteattr
+
+from linkwright.course.mistakes import RPM, passed
+from linkwright.course.task import Question
+from linkwright.course.variants import Variant, Variants
+from linkwright.drivers.base import Law
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import RequestError
+from linkwright.kinematics.motion import Motion
+from linkwright.model.write import to_data
+from linkwright.plot.drawing.draw import draw
+from linkwright.words import Say, speaker
+from linkwright.words.sentence import Sentence
+
+#: Width of the pictures of questions, pixels.
+PICTURE = 640
+Files = dict[str, bytes]
+
+
+def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
+    """The files of the forms asked for; all where none is named."""
+    chosen = tuple(forms) or tuple(FORMS)
+    for form in chosen:
+        if form not in FORMS:
+            raise RequestError(Sentence("course.no_form", name=form, forms=tuple(FORMS)))
+    files: Files = {}
+    for form in chosen:
+        files |= FORMS[form](found, language)
+    return files
+
+
+# what every form says ---------------------------------------------------------------------------
+def motion_of(found: Variants, each: Variant) -> tuple[Motion, int]:
+    """The motion that passes the position asked for, and its index."""
+    return passed(each.mechanism, found.task.at)
+
+
+def drawing(found: Variants, each: Variant, language: str) -> str:
+    """The machine of a variant as SVG, without numbers that would give answers away."""
+    motion, index = motion_of(found, each)
+    return draw(motion, position=index, centres=True, language=language).svg
+
+
+def data_rows(found: Variants, each: Variant) -> list[tuple[str, str]]:
+    """What a variant gives: every dimension of links and frame, loads, input and its rate."""
+    from linkwright.report.sections.task import written
+
+    model, rows = each.mechanism, []
+    for name, (x, y) in model.frame.points.items():
+        rows.append((name, f"({1e3 * x:.6g}; {1e3 * y:.6g}) mm"))
+    for name, value in model.dimensions().items():
+        owner, _, key = name.partition(".")
+        if owner not in model.links or (key in ("mass", "inertia") and not value):
+            continue
+        rows.append((name, _quantity(key, value)))
+    for driver in model.drivers.values():
+        rows.append((f"{driver.link} ({driver.joint})", _speed(driver.law)))
+    data = to_data(model)
+    rows += [
+        (name, written(each)) for part in ("joints", "loads") for name, each in data.get(part, {}).items()
+    ]
+    if any(model.gravity):
+        rows.append(("g", f"({model.gravity[0]:g}; {model.gravity[1]:g}) m/s²"))
+    return rows
+
+
+def _speed(law: Law) -> str:
+    """A constant speed as machines state it."""
+    assert isinstance(law, ConstantSpeed)
+    return f"{law.speed / RPM:.6g} rpm" if law.rotary else f"{law.speed:.6g} m/s"
+
+
+def _quantity(key: str, value: float) -> str:
+    last = key.rpartition(".")[2]
+    if last == "mass":
+        return f"{value:.6g} kg"
+    if last == "inertia":
+        return f"{value:.6g} kg·m²"
+    return f"{57.29577951308232 * value:.6g}°" if last == "angle" else f"{1e3 * value:.6g} mm"
+
+
+def position_text(found: Variants, say: Say) -> str:
+    """The position asked for, in words."""
+    from linkwright.joints.revolute import RevoluteJoint
+
+    driver = next(iter(found.task.mechanism.drivers.values()))
+    turning = isinstance(found.task.mechanism.joints[driver.joint], RevoluteJoint)
+    place = f"{57.29577951308232 * found.task.at:.6g}°" if turning else f"{1e3 * found.task.at:.6g} mm"
+    return say("course.position", input=place, link=driver.link)
+
+
+def slug(name: str) -> str:
+    """A name for files: letters, digits, hyphens."""
+    return re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-").lower() or "mechanism"
+
+
+def mark(question: Question) -> str:
+    """A question's name as identifiers allow it."""
+    return re.sub(r"\W+", "_", question.name, flags=re.ASCII).strip("_")
+
+
+# sheets and key ---------------------------------------------------------------------------------
+def sheets(found: Variants, language: str) -> Files:
+    """One page per variant: drawing, data, numbers asked for."""
+    from linkwright.report.document import Block, Document, Figure, Heading, Paragraph, Source, Table, literal
+    from linkwright.report.typst_pages import compiled
+
+    say = speaker(language)
+    document = Document(say("course.sheet_title", name=found.name), say, language, contents=False)
+    for each in found.variants:
+        page: list[Block] = [] if each.number == 1 else [Source("#pagebreak()")]
+        page.append(Heading(say("course.sheet_number"), 1))
+        page.append(Paragraph(say("course.sheet_name")))
+        page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
+        page.append(Figure(literal(found.name), ((drawing(found, each, language), 0.5),), tallest=62.0))
+        rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each))
+        page.append(Table(say("course.given"), (say("report.name"), say("report.value")), rows, "<<"))
+        asked = tuple((literal(q.name), "…" * 14, q.unit) for q in found.task.questions)
+        page.append(
+            Table(
+                say("course.asked"),
+                (say("report.name"), say("course.answer"), say("report.unit")),
+                asked,
+                "<<<",
+            )
+        )
+        document.blocks += page
+    return {"sheets.pdf": compiled(document, "pdf")}
+
+
+def key(found: Variants, language: str) -> Files:
+    """The answer key: JSON for ``grade``, CSV to read, and an empty sheet of answers to fill in."""
+    names = [f"{q.name} [{q.unit}]" for q in found.task.questions]
+    right = [["variant", *found.task.ranges, *names]]
+    right += [
+        [str(v.number), *(f"{x:.6g}" for x in (*v.dimensions.values(), *v.answers))] for v in found.variants
+    ]
+    empty = [["student", "variant", *(q.name for q in found.task.questions)]]
+    return {
+        "key.json": found.key_text().encode(),
+        "key.csv": csv_bytes(right),
+        "answers.csv": csv_bytes(empty),
+    }
+
+
+def csv_bytes(rows: list[list[str]]) -> bytes:
+    """Rows as a CSV file."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(rows)
+    return stream.getvalue().encode()
+
+
+# PrairieLearn -----------------------------------------------------------------------------------
+def prairielearn(found: Variants, language: str) -> Files:
+    """A question's folder: information, page, server, pictures; the server picks a variant."""
+    say = speaker(language)
+    folder = f"prairielearn/{slug(found.name)}"
+    info = {
+        "uuid": str(
+            uuid.uuid5(uuid.NAMESPACE_URL, f"linkwright:{found.name}:{found.seed}:{len(found.variants)}")
+        ),
+        "title": found.name,
+        "topic": say("course.topic"),
+        "tags": ["linkwright", "numeric"],
+        "type": "v3",
+    }
+    tolerance = f"{found.task.tolerance:g}"
+    inputs = "\n".join(
+        f"<p><pl-number-input answers-name={quoteattr(mark(q))} label={quoteattr(q.name)} suffix={quoteattr(q.unit)} "
+        f'comparison="relabs" rtol="{tolerance}" atol="{_slack(found, i):.3g}"></pl-number-input></p>'
+        for i, q in enumerate(found.task.questions)
+    )
+    page = (
+        f"<pl-question-panel>\n<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>\n"
+        '<pl-figure file-name="{{params.picture}}"></pl-figure>\n'
+        f"<table>{{{{#params.rows}}}}<tr><td>{{{{name}}}}</td><td>{{{{value}}}}</td></tr>{{{{/params.rows}}}}</table>\n"
+        f"</pl-question-panel>\n{inputs}\n"
+    )
+    data = [
+        {
+            "picture": f"variant-{v.number}.svg",
+            "rows": [{"name": a, "value": b} for a, b in data_rows(found, v)],
+            "answers": {mark(q): a for q, a in zip(found.task.questions, v.answers, strict=True)},
+        }
+        for v in found.variants
+    ]
+    pictures = {
+        f"{folder}/clientFilesQuestion/variant-{v.number}.svg": drawing(found, v, language).encode()
+        for v in found.variants
+    }
+    return {
+        f"{folder}/info.json": json.dumps(info, ensure_ascii=False, indent=2).encode(),
+        f"{folder}/question.html": page.encode(),
+        f"{folder}/server.py": SERVER.encode(),
+        f"{folder}/variants.json": json.dumps(data, ensure_ascii=False).encode(),
+        **pictures,
+    }
+
+
+SERVER = '''\
+import json
+import random
+from pathlib import Path
+
+
+def generate(data):
+    """Picks one of the variants that stand beside this file."""
+    variants = json.loads((Path(__file__).parent / "variants.json").read_text("utf-8"))
+    chosen = random.choice(variants)
+    data["params"]["picture"] = chosen["picture"]
+    data["params"]["rows"] = chosen["rows"]
+    data["correct_answers"].update(chosen["answers"])
+'''
+
+
+def _slack(found: Variants, index: int) -> float:
+    """Absolute tolerance of a question: half a degree per hundredth for angles, else next to nothing."""
+    if found.task.questions[index].unit == "°":
+        return 50.0 * found.task.tolerance
+    return 1e-6 * max(abs(each.answers[index]) for each in found.variants)
+
+
+# Moodle -----------------------------------------------------------------------------------------
+def moodle(found: Variants, language: str) -> Files:
+    """A question bank: one question with embedded numerical answers per variant, all in one category."""
+    say = speaker(language)
+    category = f"$course$/top/{found.name.replace('/', '//')}"
+    parts = [
+        '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n<question type="category"><category>'
+        f"<text>{escape(category)}</text></category></question>"
+    ]
+    for each in found.variants:
+        picture = base64.b64encode(drawing(found, each, language).encode()).decode()
+        name = f"variant-{each.number}.svg"
+        text = (
+            f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"
+            f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(found.name)} width="{PICTURE}"/></p>'
+            f"{_html_table(data_rows(found, each))}"
+            + "".join(
+                f"<p>{escape(q.name)} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} {escape(q.unit)}</p>"
+                for i, (q, a) in enumerate(zip(found.task.questions, each.answers, strict=True))
+            )
+        )
+        parts.append(
+            f'<question type="cloze"><name><text>{escape(found.name)} {each.number:03d}</text></name>'
+            f'<questiontext format="html"><text><![CDATA[{text}]]></text>'
+            f'<file name="{name}" path="/" encoding="base64">{picture}</file></questiontext>'
+            '<generalfeedback format="html"><text></text></generalfeedback><penalty>0.1</penalty>'
+            "<hidden>0</hidden></question>"
+        )
+    return {"moodle.xml": "\n".join([*parts, "</quiz>\n"]).encode()}
+
+
+def _width(found: Variants, index: int, answer: float) -> float:
+    """Absolute width of a right answer."""
+    return max(found.task.tolerance * abs(answer), _slack(found, index))
+
+
+def _html_table(rows: list[tuple[str, str]]) -> str:
+    cells = "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in rows)
+    return f"<table><tbody>{cells}</tbody></table>"
+
+
+# QTI 2.1 ----------------------------------------------------------------------------------------
+def qti(found: Variants, language: str) -> Files:
+    """A content package of QTI 2.1: one item per variant, numbers compared with a tolerance."""
+    say = speaker(language)
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as package:
+        names = []
+        for each in found.variants:
+            name = f"variant-{each.number}"
+            names.append(name)
+            _put(package, f"{name}.xml", item(found, each, say))
+            _put(package, f"images/{name}.svg", drawing(found, each, language))
+        _put(package, "imsmanifest.xml", manifest(names))
+    return {"qti.zip": stream.getvalue()}
+
+
+def _put(package: zipfile.ZipFile, name: str, text: str) -> None:
+    """An entry without the time of its making, so that the same variants give the same file."""
+    package.writestr(zipfile.ZipInfo(name, (2020, 1, 1, 0, 0, 0)), text.encode())
+
+
+def item(found: Variants, each: Variant, say: Say) -> str:
+    """One assessment item."""
+    asked = list(zip(found.task.questions, each.answers, strict=True))
+    declared = "".join(
+        f'<responseDeclaration identifier="R{i}" cardinality="single" baseType="float"><correctResponse>'
+        f"<value>{answer:.8g}</value></correctResponse></responseDeclaration>"
+        for i, (_, answer) in enumerate(asked)
+    )
+    lines = "".join(
+        f'<p>{escape(q.name)} = <textEntryInteraction responseIdentifier="R{i}" expectedLength="12"/> '
+        f"{escape(q.unit)}</p>"
+        for i, (q, _) in enumerate(asked)
+    )
+    rules = "".join(
+        '<responseCondition><responseIf><equal toleranceMode="absolute" '
+        f'tolerance="{_width(found, i, answer):.6g} {_width(found, i, answer):.6g}"><variable identifier="R{i}"/>'
+        f'<correct identifier="R{i}"/></equal><setOutcomeValue identifier="SCORE"><sum><variable identifier="SCORE"/>'
+        f'<baseValue baseType="float">1</baseValue></sum></setOutcomeValue></responseIf></responseCondition>'
+        for i, (_, answer) in enumerate(asked)
+    )
+    text = (
+        f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"
+        f'<p><img src="images/variant-{each.number}.svg" alt={quoteattr(found.name)}/></p>'
+        f"{_html_table(data_rows(found, each))}{lines}"
+    )
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<assessmentItem xmlns="http://www.imsglobal.org/xsd/imsqti_v2p1" '
+        'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" '
+        'xsi:schemaLocation="http://www.imsglobal.org/xsd/imsqti_v2p1 '
+        'http://www.imsglobal.org/xsd/qti/qtiv2p1/imsqti_v2p1.xsd" '
+        f'identifier="variant-{each.number}" title={quoteattr(found.name)} adaptive="false" timeDependent="false">'
+        f'{declared}<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float"><defaultValue>'
+        f"<value>0</value></defaultValue></outcomeDeclaration><itemBody>{text}</itemBody>"
+        f"<responseProcessing>{rules}</responseProcessing></assessmentItem>\n"
+    )
+
+
+def manifest(names: list[str]) -> str:
+    """The package's list of contents."""
+    resources = "".join(
+        f'<resource identifier="{name}" type="imsqti_item_xmlv2p1" href="{name}.xml"><file href="{name}.xml"/>'
+        f'<file href="images/{name}.svg"/></resource>'
+        for name in names
+    )
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<manifest xmlns="http://www.imsglobal.org/xsd/imscp_v1p1" identifier="linkwright-variants">'
+        "<metadata><schema>QTIv2.1 Package</schema><schemaversion>1.0.0</schemaversion></metadata>"
+        f"<organizations/><resources>{resources}</resources></manifest>\n"
+    )
+
+
+FORMS: dict[str, Callable[[Variants, str], Files]] = {
+    "sheets": sheets,
+    "key": key,
+    "prairielearn": prairielearn,
+    "moodle": moodle,
+    "qti": qti,
+}

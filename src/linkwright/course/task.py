@@ -1,0 +1,158 @@
+"""What a teacher asks for: section ``course`` of a model file, with what is usual where it says nothing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from linkwright.course.chain import Line
+from linkwright.course.mistakes import Sheet
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.force_names import carries
+from linkwright.registry import offered
+from linkwright.units import SI_UNITS, parse
+from linkwright.words.sentence import Sentence
+
+KEYS = ("vary", "ask", "at", "tolerance")
+#: By how much lengths change, and how far an answer may be off, where nobody says.
+SHARE, TOLERANCE = 0.08, 0.01
+#: What is smaller is not asked for.
+NOTHING = 1e-9
+
+
+@dataclass(frozen=True)
+class Question:
+    """One number that is asked for: the column of the results that it is; ``unit`` in which it is answered."""
+
+    column: str
+    unit: str
+
+    @property
+    def name(self) -> str:
+        """Its name without the unit."""
+        return self.column.partition(" [")[0]
+
+
+@dataclass(frozen=True)
+class Task:
+    """``ranges``: smallest and largest value, SI, of every dimension that changes; ``at``: the input, rad or m."""
+
+    mechanism: Mechanism
+    ranges: Mapping[str, tuple[float, float]]
+    questions: tuple[Question, ...]
+    at: float
+    tolerance: float
+
+
+def task(mechanism: Mechanism) -> Task:
+    """The task of a model; raises RequestError for settings that make no sense, LinkwrightError for a machine whose
+    position is not told by its input."""
+    given = mechanism.course
+    for key in given:
+        if key not in KEYS:
+            hint = offered(str(key), KEYS)
+            raise RequestError(Sentence("course.unknown_key", place=f"course.{key}", name=key, hint=hint))
+    drivers = mechanism.drivers.values()
+    if not drivers or not all(isinstance(driver.law, ConstantSpeed) for driver in drivers):
+        raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
+    driver = next(iter(drivers))
+    rotary = mechanism.joints[driver.joint].kind == "revolute"
+    at = parse(str(given.get("at", "60 deg" if rotary else "0.01 m")), "angle" if rotary else "length")
+    sheet = Sheet(mechanism, at)
+    return Task(mechanism, _ranges(mechanism, given.get("vary")), _questions(sheet, given.get("ask")), at,
+                _tolerance(given.get("tolerance", TOLERANCE)))  # fmt: skip
+
+
+def _tolerance(value: Any) -> float:
+    text = str(value).strip()
+    try:
+        found = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    except ValueError:
+        found = math.nan
+    if not 0.0 < found <= 0.2:
+        raise RequestError(Sentence("course.bad_tolerance", text=text))
+    return found
+
+
+def _ranges(mechanism: Mechanism, given: Any) -> dict[str, tuple[float, float]]:
+    """Limits of the dimensions that change; all lengths of links by a share where nothing is said."""
+    dimensions = mechanism.dimensions()
+    if given is None:
+        own = {name: value for name, value in dimensions.items() if name.endswith(".length") and value > 0.0}
+        return {name: ((1 - SHARE) * value, (1 + SHARE) * value) for name, value in own.items()}
+    if not isinstance(given, Mapping):
+        raise RequestError(Sentence("course.bad_range", address="vary", text=str(given)))
+    found = {}
+    for address, limits in given.items():
+        value = mechanism.dimension(str(address))
+        found[str(address)] = _limits(mechanism, str(address), value, limits)
+    return found
+
+
+def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tuple[float, float]:
+    dimension = _dimension(mechanism, address)
+    try:
+        if isinstance(given, list | tuple) and len(given) == 2:
+            low, high = (parse(str(each), dimension) for each in given)
+        else:
+            share = float(str(given).strip().removesuffix("%")) / 100.0
+            low, high = sorted(((1 - share) * value, (1 + share) * value))
+    except ValueError:
+        raise RequestError(Sentence("course.bad_range", address=address, text=str(given))) from None
+    if not low < high:
+        raise RequestError(Sentence("course.bad_range", address=address, text=str(given)))
+    return low, high
+
+
+def _dimension(mechanism: Mechanism, address: str) -> str:
+    last = address.rpartition(".")[2]
+    known = {"mass": "mass", "inertia": "inertia", "speed": "angular_velocity", "angle": "angle"}
+    return known.get(last, "length")
+
+
+def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
+    """The columns asked for; those of the last group, and of what drives, where nothing is said."""
+    columns = list(sheet.values)
+    if given is not None:
+        names = {column.partition(" [")[0]: column for column in columns}
+        found = []
+        for name in given:
+            if str(name) not in names:
+                raise RequestError(
+                    Sentence("course.no_number", name=str(name), hint=offered(str(name), names))
+                )
+            found.append(_question(names[str(name)]))
+        return tuple(found)
+    rates = (
+        ".angle [rad]",
+        ".angular_velocity [rad/s]",
+        ".angular_acceleration [rad/s²]",
+        ".displacement [m]",
+    )
+    asked = [line for line in sheet.lines if line.column.endswith(rates) and not _told(line)]
+    last = asked[-1].group if asked else ""
+    asked = [line for line in asked if line.group == last or not line.column.endswith((rates[0], rates[3]))]
+    ordered = sorted(asked, key=lambda line: line.group != last)
+    chosen = [line.column for line in ordered if abs(sheet.values[line.column]) > NOTHING]
+    if carries(sheet.mechanism):
+        sizes = [
+            column
+            for column in columns
+            if column.endswith(".magnitude [N]") and sheet.values[column] > NOTHING
+        ]
+        chosen += [*sizes, *(column for column in columns if ".effort [" in column)]
+    return tuple(_question(column) for column in dict.fromkeys(chosen))
+
+
+def _told(line: Line) -> bool:
+    """Whether a number is the input's own, or copied from another one."""
+    return line.given or line.formula.op in ("symbol", "number")
+
+
+def _question(column: str) -> Question:
+    unit = column.rpartition("[")[2].removesuffix("]")
+    return Question(column, "°" if unit == SI_UNITS["angle"] else unit)

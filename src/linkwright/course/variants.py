@@ -1,0 +1,220 @@
+"""Variants of a task: dimensions changed within limits, each solvable, sound and as hard as the others."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from linkwright.course.mistakes import Consequence, Sheet
+from linkwright.course.task import Question, Task, task
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.solve import solve_motion
+from linkwright.metrics import metrics
+from linkwright.model.file import load
+from linkwright.model.mechanism import Mechanism
+from linkwright.words.sentence import Sentence
+
+FORMAT = 1
+#: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
+TRIES, DIGITS, STEPS = 60, 3, 90
+#: Smallest transmission angle that asks for no more, and how far a variant's may be below the model's, rad.
+GOOD, SLACK = math.radians(40), math.radians(5)
+#: An answer may be so many times as large or as small as the model's.
+SPREAD = 4.0
+#: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
+APART = 3.0
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One variant: ``dimensions`` (SI) that were changed, right ``answers`` and those of mistakes, by question."""
+
+    number: int
+    mechanism: Mechanism
+    dimensions: Mapping[str, float]
+    answers: tuple[float, ...]
+    mistakes: tuple[tuple[Consequence, tuple[float, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Variants:
+    """All variants of a task; ``save`` writes sheets, key and questions."""
+
+    task: Task
+    seed: int
+    variants: tuple[Variant, ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the model."""
+        return self.task.mechanism.name
+
+    def key(self) -> dict[str, Any]:
+        """The answer key as plain data, which ``grade`` reads."""
+        return {
+            "format": FORMAT,
+            "name": self.name,
+            "seed": self.seed,
+            "tolerance": self.task.tolerance,
+            "questions": [{"name": q.name, "column": q.column, "unit": q.unit} for q in self.task.questions],
+            "variants": [
+                {
+                    "number": each.number,
+                    "dimensions": dict(each.dimensions),
+                    "answers": list(each.answers),
+                    "mistakes": [
+                        {
+                            "mistake": found.mistake,
+                            "where": found.where,
+                            "answers": [_plain(x) for x in answers],
+                        }
+                        for found, answers in each.mistakes
+                    ],
+                }
+                for each in self.variants
+            ],
+        }
+
+    def files(self, forms: Sequence[str] = (), language: str = "en") -> dict[str, bytes]:
+        """Contents by path: ``sheets.pdf``, ``key.json``, ``key.csv``, ``prairielearn/…``, ``moodle.xml``, …"""
+        from linkwright.course.questions import files_of
+
+        return files_of(self, forms, language)
+
+    def save(self, folder: str | Path, forms: Sequence[str] = (), language: str = "en") -> list[Path]:
+        """Write the files into a folder, each whole; returns their paths."""
+        from linkwright.whole_files import write_whole
+
+        target, written = Path(folder), []
+        for name, content in self.files(forms, language).items():
+            path = target / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            written.append(write_whole(path, content))
+        return written
+
+    def key_text(self) -> str:
+        """The answer key as JSON."""
+        return json.dumps(self.key(), ensure_ascii=False, indent=1)
+
+    def __repr__(self) -> str:
+        return f"Variants({self.name!r}: {len(self.variants)} variants, {len(self.task.questions)} questions)"
+
+
+def variants(
+    machine: Mechanism | str | Path,
+    count: int = 30,
+    *,
+    seed: int = 0,
+    told: Callable[[int, int], None] | None = None,
+) -> Variants:
+    """Variants of a machine for a course.
+
+    Args:
+        machine: a mechanism, path or gallery name; its section ``course`` says what changes and what is asked.
+        count: how many.
+        seed: of the random numbers; the same seed gives the same variants.
+        told: is told how many are found, and of how many.
+
+    Returns:
+        The variants. Each passes its cycle, has a transmission angle hardly below the model's and answers of the same
+        signs and of like size, and shows the same mistakes.
+
+    Raises:
+        LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
+    """
+    if not 1 <= count <= 1000:
+        raise RequestError(Sentence("course.bad_count", count=count))
+    asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
+    rng = np.random.default_rng(seed)
+    model = _solved(asked, 0, {}, asked.mechanism)
+    bar = _transmission(asked.mechanism)
+    found: list[Variant] = []
+    for _ in range(TRIES * count):
+        changes = {name: _rounded(rng.uniform(*limits)) for name, limits in asked.ranges.items()}
+        if any(dict(each.dimensions) == changes for each in found):
+            continue
+        fresh = _sound(asked, len(found) + 1, changes, model, bar)
+        if fresh is not None:
+            found.append(fresh)
+            if told is not None:
+                told(len(found), count)
+        if len(found) == count:
+            return Variants(asked, seed, tuple(found))
+    raise LinkwrightError(Sentence("course.too_few", found=len(found), count=count, tried=TRIES * count))
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def _transmission(mechanism: Mechanism) -> float | None:
+    """Smallest transmission angle over the cycle, None where there is none; raises where the cycle is not passed."""
+    motion = solve_motion(mechanism, steps=STEPS)
+    rows = metrics(motion, ["transmission_angle"]).rows if _transmits(motion) else ()
+    return min((row.value for row in rows), default=None)
+
+
+def _transmits(motion: Any) -> bool:
+    from linkwright.metrics.base import METRICS
+
+    return METRICS["transmission_angle"]().applies(motion)
+
+
+def _sound(
+    asked: Task, number: int, changes: Mapping[str, float], model: Variant, bar: float | None
+) -> Variant | None:
+    """A variant, or None where it is not as sound or as hard as the model."""
+    try:
+        mechanism = asked.mechanism.with_dimensions(changes)
+        angle = _transmission(mechanism)
+    except LinkwrightError:
+        return None
+    if bar is not None and (angle is None or angle < min(bar, GOOD) - SLACK):
+        return None
+    fresh = _solved(asked, number, changes, mechanism)
+    alike = all(
+        _alike(a, b, q) for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
+    )
+    shown = {each.mistake for each, _ in fresh.mistakes}
+    return fresh if alike and shown == {each.mistake for each, _ in model.mistakes} else None
+
+
+def _alike(a: float, b: float, question: Question) -> bool:
+    if question.unit == "°":
+        return abs(math.remainder(a - b, 360.0)) < 45.0
+    return a * b > 0.0 and 1.0 / SPREAD < a / b < SPREAD
+
+
+def _solved(asked: Task, number: int, changes: Mapping[str, float], mechanism: Mechanism) -> Variant:
+    """The answers of a design and of its mistakes; those that no answer shows are left out."""
+    sheet = Sheet(mechanism, asked.at)
+    columns = [question.column for question in asked.questions]
+    right = tuple(sheet.values[column] for column in columns)
+    held = []
+    for each in sheet.consequences():
+        answers = tuple(each.values.get(column, math.nan) for column in columns)
+        if any(not close(a, b, APART * asked.tolerance, q.unit)
+               for a, b, q in zip(answers, right, asked.questions, strict=True)):  # fmt: skip
+            held.append((each, answers))
+    return Variant(number, mechanism, dict(changes), right, tuple(held))
+
+
+def close(answer: float, right: float, tolerance: float, unit: str) -> bool:
+    """Whether an answer is right within a relative tolerance; of angles over full turns, a hundredth being 0.5°."""
+    if not math.isfinite(right):
+        return not math.isfinite(answer)
+    if not math.isfinite(answer):
+        return False
+    if unit == "°":
+        return abs(math.remainder(answer - right, 360.0)) <= 50.0 * tolerance
+    return abs(answer - right) <= tolerance * abs(right)
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,196 @@
+"""Course mode: variants that hold what is promised, keys, questions of learning platforms, grading."""
+
+import io
+import json
+import math
+import random
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from tests.course_mistakes import TASKS, outcome, sheet
+from tests.course_sheets import FOUR_BAR, Pen
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.course.chain import lines_of, run
+from linkwright.course.mistakes import MISTAKES
+from linkwright.errors import LinkwrightError
+from linkwright.words import LANGUAGES, has, say
+
+QTI = "{http://www.imsglobal.org/xsd/imsqti_v2p1}"
+
+
+@pytest.fixture(scope="module")
+def found() -> lw.Variants:
+    return lw.variants(lw.loads(FOUR_BAR), 4, seed=3)
+
+
+@pytest.fixture(scope="module")
+def keys(found: lw.Variants) -> dict[str, dict]:
+    return {"four_bar": found.key(), "lever": lw.variants(lw.loads(TASKS["lever"]), 4, seed=3).key()}
+
+
+@pytest.mark.parametrize(
+    "name", ["jaw_crusher_sixbar", "shaper_quick_return", "dyad_rpr", "triad", "toggle_press"]
+)
+def test_a_worked_solution_can_be_reckoned_again(name: str) -> None:
+    """Every line from those before it gives the solver's numbers."""
+    forces = lw.solve_forces(lw.load(f"gallery:{name}"), steps=36)
+    lines = lines_of(lw.worked(forces, 5))
+    values = run(lines)
+    columns = forces.columns()
+    for column, value in values.items():
+        if column in columns and "[rad]" not in column:
+            assert value == pytest.approx(columns[column][5], rel=1e-6, abs=1e-6), column
+
+
+@pytest.mark.parametrize("name", sorted(TASKS))
+def test_right_answers_are_those_of_an_arithmetic_of_its_own(name: str, keys: dict[str, dict]) -> None:
+    key = keys[name]
+    for variant in key["variants"]:
+        own = sheet(name, variant, Pen())
+        assert variant["answers"] == pytest.approx([own[q["name"]] for q in key["questions"]], rel=1e-9)
+
+
+def test_sixty_sheets_with_mistakes_of_their_own_arithmetic(keys: dict[str, dict]) -> None:
+    rng = random.Random(2)
+    for _ in range(60):
+        name = rng.choice(sorted(TASKS))
+        slip, named = outcome(keys[name], name, rng)
+        assert named == slip
+
+
+def test_every_mistake_has_its_word() -> None:
+    assert len(MISTAKES) == 8
+    assert all(has(f"course.mistake_{name}") for name in MISTAKES)
+
+
+def test_variants_are_sound_and_as_hard_as_the_model(found: lw.Variants) -> None:
+    model = lw.metrics(lw.solve_motion(found.task.mechanism, steps=90), ["transmission_angle"])
+    least = min(row.value for row in model)
+    shown = {frozenset(m["mistake"] for m in v["mistakes"]) for v in found.key()["variants"]}
+    assert len(shown) == 1
+    for each in found.variants:
+        motion = lw.solve_motion(each.mechanism, steps=90)
+        assert motion.ok.all()
+        table = lw.metrics(motion, ["transmission_angle"])
+        assert min(row.value for row in table) >= min(least, math.radians(40)) - math.radians(5)
+        for name, (low, high) in found.task.ranges.items():
+            assert low * 0.995 <= each.dimensions[name] <= high * 1.005
+    assert len({tuple(each.dimensions.values()) for each in found.variants}) == 4
+
+
+def test_the_same_seed_gives_the_same_variants(found: lw.Variants) -> None:
+    again = lw.variants(lw.loads(FOUR_BAR), 4, seed=3)
+    assert again.key() == found.key()
+    assert lw.variants(lw.loads(FOUR_BAR), 1, seed=4).key()["variants"] != found.key()["variants"][:1]
+
+
+def test_questions_of_the_platforms(found: lw.Variants) -> None:
+    pytest.importorskip("typst")
+    files = found.files()
+    assert files["sheets.pdf"].startswith(b"%PDF")
+    folder = next(name for name in files if name.endswith("info.json")).removesuffix("info.json")
+    info = json.loads(files[f"{folder}info.json"])
+    assert set(info) >= {"uuid", "type", "title", "topic"} and info["type"] == "v3"
+    page = files[f"{folder}question.html"].decode()
+    given: dict[str, dict] = {"params": {}, "correct_answers": {}}
+    space: dict[str, object] = {"__file__": "server.py"}
+    program = (
+        files[f"{folder}server.py"]
+        .decode()
+        .replace("json.loads((Path(__file__).parent", "(lambda t: t)((VARIANTS")
+    )
+    space["VARIANTS"] = _Beside(json.loads(files[f"{folder}variants.json"]))
+    exec(program, space)
+    space["generate"](given)  # type: ignore[operator]
+    assert all(f'answers-name="{name}"' in page for name in given["correct_answers"])
+    bank = ElementTree.fromstring(files["moodle.xml"])
+    assert [q.get("type") for q in bank] == ["category", *["cloze"] * 4]
+    package = zipfile.ZipFile(io.BytesIO(files["qti.zip"]))
+    item = ElementTree.fromstring(package.read("variant-1.xml"))
+    declared = {e.get("identifier") for e in item.iter(f"{QTI}responseDeclaration")}
+    asked = {e.get("responseIdentifier") for e in item.iter(f"{QTI}textEntryInteraction")}
+    assert declared == asked and len(asked) == len(found.task.questions)
+    right = [
+        float(e.text or "")
+        for e in item.iterfind(f"{QTI}responseDeclaration/{QTI}correctResponse/{QTI}value")
+    ]
+    assert right == pytest.approx(found.variants[0].answers, rel=1e-7)
+
+
+class _Beside:
+    """A folder of one file whose text is data already."""
+
+    def __init__(self, data: object) -> None:
+        self.data = data
+
+    def __truediv__(self, _: str) -> "_Beside":
+        return self
+
+    def read_text(self, _: str) -> object:
+        return self.data
+
+
+def test_open_answers_commas_and_right_angles_over_full_turns(found: lw.Variants) -> None:
+    key = found.key()
+    names = [q["name"] for q in key["questions"]]
+    right = dict(zip(names, map(str, key["variants"][1]["answers"]), strict=True))
+    angle = names[0]
+    turned = {**right, angle: str(float(right[angle]) + 360).replace(".", ","), names[-1]: ""}
+    (grade,) = lw.grade(key, [{"student": "A", "variant": "2", **turned}])
+    assert grade.right == (*[True] * (len(names) - 1), None) and not grade.mistakes
+
+
+@pytest.mark.parametrize(
+    ("row", "sentence"),
+    [
+        ({"variant": "9"}, 'no variant "9"'),
+        ({"variant": "1"}, "no column"),
+    ],
+)
+def test_sheets_that_cannot_be_graded(found: lw.Variants, row: dict, sentence: str) -> None:
+    with pytest.raises(LinkwrightError, match=sentence):
+        lw.grade(found.key(), [row])
+
+
+@pytest.mark.parametrize(
+    ("course", "sentence"),
+    [
+        ({"varry": {}}, "did you mean"),
+        ({"vary": {"crank.lenght": "8 %"}}, "did you mean"),
+        ({"vary": {"crank.length": "much"}}, "no range"),
+        ({"ask": ["rocker.angel"]}, "did you mean"),
+        ({"tolerance": "3"}, "no tolerance"),
+        ({"vary": {"crank.length": ["0.5 m", "0.6 m"]}}, "only 0 of 1"),
+    ],
+)
+def test_tasks_that_make_no_sense(course: dict, sentence: str) -> None:
+    from dataclasses import replace
+
+    with pytest.raises(LinkwrightError, match=sentence):
+        lw.variants(replace(lw.loads(FOUR_BAR), course=course), 1)
+
+
+def test_the_commands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("bar.yaml").write_text(FOUR_BAR, encoding="utf-8")
+    assert main(["variants", "bar.yaml", "--count", "2", "--to", "key", "moodle"]) == 0
+    assert main(["variants", "bar.yaml", "--count", "2"]) == 2  # the folder is there
+    key = json.loads(Path("bar-variants/key.json").read_text("utf-8"))
+    names = [q["name"] for q in key["questions"]]
+    wrong = next(m for m in key["variants"][0]["mistakes"] if m["mistake"] == "rpm_for_radians")
+    rows = [["student", "variant", *names], ["Li", "1", *map(str, wrong["answers"])],
+            ["Wu", "2", *map(str, key["variants"][1]["answers"])]]  # fmt: skip
+    Path("answers.csv").write_text("\n".join(",".join(row) for row in rows), encoding="utf-8")
+    for language in LANGUAGES:
+        assert main(["grade", "bar-variants/key.json", "answers.csv", "--lang", language]) == 0
+        shown = capsys.readouterr().out
+        assert say("course.mistake_rpm_for_radians", language) in shown and "100 %" in shown
+    assert main(["grade", "answers.csv", "answers.csv"]) == 2
+    assert np.all([p.stat().st_size for p in Path("bar-variants").iterdir()])
