@@ -320,3 +320,33 @@ def test_axe_finds_nothing(chromium: Any, tmp_path: Path, scheme: str) -> None:
     found = axe.Axe().run(page.tab)
     assert [(each["id"], each["nodes"][0]["html"]) for each in found.response["violations"]] == []
     context.close()
+
+
+def test_gears_turn_on_the_page(opened: Opened, tmp_path: Path) -> None:
+    """A geared five-bar: drawn with wheels, solved again after a drag."""
+    mechanism = lw.loads(GEARED)
+    opened.open(lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "geared.html", text=GEARED))
+    assert opened.tab.locator("svg.machine .lw-gear").count() == 2
+    agrees(opened, mechanism, forces=True)
+    opened.drag("C", 9.0, 5.0)
+    after = opened.values()
+    changed = {address: value for address, value in after.items() if value != mechanism.dimension(address)}
+    assert set(changed) == {"left.length", "right.length"}
+    agrees(opened, mechanism.with_dimensions(changed), forces=True, tolerance=1e-11)
+
+
+GEARED = """\
+format: 1
+name: Geared five-bar
+frame:
+  points: {A: [0 mm, 0 mm], E: [200 mm, 0 mm]}
+links:
+  first: {points: [A, B], length: 50 mm, mass: 1 kg}
+  second: {points: [E, D], length: 50 mm, mass: 1 kg}
+  left: {points: [B, C], length: 180 mm, mass: 2 kg}
+  right: {points: [D, C], length: 180 mm, mass: 2 kg}
+joints:
+  mesh: {kind: gear, links: [first, second], ratio: -1, carrier: frame}
+drawing: {B: [0 mm, 50 mm], D: [200 mm, 50 mm], C: [100 mm, 199.66629547095765 mm]}
+driver: {turn: first, about: A, speed: 60 rpm}
+"""

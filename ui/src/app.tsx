@@ -541,6 +541,7 @@ function notes(page: Page, session: Session): string[] {
   if (model.changed && held.friction) found.push(page.say("friction_held"));
   if (model.doubtful) found.push(page.say("doubtful"));
   if (model.iterated && model.changed) found.push(page.say("followed", { value: digits(model.margin ?? 0, 2) }));
+  if (session.data.undrawn.length) found.push(page.say("undrawn", { names: session.data.undrawn.join(", ") }));
   if (session.data.module === null) found.push(page.say("text_kernel"));
   return found;
 }

@@ -45,7 +45,7 @@ export interface Point {
 }
 
 export interface Glyph {
-  kind: "stamp" | "bar" | "plate" | "rail" | "rod" | "stub" | "cylinder" | "passing" | "spring" | "damper" | "load";
+  kind: "stamp" | "bar" | "plate" | "rail" | "rod" | "stub" | "cylinder" | "passing" | "spring" | "damper" | "load" | "wheel" | "strands";
   layer: string;
   at?: string;
   along?: string | number;
@@ -62,6 +62,12 @@ export interface Glyph {
   barrel?: number;
   piston?: number;
   load?: string;
+  radius?: number | null;
+  radii?: number[];
+  share?: number;
+  toothed?: boolean;
+  inside?: boolean;
+  crossed?: boolean;
 }
 
 export interface Steady {
@@ -104,6 +110,7 @@ export interface ModelData {
   points: Point[];
   glyphs: Glyph[];
   masses: string[];
+  undrawn: string[];
 }
 
 export interface PageData {

@@ -110,6 +110,7 @@ export class Model {
       put(`cos:${law.driver}`, Math.cos);
       put(`sin:${law.driver}`, Math.sin);
       put(`slide:${law.driver}`, (q) => q);
+      put(`turn:${law.driver}`, (q) => q);
     }
     put("time", (_, i) => law.begin * ratio + i * dt);
     put("step", () => dt);
@@ -428,6 +429,7 @@ export class Model {
     put(`cos:${law.driver}`, Math.cos(q));
     put(`sin:${law.driver}`, Math.sin(q));
     put(`slide:${law.driver}`, q);
+    put(`turn:${law.driver}`, q);
     put("time", law.begin * (law.speed / speed) + (q - law.start) / speed);
     for (const name in this.data.positions.modes) put(name, this.arrays[name][this.index(q)]);
     call.run();

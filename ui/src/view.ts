@@ -7,6 +7,7 @@ const LAYERS = ["ground", "paths", "ghosts", "bodies", "blocks", "pins", "tops",
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
 const COLOURS = 4;
+const TURN = 2 * Math.PI;
 
 type Vec = [number, number];
 export interface Shown {
@@ -72,13 +73,24 @@ export class View {
   fit(): void {
     let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const { key } of this.model.data.points) {
-      for (const x of this.model.main.row(`p:${key}.x`)) [left, right] = [Math.min(left, x), Math.max(right, x)];
-      for (const y of this.model.main.row(`p:${key}.y`)) [low, high] = [Math.min(low, y), Math.max(high, y)];
+      const r = this.radius(key);
+      for (const x of this.model.main.row(`p:${key}.x`)) [left, right] = [Math.min(left, x - r), Math.max(right, x + r)];
+      for (const y of this.model.main.row(`p:${key}.y`)) [low, high] = [Math.min(low, y - r), Math.max(high, y + r)];
     }
     const margin = 46, size = Math.max(right - left, high - low) || 1;
     const wide = Math.max(right - left, 0.05 * size), tall = Math.max(high - low, 0.05 * size);
     this.scale = Math.min((this.width - 2 * margin) / wide, (this.height - 2 * margin) / tall);
     this.shift = [this.width / 2 - (this.scale * (left + right)) / 2, this.height / 2 + (this.scale * (low + high)) / 2];
+  }
+
+  /** Radius of the largest wheel about a point, m. */
+  private radius(key: string): number {
+    const { main } = this.model, world = (name: string): Vec => [main.row(`p:${name}.x`)[0], main.row(`p:${name}.y`)[0]];
+    return this.model.data.glyphs.reduce((most, glyph) => {
+      if (glyph.kind !== "wheel" || glyph.at !== key) return most;
+      const [a, b] = glyph.points!.map(world);
+      return Math.max(most, glyph.radius ?? glyph.share! * far(a, b));
+    }, 0);
   }
 
   /** Whether a part of the machine has left the picture. */
@@ -174,6 +186,14 @@ export class View {
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
       case "rod": return this.rod(glyph, path("lw-bar"));
       case "cylinder": return this.cylinder(glyph, path("lw-bar"), path("lw-block"));
+      case "wheel": return this.wheel(glyph, path("lw-support"), path("lw-gear"), path("lw-pitch"));
+      case "strands": {
+        const strands = path("lw-spring");
+        return (i) => {
+          const [a, b] = glyph.points!.map((key) => this.at(key, i)), [r, s] = glyph.radii!.map((each) => each * this.scale);
+          strands.setAttribute("d", [1, -1].map((side) => strand(a, b, side * r, side * (glyph.crossed ? -s : s))).join(""));
+        };
+      }
       case "load": return this.load(glyph, path("lw-load-line"), path("lw-load-head"));
     }
   }
@@ -232,6 +252,19 @@ export class View {
       rod.setAttribute("d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
       const box: Vec[] = [[8, -7.5], [length, -7.5], [length, 7.5], [8, 7.5]];
       barrel.setAttribute("d", line(box.map(([x, y]) => away(from, u, x, y)), true));
+    };
+  }
+
+  /** A pitch circle with teeth, or a plain one with a mark that shows how it turns. */
+  private wheel(glyph: Glyph, rim: SVGElement, teeth: SVGElement, pitch: SVGElement): (i: number) => void {
+    return (i) => {
+      const [a, b] = glyph.points!.map((key) => this.at(key, i)), at = this.at(glyph.at!, i);
+      const r = glyph.radius ? glyph.radius * this.scale : glyph.share! * far(a, b);
+      const u = this.way(glyph.along!, i), turned = Math.atan2(u[1], u[0]);
+      pitch.setAttribute("d", round(at, r));
+      rim.setAttribute("d", glyph.inside ? round(at, r + 14) : "");
+      const mark = line([away(at, u, glyph.inside ? r : 0.55 * r), away(at, u, glyph.inside ? r + 12 : 0.9 * r)]);
+      teeth.setAttribute("d", (glyph.toothed ? toothed(at, r, turned, glyph.inside ? -1 : 1) : round(at, r)) + mark);
     };
   }
 
@@ -346,6 +379,28 @@ function hull(cloud: Vec[]): Vec[] {
     return chain.slice(0, -1);
   };
   return [...half(rows), ...half([...rows].reverse())];
+}
+
+const TOOTH: Vec[] = [[-0.5, -3.6], [-0.32, -3.6], [-0.16, 3.2], [0.16, 3.2], [0.32, -3.6]];
+
+/** Teeth that show that it is a gear; their number is not the gear's. */
+function toothed(at: Vec, r: number, turned: number, sign: number): string {
+  const count = Math.max(12, Math.round((TURN * r) / 11)), outline: Vec[] = [];
+  for (let k = 0; k < count; k++)
+    for (const [share, height] of TOOTH) {
+      const angle = turned + (TURN * (k + share)) / count, radius = r + sign * height;
+      outline.push([at[0] + radius * Math.cos(angle), at[1] + radius * Math.sin(angle)]);
+    }
+  return line(outline, true);
+}
+
+const round = ([x, y]: Vec, r: number) =>
+  `M${tenth(x - r)} ${tenth(y)}a${tenth(r)} ${tenth(r)} 0 1 0 ${tenth(2 * r)} 0a${tenth(r)} ${tenth(r)} 0 1 0 ${tenth(-2 * r)} 0Z`;
+
+/** The common tangent of two circles on one side (signed radii: on different sides it crosses). */
+function strand(a: Vec, b: Vec, r: number, s: number): string {
+  const d = far(a, b), u = unit(a, b), sine = (r - s) / d, cosine = Math.sqrt(Math.max(0, 1 - sine * sine));
+  return line([away(a, u, r * sine, r * cosine), away(b, u, s * sine, s * cosine)]);
 }
 
 function zigzag(a: Vec, b: Vec): Vec[] {

@@ -21,7 +21,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.model.document import Document
 from linkwright.model.file import dump, read_text
 from linkwright.page.dimensions import dimensions
-from linkwright.page.glyphs import glyphs
+from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
@@ -66,6 +66,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         script = "\n".join([*pieces, f"(globalThis.kernels??=[])[{number}]=[{','.join(names)}];"])
     values = programs.values()
     known = signals(programs)
+    machine = _machine(motion)
     data = {
         **_said(motion, text),
         "module": None if module is None else base64.b64encode(module).decode(),
@@ -83,7 +84,8 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "numbers": numbers(programs, known),
         "curves": usual_curves(programs, known),
         "points": point_keys(programs),
-        "glyphs": glyphs(_machine(motion), int(np.argmax(motion.ok))),
+        "glyphs": glyphs(machine, int(np.argmax(motion.ok))),
+        "undrawn": undrawn(machine),
         "masses": [name for name, link in motion.mechanism.links.items() if link.mass],
     }
     return data, script
@@ -114,8 +116,15 @@ def _positions(programs: PagePrograms) -> Plain:
         "modes": {name: float(programs.traced.solver.assembly.modes[name.removeprefix("mode:")]) for name in modes},
     }  # fmt: skip
     drivers = list(mechanism.drivers.values())
-    if len(drivers) == 1 and isinstance(drivers[0].law, ConstantSpeed):
-        name = drivers[0].name
+    name = drivers[0].name if drivers else ""
+    followed = {
+        "time",
+        "step",
+        "input",
+        *modes,
+        *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn")),
+    }
+    if len(drivers) == 1 and isinstance(drivers[0].law, ConstantSpeed) and followed.issuperset(arrays):
         q = positions.coordinates[name][0]
         step = float(q[1] - q[0]) if len(q) > 1 else 0.0
         found["steady"] = {

@@ -14,6 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.joints.belt import BeltPair
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.toothed import WheelPair
 from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
@@ -30,7 +34,7 @@ _LENGTHS = 2
 
 def glyphs(machine: Machine, index: int) -> list[Plain]:
     """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
-    found = [*_links(machine), *_guides(machine), *_pins(machine), *_welds(machine)]
+    found = [*_wheels(machine), *_links(machine), *_guides(machine), *_pins(machine), *_welds(machine)]
     found += [_tied(machine, part) for part in input_arrows(machine, index)]
     found += [glyph for load in machine.motion.mechanism.loads.values() for glyph in _load(machine, load)]
     found += [
@@ -134,6 +138,40 @@ def _pins(machine: Machine) -> Iterator[Plain]:
                 keys = [key_of(machine, link, point) for point in machine.motion.mechanism.link(link).points]
                 yield {"kind": "passing", "layer": "tops", "at": name, "points": [keys[end] for end in ends],
                        "length": 1.3 * PIN}  # fmt: skip
+
+
+def _wheels(machine: Machine) -> Iterator[Plain]:
+    """Wheels of gears, rolling pairs, belts and chains: pitch circles with teeth, sizes in m or as shares of the
+    distance between the centres."""
+    for joint in machine.motion.mechanism.joints.values():
+        if not isinstance(joint, WheelPair):
+            continue
+        ratio = joint.transmission
+        radii = joint.pitch_radii() if isinstance(joint, BeltPair) else (None, None)
+        wrapped = isinstance(joint, BeltPair)
+        shares = (abs(ratio / (ratio - 1.0)), abs(1.0 / (ratio - 1.0))) if ratio != 1.0 else (0.5, 0.5)
+        ends = [key_of(machine, joint.carrier, centre) for centre in joint.centres]
+        for place, link in enumerate(joint.links):
+            yield {
+                "kind": "wheel", "layer": "ground", "at": ends[place],
+                "points": ends, "along": 0.0 if link == "frame" else f"e:{link}", "radius": radii[place],
+                "share": shares[place], "toothed": joint.kind in ("gear", "chain"),
+                "inside": ratio > 0 and not wrapped and shares[place] == max(shares),
+            }  # fmt: skip
+        if wrapped:
+            yield {
+                "kind": "strands",
+                "layer": "ground",
+                "points": ends,
+                "radii": list(radii),
+                "crossed": ratio < 0,
+            }
+
+
+def undrawn(machine: Machine) -> list[str]:
+    """Joints that the page shows by their numbers only."""
+    known = (RevoluteJoint, PrismaticJoint, WeldJoint, WheelPair)
+    return [name for name, joint in machine.motion.mechanism.joints.items() if not isinstance(joint, known)]
 
 
 def _welds(machine: Machine) -> Iterator[Plain]:

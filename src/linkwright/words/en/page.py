@@ -80,6 +80,7 @@ WORDS = {
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
     "followed": "The assembly is followed from position to position, but not certified (margin {value}); "
     "`linkwright solve` certifies it.",
+    "undrawn": "Not drawn here, but part of all numbers: {names}.",
     "text_kernel": "This page evaluates JavaScript text, as no WebAssembly module could be made.",
     "made": "Everything on this page is found by the formulas of Linkwright itself, in your browser; nothing "
     "is sent.",

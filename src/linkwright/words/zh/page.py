@@ -78,6 +78,7 @@ WORDS = {
     "friction_held": "只显示原方案的力：运动副摩擦在此不重新计算。",
     "doubtful": "不显示力：载荷作用区间的极限位置不能确定。",
     "followed": "装配逐个位置跟踪，但未经验证（裕度 {value}）；`linkwright solve` 可以验证。",
+    "undrawn": "此处未画出，但已计入所有数值：{names}。",
     "text_kernel": "由于无法生成 WebAssembly 模块，本页运行的是 JavaScript 文本。",
     "made": "本页的一切都由 Linkwright 自身的公式在浏览器中求得，不发送任何数据。",
     "static": "此模型只有一个位置。",
