@@ -89,6 +89,8 @@ export interface ModelData {
   main: number;
   stages: Stage[];
   values: Record<string, number>;
+  tables: Record<string, number[]>;
+  sizes: string;
   dimensions: Dimension[];
   positions: {
     count: number;

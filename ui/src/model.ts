@@ -52,7 +52,7 @@ export class Model {
   constructor(readonly data: ModelData, code: Code) {
     const { positions } = data;
     this.n = positions.count;
-    const kernels = new Kernels(data.programs, code, {}, size(data));
+    const kernels = new Kernels(data.programs, code, data.tables, size(data));
     this.main = kernels.call(data.main, this.n);
     this.one = kernels.call(data.main, 1);
     this.cycle = data.stages.length ? new Cycle(kernels, data.stages, this.n) : null;
@@ -120,6 +120,7 @@ export class Model {
   evaluate(values: Values): Wall | null {
     this.steady(values);
     if (Object.keys(this.data.positions.modes).length) this.setModes(values);
+    this.doubtful = false;
     if (this.cycle) {
       this.found = this.cycle.run(values, this.arrays);
       this.doubtful = Object.entries(this.found).some(([name, x]) => name.startsWith("doubt:") && !(x === 0));
@@ -128,6 +129,7 @@ export class Model {
     this.main.give(this.arrays);
     if (this.iterated && !this.approach(values)) return this.lost(0);
     this.main.run();
+    if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
     return this.reached(values);
   }
 

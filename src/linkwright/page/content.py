@@ -26,6 +26,7 @@ from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import fitted, placements
+from linkwright.study.loaded_cycle import SIZES
 from linkwright.words import LANGUAGES, catalogue, say
 
 Plain = dict[str, Any]
@@ -74,6 +75,8 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "main": main,
         "stages": stages,
         "values": values,
+        "tables": {name: table.numbers.tolist() for name, table in programs.followed.tables.items()},
+        "sizes": SIZES,
         "dimensions": [each.data() for each in dimensions(Document(text, "model", read_text), set(values))],
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},

@@ -26,8 +26,8 @@ from linkwright.page.dimensions import geometry_addresses
 from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group
 from linkwright.study.following import ITERATIONS
-from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.loaded_cycle import along_input
+from linkwright.study.limit_stages import constants
+from linkwright.study.loaded_cycle import SIZES, AlongInput, along_input
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -60,7 +60,7 @@ class PagePrograms:
         """Loads and friction whose course is data."""
         fields = self._plain.forces.fields_needed() if self.forces is not None else ()
         loads = [name.removeprefix("load:") for name in fields if name.startswith("load:")]
-        kept = tuple(name for name in loads if name not in self._followed)
+        kept = tuple(name for name in loads if name not in self.followed.names)
         return Held(kept, any(name.startswith("friction:") for name in fields))
 
     @cached_property
@@ -70,14 +70,14 @@ class PagePrograms:
         )
 
     @cached_property
-    def _followed(self) -> frozenset[str]:
-        """Loads whose magnitudes are traced over the input."""
+    def followed(self) -> AlongInput:
+        """Loads whose magnitudes are traced, and what they take."""
+        none = AlongInput(frozenset())
         if self.forces is None or self.iterated:
-            return frozenset()
+            return none
         names = [name for name in self._plain.forces.fields_needed() if name.startswith("load:")]
-        found = [along_input(self._plain, self.free, [name]) for name in names]
-        plain = [each for each in found if each is not None and not (each.constants or each.tables)]
-        return frozenset(name for each in plain for name in each.names)
+        found = [name for name in names if along_input(self._plain, self.free, [name]) is not None]
+        return along_input(self._plain, self.free, found) or none
 
     @cached_property
     def iterated(self) -> bool:
@@ -97,7 +97,7 @@ class PagePrograms:
             self.motion.positions,
             iterations=self._iterations,
             turning=True,
-            along_input=self._followed,
+            along_input=self.followed.names,
         )
         if self.motion.modes:
             groups = frozenset(name.removeprefix("mode:") for name in self.motion.modes)
@@ -107,10 +107,7 @@ class PagePrograms:
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
         """What is found before the main program: limit positions between which loads act."""
-        if not self._followed:
-            return ()
-        known = along_input(self._plain, self.free, [f"load:{name}" for name in self._followed])
-        return tuple(limit_stages(self.traced, known.outputs)) if known else ()
+        return tuple(self.followed.stages(self.traced)) if self.followed.outputs else ()
 
     @cached_property
     def cycle(self) -> CycleProgram:
@@ -176,7 +173,8 @@ class PagePrograms:
         for load in self.mechanism.loads:
             names += [*vector_names("lf", load), *vector_names("lp", load)]
         names += ["shake.x", "shake.y", "shake_moment"]
-        return {name: forces.value(name) for name in names}
+        found: dict[str, Scalar | bool] = {name: forces.value(name) for name in names}
+        return {**found, SIZES: self.followed.sizes(self.traced)} if self.followed.fallible else found
 
     @cached_property
     def dyads(self) -> tuple[Group, ...]:
@@ -185,7 +183,7 @@ class PagePrograms:
 
     def values(self) -> dict[str, float]:
         """Every parameter that a program takes, but those that the stages find."""
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced)}
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.followed.constants}
         wanted = dict.fromkeys([*self.main.parameters, *(self.cycle.dimensions if self.stages else ())])
         return {name: known[name] for name in wanted if name in known}
 
