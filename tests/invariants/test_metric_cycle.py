@@ -121,3 +121,45 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
         assert gradient[0] == pytest.approx((more - less) / (2 * step), rel=1e-6)
     finally:
         del REGISTRY._elements["pin_work"]
+
+
+def test_sweeps_and_sensitivities_take_design_numbers() -> None:
+    """A mechanism whose designs go side by side, and one with friction, whose designs are found one by one."""
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    toggles = crusher.dimension("toggle.length") * np.array([1.0, 1.002, 40.0])
+    found = lw.sweep(crusher, {"toggle.length": toggles}, outputs=["peak_reaction O5", "driver.effort max"])
+    assert found.ok.tolist() == [True, True, False]
+    alone = metrics(lw.solve_forces(crusher.with_dimensions({"toggle.length": float(toggles[1])})))
+    assert found["peak_reaction O5"][1] == pytest.approx(alone.value("peak_reaction", "O5"), rel=1e-11)
+    assert np.isnan(found["peak_reaction O5"][2])
+    assert "peak_reaction O5" in found.columns()
+    number = next(iter(found.summaries))
+    assert found.dimension(number) == "force"
+
+    slopes = lw.sensitivity(
+        crusher, of=["peak_reaction O5", "driver.effort rms"], by=["toggle.length", "jaw.mass"]
+    )
+    objective = lw.objective(crusher, "peak_reaction O5", vary=["toggle.length", "jaw.mass"])
+    value, gradient = objective(objective.start)
+    assert slopes.value("peak_reaction O5") == pytest.approx(value, rel=1e-13)
+    assert slopes.gradient("peak_reaction O5") == pytest.approx(gradient, rel=1e-11)
+
+
+def test_designs_that_go_one_by_one_have_the_same_numbers() -> None:
+    rubbing = lw.loads(
+        """
+format: 1
+name: rubbing slider-crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.7 m, mass: 2 kg, inertia: 0.05 kg·m²}
+  piston: {points: [B], mass: 3 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B, friction: 0.1}}
+driver: {turn: crank, about: O, speed: 120 rpm}
+"""
+    )
+    found = lw.sweep(rubbing, {"rod.length": [0.7, 0.71]}, outputs=["rms_input_torque", "stroke"])
+    alone = metrics(lw.solve_forces(rubbing.with_dimensions({"rod.length": 0.71})))
+    for name in ("rms_input_torque", "stroke"):
+        assert found[name][1] == alone.value(name)

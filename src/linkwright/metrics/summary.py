@@ -32,7 +32,7 @@ _GROWING = frozenset({"min", "max", "range", "peak", "argmin", "argmax"})
 
 @dataclass(frozen=True)
 class Summary:
-    """One summary of one output over the cycle.
+    """One summary of one output over the cycle; without a ``kind`` a registered design number.
 
     ``kind``: ``min``, ``max``, ``mean``, ``rms``; ``range`` = max - min (swing, stroke); ``peak`` = largest
     absolute value; ``argmin``, ``argmax``: the first driver's coordinate (rad or m) of the extreme.
@@ -44,11 +44,12 @@ class Summary:
     @property
     def name(self) -> str:
         """Its name in tables."""
-        return f"{self.output} {self.kind}"
+        return f"{self.output} {self.kind}".rstrip()
 
 
 def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
-    """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max.
+    """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max, the name
+    of a design number that number.
 
     Raises LinkwrightError for an unknown kind, and where nothing is asked.
     """
@@ -74,8 +75,17 @@ def is_summary(name: str) -> bool:
     return any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
 
 
+def is_metric(name: str) -> bool:
+    """Whether a text means a registered design number, not a summary of the output of the same name."""
+    from linkwright.metrics.base import METRICS
+
+    return name.partition(" ")[0] in METRICS and not is_summary(name)
+
+
 def _one(each: str | tuple[str, str]) -> list[Summary]:
     if isinstance(each, str):
+        if is_metric(each):
+            return [Summary(each, "")]
         output, _, kind = each.rpartition(" ")
         if not output or kind not in KINDS:
             output, dot, kind = each.rpartition(".")

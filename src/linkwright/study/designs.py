@@ -18,6 +18,7 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary, wanted
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.failures import Failure, explained
+from linkwright.study.metric_cycle import numbers_of
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
 from linkwright.words.sentence import Sentence
@@ -52,6 +53,7 @@ class Sweep(Frozen):
     unloaded: Mapping[int, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     branch_margin: Floats | None = None
+    dimensions: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def designs(self) -> int:
@@ -82,6 +84,8 @@ class Sweep(Frozen):
 
     def dimension(self, summary: Summary) -> str:
         """Name of the dimension of a summary's values; an extreme's place has the input's."""
+        if not summary.kind:
+            return self.dimensions[summary.output]
         if summary.kind in ("argmin", "argmax"):
             rotary = next(iter(over_cycle(self.mechanism, 1).rotary.values()))
             return "angle" if rotary else "length"
@@ -136,7 +140,9 @@ def sweep(
             ``C.velocity.x``, ``jaw.angle``, ``jaw.angular_velocity``, ``guide.displacement``, ``reaction O5 on jaw``,
             ``couple guide on slider``, ``driver.effort``, ``input_torque``, ``power``, ``shaking_force``,
             ``closeness`` (to a singular position, 0 there), ``transmission_angle B``. Kinds: min, max, mean, rms,
-            range, peak, argmin, argmax (see :class:`Summary`).
+            range, peak, argmin, argmax (see :class:`Summary`). Design numbers as well, with a subject if wanted:
+            ``rms_input_torque``, ``peak_reaction O5`` (those of :func:`metrics` that are formulas of such summaries);
+            they are exact between positions.
         steps: positions over the cycle.
         partial: keep summaries over the positions that a design reaches, where it does not reach all.
         threads: None for all cores; results do not depend on it.
@@ -154,20 +160,30 @@ def sweep(
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
-    run = SweepRun(
-        mechanism, columns, wanted(outputs), positions, Manner(partial, threads, backend, progress)
-    )
+    asked = wanted(outputs)
+    over_positions = tuple(each for each in asked if each.kind)
+    run = SweepRun(mechanism, columns, over_positions, positions, Manner(partial, threads, backend, progress))
     assembled, values = run.swept()
+    numbers = [each.output for each in asked if not each.kind]
+    dimensions: dict[str, str] = {}
+    if numbers:
+        passed = np.flatnonzero(assembled == positions.count)
+        found, dimensions, failed = numbers_of(
+            mechanism, columns, numbers, passed, threads=threads, backend=backend
+        )
+        values |= {Summary(name, ""): column for name, column in found.items()}
+        run.unloaded |= failed
     return Sweep(
         mechanism,
         columns,
         positions.count,
         assembled,
-        values,
+        {each: values[each] for each in asked},
         run.quantities,
         run.unloaded,
         run.traced.nominal.notes,
         run.margins,
+        dimensions,
     )
 
 

@@ -19,6 +19,7 @@ from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
 from linkwright.engine.trace import Scalar, Trace, absolute, maximum, sqrt
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.site import limit_name
@@ -31,6 +32,7 @@ from linkwright.study.limit_stages import limit_stages
 from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -79,6 +81,50 @@ def metric_cycle(
         if found.evaluate(nominal).certain.all():
             return found
     return None
+
+
+def numbers_of(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: Sequence[str],
+    designs: NDArray[np.intp],
+    *,
+    threads: int | None = None,
+    backend: Backend = "auto",
+) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
+    """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
+    designs for which they cannot be found.
+
+    Together as far as that is certain, the others one by one. Raises RequestError for a metric that applies to none.
+    """
+    count = len(next(iter(columns.values())))
+    values = {name: np.full(count, np.nan) for name in names}
+    dimensions: dict[str, str] = {}
+    cycle = metric_cycle(mechanism, columns, names)
+    sure = np.zeros(count, dtype=np.bool_)
+    if cycle is not None and len(cycle.terms) == len(names):
+        part = {address: column[designs] for address, column in columns.items()}
+        found = cycle.evaluate(part, threads=threads, backend=backend)
+        sure[designs] = found.certain
+        for each in cycle.terms:
+            values[each.name][designs[found.certain]] = found.values[each.name][found.certain]
+            dimensions[each.name] = each.dimension
+    failed: dict[int, str] = {}
+    for index in designs[~sure[designs]].tolist():
+        design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
+        try:
+            analysis = Analysis.of(solve_forces(design))
+            for name in names:
+                if (own := term(name, analysis)) is not None:
+                    values[name][index], dimensions[name] = own.measured(analysis), own.dimension
+        except RequestError:
+            raise
+        except LinkwrightError as error:
+            failed[index] = error.sentence
+    idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
+    if idle:
+        raise RequestError(Sentence("study.objective_metric", names=tuple(idle), name=mechanism.name))
+    return values, dimensions, failed
 
 
 @dataclass(frozen=True)

@@ -21,12 +21,11 @@ from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinetostatics.named import Quantity
-from linkwright.metrics.summary import KINDS, Summary, reductions, wanted
+from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import along_input
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
-from linkwright.study.terms import is_metric
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
@@ -200,7 +199,7 @@ def objective(
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
     if numbers or not others:
-        parts.append(_of_metrics(mechanism, names, numbers, steps, compiled))
+        parts.append(of_metrics(mechanism, names, numbers, steps, compiled))
     if others:
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
@@ -210,9 +209,10 @@ def objective(
     return Objective(names, np.array([known[name] for name in names]), parts)
 
 
-def _of_metrics(
+def of_metrics(
     mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
 ) -> Part:
+    """The weighted sum of registered metrics; raises RequestError where it has no gradient."""
     cycle = metric_cycle(mechanism, names, weights, steps=steps)
     if cycle is None:
         raise RequestError(Sentence("study.objective_loads", name=mechanism.name))

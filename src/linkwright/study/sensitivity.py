@@ -18,6 +18,7 @@ from linkwright.kinematics.explain import refusal
 from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary
 from linkwright.model.mechanism import Mechanism
+from linkwright.study.objective import of_metrics
 from linkwright.study.slopes import Slopes
 from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses
@@ -150,7 +151,8 @@ def sensitivity(
     Args:
         mechanism: where the derivatives are taken.
         of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
-            max, mean, rms, range, peak; the extremes are those of the positions.
+            max, mean, rms, range, peak; the extremes are those of the positions. Or design numbers, as in
+            :func:`objective`.
         by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
         steps: positions over the cycle.
         way: ``forward`` carries a derivative per dimension along with every line of the program, ``reverse`` sweeps
@@ -209,14 +211,15 @@ class _Derivation:
         self, traced: Traced, by: tuple[str, ...], asked: list[str | Summary], way: Way, backend: Backend
     ) -> None:
         self.traced, self.by, self.asked = traced, by, asked
-        names = [each.output if isinstance(each, Summary) else each for each in asked]
+        names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
         self.quantities = traced.quantities(names)
         self.work = Slopes(traced, self.quantities, by, backend)
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:
         alone = [each for each in self.asked if isinstance(each, str)]
-        summaries = [each for each in self.asked if isinstance(each, Summary)]
+        summaries = [each for each in self.asked if isinstance(each, Summary) and each.kind]
+        numbers = [each for each in self.asked if isinstance(each, Summary) and not each.kind]
         slopes: dict[tuple[str, str], Floats] = {}
         curves: dict[str, Floats] = {}
         for name in alone:
@@ -224,6 +227,8 @@ class _Derivation:
             slopes |= {(name, by): row for by, row in zip(self.by, self.work.forward(name), strict=True)}
         values = {summary: self._value(summary) for summary in summaries}
         gradients = {summary: self._gradient(summary) for summary in summaries}
+        for number in numbers:
+            values[number], gradients[number] = self._number(number.output)
         input_ = self.traced.nominal.input if self.traced.mechanism.drivers else np.zeros(1)
         return Sensitivity(
             self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities
@@ -239,6 +244,15 @@ class _Derivation:
     def _value(self, summary: Summary) -> float:
         curve = self._curve(summary.output)
         return float(_SUMMARIES[summary.kind](curve))
+
+    def _number(self, name: str) -> tuple[float, Floats]:
+        """A design number with its gradient."""
+        mechanism, found = self.traced.mechanism, np.zeros(len(self.by))
+        objective = of_metrics(mechanism, self.by, {name: 1.0}, 360, "numpy")
+        columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}
+        value, slopes = objective.many(columns, 1)
+        found[[self.by.index(by) for by in objective.names]] = slopes[0]
+        return float(value[0]), found
 
     def _gradient(self, summary: Summary) -> Floats:
         """Derivatives of a summary, as a weighted sum of those at the positions."""
@@ -267,6 +281,10 @@ class _Derivation:
         if summary.kind in ("min", "range"):
             weights[int(curve.argmin())] -= 1.0 if summary.kind == "range" else -1.0
         return weights
+
+
+def _is_number(each: str | Summary) -> bool:
+    return isinstance(each, Summary) and not each.kind
 
 
 def _range(curve: Floats) -> float:

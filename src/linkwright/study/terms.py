@@ -13,7 +13,6 @@ from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.base import Metric, Number
 from linkwright.metrics.flywheel import Flywheel
 from linkwright.metrics.outputs import turns_fully
-from linkwright.metrics.summary import is_summary
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
@@ -33,6 +32,12 @@ class Term:
     def parts(self) -> tuple[str, ...]:
         """The summaries that it is made of."""
         return tuple(dict.fromkeys(part for number in self.numbers for part in number.parts))
+
+    def measured(self, analysis: Analysis) -> float:
+        """The number of one machine."""
+        found = self.value({part: analysis.part(part).value for part in self.parts})
+        assert isinstance(found, float)
+        return float(found)
 
     def value(self, part: Mapping[str, Scalar]) -> Scalar:
         """The number from its parts: the worst of its subjects where a direction is better, else the first."""
@@ -109,11 +114,6 @@ def _first_joint(mechanism: Mechanism, link: str) -> str:
 
 def _nowhere(*parts: Extreme) -> float:
     return float("nan")
-
-
-def is_metric(name: str) -> bool:
-    """Whether a name means a registered metric, not a summary of the output of the same name."""
-    return metric_of(name) is not None and not is_summary(name)
 
 
 def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | None:
