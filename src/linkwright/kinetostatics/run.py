@@ -13,7 +13,7 @@ from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.words.sentence import Sentence
 
-#: Iterations of the friction, and the relative change at which it has converged.
+#: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400
 FRICTION_CHANGE = 1e-12
 
@@ -71,9 +71,9 @@ def with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]
     for _ in range(FRICTION_STEPS):
         forces = evaluated(motion, solver, fields, False)
         sizes = friction_sizes(terms, {t.field: _pressing(forces, t) for t in terms}, rates)
-        change, size = _change(fields, sizes, motion)
+        change = _change(fields, sizes, motion)
         fields = {**fields, **sizes}
-        if change <= FRICTION_CHANGE * size or size == 0.0:
+        if change <= FRICTION_CHANGE * max(term.arm for term in terms) * _largest(forces):
             return fields
         growing = growing + 1 if change > previous else 0
         if growing > 25 or not np.isfinite(change):
@@ -100,10 +100,14 @@ def _pressing(forces: Forces, term: FrictionTerm) -> Floats:
     return np.abs(n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0])
 
 
-def _change(old: dict[str, Floats], new: dict[str, Floats], motion: Motion) -> tuple[float, float]:
-    good = motion.ok
-    change = max(float(np.max(np.abs(new[k] - old[k])[good], initial=0.0)) for k in new)
-    return change, max(float(np.max(np.abs(new[k])[good], initial=0.0)) for k in new)
+def _change(old: dict[str, Floats], new: dict[str, Floats], motion: Motion) -> float:
+    return max(float(np.max(np.abs(new[k] - old[k])[motion.ok], initial=0.0)) for k in new)
+
+
+def _largest(forces: Forces) -> float:
+    """Size of the largest reaction: what friction is exact to, also where a joint carries next to nothing."""
+    rows = [forces.rows.row(name) for name in forces.rows.index if name.startswith("r:")]
+    return max(float(np.max(np.abs(row)[forces.motion.ok], initial=0.0)) for row in rows)
 
 
 def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, Floats]) -> str:
