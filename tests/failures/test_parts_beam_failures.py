@@ -69,7 +69,7 @@ def write(text: str) -> str:
     [
         ("bar", 'there is no link "bar"'),
         ("slider", "has no length"),
-        ("rocker", "do not lie on one straight line (C)"),
+        ("rocker", "do not lie on its axis (C)"),
     ],
 )
 def test_links(link: str, words: str) -> None:
@@ -85,4 +85,19 @@ def test_links(link: str, words: str) -> None:
 def test_stress_needs_the_whole_section() -> None:
     problem = parts.LinkBending(lw.load("gallery:crank_rocker"), "coupler", STEEL, SECTION)
     with pytest.raises(lw.ModelError, match="area and modulus"):
+        problem.solve()
+
+
+@pytest.mark.parametrize(
+    ("axis", "words"),
+    [
+        (("A", "Q"), "cannot run through Q"),
+        (("A", "B", "A"), "each once"),
+        (("A",), "two or more"),
+    ],
+)
+def test_an_axis_runs_through_points_of_the_link(axis: tuple[str, ...], words: str) -> None:
+    mechanism, section = lw.load("gallery:crank_rocker"), parts.Section(1e-6, 1e-3, 1e-5)
+    problem = parts.LinkBending(mechanism, "coupler", STEEL, section, axis=axis)
+    with pytest.raises(lw.ModelError, match=words):
         problem.solve()

@@ -206,3 +206,94 @@ def test_a_load_on_a_link_is_a_force_at_its_place() -> None:
     found = parts.LinkBending(lw.loads(text), "coupler", STEEL, sections.circle(0.03), steps=12).solve()
     assert np.abs(found.moment).max(axis=1) == pytest.approx(np.full(12, 100 * 0.2 * 0.3 / 0.5), rel=1e-9)
     assert found.stations[found.worst(found.moment)[1]] == pytest.approx(0.2)
+
+
+def test_a_bar_between_pins_sags_as_a_simple_beam() -> None:
+    """w = P a² b²/(3 E I L) under the force, away from it as in every textbook; the ends stay on their line."""
+    text = FOURBAR.replace("mass: 6 kg, inertia: 0.125 kg·m²", "also: {Q: [0.2 m, 0 m]}")
+    text += "loads:\n  P: {kind: force, on: coupler, at: Q, normal_to: [B, C], magnitude: 100 N}\n"
+    section = sections.circle(0.03)
+    found = parts.LinkBending(lw.loads(text), "coupler", STEEL, section, steps=12).solve()
+    a, b, length, rigidity = 0.2, 0.3, 0.5, STEEL.modulus * section.second_moment
+    s = found.stations
+    left = 100 * b * s * (length**2 - b**2 - s**2) / (6 * length * rigidity)
+    right = 100 * a * (length - s) * (length**2 - a**2 - (length - s) ** 2) / (6 * length * rigidity)
+    expected = np.where(s <= a, left, right)
+    assert np.abs(np.abs(found.deflection[:, :, 1]) - expected).max() < 1e-9 * expected.max()
+
+
+BELL_CRANK = """
+format: 1
+frame: {points: {O: [0 m, 0 m], P: [0.5 m, 0.1 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: [A, B], length: 0.45 m}
+  bell: {points: {P: [0 m, 0 m], B: [0.4 m, 0 m], C: [0 m, 0.3 m]}, mass: 7 kg, inertia: INERTIA,
+         mass_centre: [CENTRE]}
+assembly: {B: left}
+drawing: {A: [0.1 m, 0 m]}
+driver: {turn: crank, about: O, speed: 120 rpm}
+gravity: [0, -9.81 m/s²]
+loads: {F: {kind: force, on: bell, at: C, direction: 20 deg, magnitude: 300 N}}
+"""
+
+
+def test_a_bell_crank_of_two_even_bars_is_cut_as_the_statics_of_its_arms_demand() -> None:
+    """Arms of 0.4 m and 0.3 m with 10 kg/m: what acts on the arm beyond a cut, summed by itself."""
+    centre = np.array([4 * 0.2, 3 * 0.15]) / 7
+    bars = 4 * 0.4**2 / 12 + 4 * ((0.2 - centre[0]) ** 2 + centre[1] ** 2)
+    bars += 3 * 0.3**2 / 12 + 3 * (centre[0] ** 2 + (0.15 - centre[1]) ** 2)
+    text = BELL_CRANK.replace("INERTIA", f"{float(bars)!r} kg*m^2").replace(
+        "CENTRE", f"{float(centre[0])!r} m, {float(centre[1])!r} m"
+    )
+    text = text.replace("drawing: {A: [0.1 m, 0 m]}\n", "")
+    mechanism = lw.loads(text)
+    problem = parts.LinkBending(
+        mechanism, "bell", STEEL, sections.rectangle(0.03, 0.05), steps=24, axis=("B", "P", "C")
+    )
+    found = problem.solve()
+    density = found.mass.density
+    assert density(np.linspace(0, 0.7, 9)) == pytest.approx(np.full(9, 10.0), rel=1e-9)
+    assert found.closure < 1e-9 * np.abs(found.normal).max()
+    link, e = found.forces.motion.link("bell"), found.forces.motion.link("bell").direction
+    ends = {"B": (0.4, e), "C": (0.3, np.stack([-e[:, 1], e[:, 0]], axis=1))}
+    force = {
+        "B": found.forces.reaction("B", on="bell"),
+        "C": 300 * np.array([np.cos(np.pi / 9), np.sin(np.pi / 9)]),
+    }
+    for name, (arm, way) in ends.items():
+        beside = np.stack([-way[:, 1], way[:, 0]], axis=1)
+        tip = (np.broadcast_to(force[name], beside.shape) * beside).sum(axis=1) * arm
+        weight = -9.81 * beside[:, 1] * 10 * arm**2 / 2
+        inertia = -10 * arm**3 / 3 * link.angular_acceleration
+        expected = np.abs(tip + weight + inertia)
+        at = np.flatnonzero(np.isclose(found.stations, 0.4))
+        beyond = at[0] if name == "B" else at[-1]
+        assert np.abs(found.moment[:, beyond]) == pytest.approx(expected, rel=1e-8, abs=1e-8)
+
+
+def test_the_ends_of_a_bent_link_move_as_those_of_two_cantilevers() -> None:
+    """Both arms of a massless bell crank clamped at the corner: the ends move by F l³/(3 E I) and F l/(E A) each."""
+    text = BELL_CRANK.replace("mass: 7 kg, inertia: INERTIA,\n         mass_centre: [CENTRE]", "mass: 0 kg")
+    text = text.replace("drawing: {A: [0.1 m, 0 m]}\n", "").replace("gravity: [0, -9.81 m/s²]\n", "")
+    section = sections.rectangle(0.03, 0.05)
+    found = parts.LinkBending(lw.loads(text), "bell", STEEL, section, steps=8, axis=("B", "P", "C")).solve()
+    rigidity, stretch = STEEL.modulus * section.second_moment, STEEL.modulus * section.area
+    u = found.deflection
+    e = found.forces.motion.link("bell").direction
+    force = found.forces.reaction("B", on="bell")
+    across = (force * np.stack([-e[:, 1], e[:, 0]], axis=1)).sum(axis=1)
+    along = (force * e).sum(axis=1)
+    load = 300 * np.array([np.cos(np.pi / 9), np.sin(np.pi / 9)])
+    up = load @ np.stack([-e[:, 1], e[:, 0]], axis=0)
+    sagged = across * 0.4**3 / (3 * rigidity)
+    leaned = -(load @ e.T) * 0.3**3 / (3 * rigidity)
+    distance = np.array([0.4, -0.3])
+    tips = {"B": (along * 0.4 / stretch, sagged), "C": (-leaned, up * 0.3 / stretch)}
+    change = np.array([tips["B"][0] - tips["C"][0], tips["B"][1] - tips["C"][1]])
+    shorter = distance @ change / np.hypot(*distance)
+    first = -u[:, 0, 0, None] * [1.0, 0.0] - u[:, 0, 1, None] * [0.0, 1.0]
+    last = u[:, -1, 0, None] * [0.0, 1.0] - u[:, -1, 1, None] * [1.0, 0.0]
+    gained = (first - last) @ distance / np.hypot(*distance)
+    assert gained == pytest.approx(shorter, rel=1e-8, abs=1e-12)
+    assert np.abs((first - last) @ np.array([0.3, 0.4])).max() < 1e-12

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -16,9 +15,9 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.fields import Quantity, Text, Word
 from linkwright.model.mechanism import Link, Mechanism
-from linkwright.parts.base import Floats, Problem, fault
+from linkwright.parts.base import Floats, fault
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
-from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.registry import nearest
 from linkwright.study.ranges import dimension_of
 
@@ -111,7 +110,7 @@ LIMIT = {"lower": AnyQuantity(doc="lower limit"), "upper": AnyQuantity(doc="uppe
 
 
 @dataclass(frozen=True)
-class ToleranceStudy(Problem):
+class ToleranceStudy(OfMechanism):
     """Tolerances by address of a dimension (``crank.length``), clearances by pin, and the outputs ``of`` interest.
 
     ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``); ``curves``:
@@ -145,10 +144,6 @@ class ToleranceStudy(Problem):
     steps: int = 360
     name: str = ""
     source: str = ""
-
-    @classmethod
-    def of_file(cls, values: Mapping[str, Any], folder: Path) -> ToleranceStudy:
-        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
 
     def findings(self) -> list[Finding]:
         found = (

@@ -1,4 +1,4 @@
-"""Bending of a mechanism's straight link under its joint forces, loads, weight and inertia, over the cycle."""
+"""Bending of a mechanism's link under its joint forces, loads, weight and inertia, over the cycle."""
 
 from __future__ import annotations
 
@@ -6,42 +6,45 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.polynomial import Polynomial
 
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.fields import Quantity, Text
 from linkwright.model.mechanism import Link, Mechanism
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Floats, Result, Row, fault
+from linkwright.parts.beams.axis import LinkAxis, Numbers, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text
 from linkwright.parts.beams.materials import Material, material_field
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.display import shown
-from linkwright.parts.fields import Whole
-from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.parts.fields import Listed, Whole
+from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6
-#: Stations along the link.
-STATIONS = 201
 
 
 @dataclass(frozen=True)
-class LinkBending(Problem):
-    """The straight ``link`` of a ``mechanism`` with one ``section`` along its length; ``safety`` wanted at least."""
+class LinkBending(OfMechanism):
+    """The ``link`` of a ``mechanism`` with one ``section`` along its length; ``safety`` wanted at least.
+
+    ``axis``: names of the points through which the link's axis runs, in their order; straight unless given.
+    """
 
     kind: ClassVar[str] = "link_bending"
     fields: ClassVar[Mapping[str, Any]] = {
         "mechanism": MECHANISM,
         "link": Text(required=True, doc="name of the link"),
+        "axis": Listed(
+            Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"
+        ),
         "material": material_field(),
         "section": section_field(required=True, doc="cross section, bent in the plane of the mechanism"),
         "safety": Quantity(
@@ -55,12 +58,9 @@ class LinkBending(Problem):
     section: Section
     safety: float = 1.0
     steps: int = 360
+    axis: tuple[str, ...] = ()
     name: str = ""
     source: str = ""
-
-    @classmethod
-    def of_file(cls, values: Mapping[str, Any], folder: Path) -> LinkBending:
-        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
 
     def findings(self) -> list[Finding]:
         links = self.mechanism.links
@@ -70,11 +70,32 @@ class LinkBending(Problem):
         link = links[self.link]
         if len(link.points) < 2:
             return [fault("beam.one_point", "link", link=self.link)]
+        strange = [name for name in self.axis if name not in link.points]
+        if strange or len(set(self.axis)) < len(self.axis) or len(self.axis) == 1:
+            known = ", ".join(link.points)
+            return [
+                fault("beam.axis", "axis", link=self.link, names=", ".join(strange or self.axis), known=known)
+            ]
         found = require_modulus(self.section, "section")
-        off = _off_line(link)
+        off = self._off_axis(link)
         if off:
             found.append(fault("beam.crooked", "link", link=self.link, names=", ".join(off)))
+        elif SpreadMass(self.link_axis, link).gap > STRAIGHT:
+            found.append(fault("beam.mass_off", "link", link=self.link))
         return found
+
+    @property
+    def link_axis(self) -> LinkAxis:
+        """The axis along which the link is cut."""
+        return LinkAxis.of(self.mechanism.links[self.link], self.axis)
+
+    def _off_axis(self, link: Link) -> list[str]:
+        """Names of points, and of the mass centre of a straight link with mass, that do not lie on the axis."""
+        places = {**link.points, **({"mass_centre": link.centre} if link.mass and not self.axis else {})}
+        gaps = self.link_axis.nearest(np.array(list(places.values())))[1]
+        return [
+            name for name, gap in zip(places, gaps, strict=True) if gap > STRAIGHT * self.link_axis.length
+        ]
 
     def solve(self) -> LinkStress:
         """Stress over the cycle. Raises ModelError with all findings, and where the cycle is not passed."""
@@ -88,35 +109,36 @@ class LinkBending(Problem):
         return LinkStress(self, forces)
 
 
-def axis_of(link: Link) -> tuple[Floats, Floats]:
-    """A point and the unit vector of the line through the two points of a link that are farthest apart."""
-    places = np.array(list(link.points.values()))
-    gaps = np.linalg.norm(places[:, None] - places[None], axis=2)
-    first, last = np.unravel_index(int(gaps.argmax()), gaps.shape)
-    start, end = places[min(first, last)], places[max(first, last)]
-    return start, (end - start) / np.linalg.norm(end - start)
+@dataclass(frozen=True)
+class PointForce:
+    """What acts at a point of a link: ``place`` s (n,) m, ``force`` (n, 2) N and ``point`` (n, 2) m in the link's
+    axes, ``couple`` (n,) N·m."""
+
+    name: str
+    place: Floats
+    force: Floats
+    point: Floats
+    couple: Floats
 
 
-def _off_line(link: Link) -> list[str]:
-    """Names of points, and of the mass centre of a link with mass, that do not lie on its line."""
-    start, along = axis_of(link)
-    places = {**link.points, **({"mass_centre": link.centre} if link.mass else {})}
-    length = max(abs(float(np.dot(np.subtract(p, start), along))) for p in link.points.values())
-    across = {
-        name: float(np.cross([*along, 0], [*np.subtract(p, start), 0])[2]) for name, p in places.items()
-    }
-    return [name for name, gap in across.items() if abs(gap) > STRAIGHT * length]
+def cross(a: Floats, b: Floats) -> Floats:
+    """a × b of plane vectors."""
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+
+
+def _summed(steps: Floats) -> Floats:
+    """Sums from zero on along the second axis."""
+    return np.concatenate([np.zeros_like(steps[:, :1]), np.cumsum(steps, axis=1)], axis=1)
 
 
 @dataclass(frozen=True, repr=False)
 class LinkStress(Result):
     """Bending moment, shear and normal force along a link at every position of the cycle, and what they mean.
 
-    The link's mass is spread evenly about its centre over the length √(12 J/m) that gives its inertia J (a uniform
-    bar: over its length); where that does not fit, as ρ(s) = r0 + r1 s + r2 s² with the same ∫ρ, ∫ρs, ∫ρs². So joint
-    forces, loads, weight and −ρ(s)·a(s) are in exact balance: beyond the last point no force is left
-    (``closure``). With the cut at s, V(s) = Σ F below, M(s) = Σ F·(s − s_k) − Σ C,
-    both with the line loads; N is positive in tension. Stress |N|/A + |M|/W.
+    The link's mass is spread along its axis (see :class:`SpreadMass`). So joint forces, loads, weight and −ρ(s)·a(s)
+    are in exact balance: beyond the last point no force is left (``closure``). With the cut at s, V(s) = Σ F below
+    across the axis, M(s) = Σ F·(s − s_k) − Σ C, both with the line loads; N is positive in tension. Stress
+    |N|/A + |M|/W, that of a straight bar at corners as well.
 
     ``stations`` (k,) m along the link, those of forces twice (left and right); ``moment``, ``shear``, ``normal``
     (n, k).
@@ -136,174 +158,154 @@ class LinkStress(Result):
         return self.problem.mechanism.links[self.problem.link]
 
     @cached_property
-    def line(self) -> tuple[Floats, Floats]:
-        """Origin and direction of the s axis in the link's axes."""
-        return axis_of(self.link)
-
-    def place(self, point: tuple[float, float]) -> float:
-        """s of a point of the link, m."""
-        return float(np.dot(np.subtract(point, self.line[0]), self.line[1]))
+    def axis(self) -> LinkAxis:
+        """The axis along which the link is cut."""
+        return self.problem.link_axis
 
     @cached_property
-    def span(self) -> tuple[float, float]:
-        """Ends of the link along s, m."""
-        places = [self.place(p) for p in self.link.points.values()]
-        return min(places), max(places)
+    def mass(self) -> SpreadMass:
+        """The link's mass along its axis."""
+        return SpreadMass(self.axis, self.link)
 
     @cached_property
-    def mass_span(self) -> tuple[float, float]:
-        """Where the mass lies, m: evenly about its centre over √(12 J/m); all over, where that is too long."""
-        link, (a, b) = self.link, self.span
-        if not link.mass or not link.inertia:
-            return a, b
-        centre, half = self.place(link.centre), math.sqrt(3.0 * link.inertia / link.mass)
-        within = 1e-9 * (b - a)
-        if centre - half >= a - within and centre + half <= b + within:
-            return max(centre - half, a), min(centre + half, b)
-        return a, b
+    def _laid_out(self) -> tuple[Floats, Numbers]:
+        return self.axis.stations(
+            [float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]]
+        )
 
-    @cached_property
-    def density(self) -> Polynomial:
-        """ρ(s) within ``mass_span``, kg/m."""
-        link, (a, b) = self.link, self.mass_span
-        if not link.mass:
-            return Polynomial([0.0])
-        centre, middle, half = self.place(link.centre), (a + b) / 2, (b - a) / 2
-        offset = (centre - middle) / half
-        moments = np.array([1.0, offset, link.inertia / (link.mass * half**2) + offset**2])
-        legendre = [[2.0, 0.0, 2 / 3], [0.0, 2 / 3, 0.0], [2 / 3, 0.0, 2 / 5]]
-        coefficients = np.linalg.solve(np.array(legendre), moments) * link.mass / half
-        tidy = np.where(np.abs(coefficients) < 1e-9 * np.abs(coefficients).max(), 0.0, coefficients)
-        return Polynomial(tidy)(Polynomial([-middle / half, 1.0 / half]))
-
-    @cached_property
+    @property
     def stations(self) -> Floats:
-        """Places along the link, m, every point of the link twice."""
-        places = [self.place(p) for p in self.link.points.values()]
-        return np.sort(np.concatenate([np.linspace(*self.span, STATIONS), places, places]))
+        """Places along the axis (k,), m, every point of the link twice."""
+        return self._laid_out[0]
 
     @cached_property
-    def _axes(self) -> tuple[Floats, Floats]:
-        """Unit vectors along and across the link, (n, 2) each, in frame axes."""
+    def _ways(self) -> tuple[Floats, Floats, Floats]:
+        """Points of the stations, unit vectors along and across the axis there, (k, 2) each, in the link's axes."""
+        s, piece = self._laid_out
+        along = self.axis.tangents[piece]
+        return self.axis.at(s, piece), along, np.stack([-along[:, 1], along[:, 0]], axis=1)
+
+    def _turned(self, vectors: Floats) -> Floats:
+        """Vectors (n, 2) of the frame in the axes of the link."""
         e = self.forces.motion.link(self.problem.link).direction
-        tx, ty = self.line[1]
-        along = np.stack([e[:, 0] * tx - e[:, 1] * ty, e[:, 1] * tx + e[:, 0] * ty], axis=1)
-        return along, np.stack([-along[:, 1], along[:, 0]], axis=1)
+        x, y = vectors[:, 0], vectors[:, 1]
+        return np.stack([x * e[:, 0] + y * e[:, 1], y * e[:, 0] - x * e[:, 1]], axis=1)
+
+    def _local(self, places: Floats) -> Floats:
+        """Places (n, 2) of the frame in the axes of the link."""
+        first, own = next(iter(self.link.points.items()))
+        origin = self.forces.motion.point(f"{self.problem.link}.{first}").position
+        return self._turned(places - origin) + own
 
     @cached_property
-    def point_forces(self) -> list[tuple[str, Floats, Floats, Floats, Floats]]:
-        """Name, place s, forces along and across (N) and couple (N·m) of all that acts at points, (n,) each."""
+    def point_forces(self) -> list[PointForce]:
+        """All that acts at points."""
         return [*self._joint_forces(), *self._driver_forces(), *self._load_forces()]
 
-    def _parts(self, force: Floats) -> tuple[Floats, Floats]:
-        along, across = self._axes
-        return (force * along).sum(axis=1), (force * across).sum(axis=1)
-
-    def _joint_place(self, joint: str) -> float:
+    def _seat(self, joint: str) -> Floats:
+        """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
         given = self.problem.mechanism.joints[joint]
-        point = given.at if isinstance(given, PrismaticJoint) else getattr(given, "at", joint)
-        if point in self.link.points:
-            return self.place(self.link.points[point])
-        through = getattr(given, "through", None)
-        return self.place(self.link.points.get(str(through), next(iter(self.link.points.values()))))
+        if isinstance(given, PrismaticJoint) and given.guide == self.problem.link:
+            return self._local(self.forces.motion.point(f"{given.block}.{given.at}").position)
+        point = getattr(given, "at", joint)
+        return np.tile(self.link.points[point], (self.forces.steps, 1))
 
-    def _joint_forces(self) -> list[tuple[str, Floats, Floats, Floats, Floats]]:
+    def _joint_forces(self) -> list[PointForce]:
         found, name = [], self.problem.link
         for joint, given in self.problem.mechanism.joints.items():
             if name in given.joined:
-                force = self.forces.reaction(joint, on=name)
-                place = self._block_place(joint)
-                found.append((joint, place, *self._parts(force), self.forces.couple(joint, on=name)))
+                force, seat = self._turned(self.forces.reaction(joint, on=name)), self._seat(joint)
+                couple = self.forces.couple(joint, on=name)
+                found.append(PointForce(joint, self.axis.nearest(seat)[0], force, seat, couple))
         return found
 
-    def _block_place(self, joint: str) -> Floats:
-        """s of a joint's force, (n,): the block's point where the link is the guide."""
-        given = self.problem.mechanism.joints[joint]
-        count = self.forces.steps
-        if not (isinstance(given, PrismaticJoint) and given.guide == self.problem.link):
-            return np.full(count, self._joint_place(joint))
-        motion = self.forces.motion
-        block = motion.point(f"{given.block}.{given.at}").position
-        return self._along(block)
-
-    def _along(self, places: Floats) -> Floats:
-        """s of places of the frame, (n,)."""
-        first = next(iter(self.link.points))
-        origin = self.forces.motion.point(f"{self.problem.link}.{first}").position
-        return self._parts(places - origin)[0] + self.place(self.link.points[first])
-
-    def _driver_forces(self) -> list[tuple[str, Floats, Floats, Floats, Floats]]:
+    def _driver_forces(self) -> list[PointForce]:
         found = []
         for name, driver in self.problem.mechanism.drivers.items():
             if self.problem.link not in (driver.link, driver.relative_to):
                 continue
             effort = self.forces.driver_effort(name) * (1.0 if driver.link == self.problem.link else -1.0)
-            place = self._block_place(driver.joint)
+            seat = self._seat(driver.joint)
+            force, couple = np.zeros((len(effort), 2)), effort
             if isinstance(self.problem.mechanism.joints[driver.joint], PrismaticJoint):
-                force = effort[:, None] * self.forces.guide_direction(driver.joint)
-                found.append((name, place, *self._parts(force), np.zeros_like(effort)))
-            else:
-                found.append((name, place, np.zeros_like(effort), np.zeros_like(effort), effort))
+                force = self._turned(effort[:, None] * self.forces.guide_direction(driver.joint))
+                couple = np.zeros_like(effort)
+            found.append(PointForce(name, self.axis.nearest(seat)[0], force, seat, couple))
         return found
 
-    def _load_forces(self) -> list[tuple[str, Floats, Floats, Floats, Floats]]:
-        """The resultant of all loads on the link, where its line meets the link, the rest of its moment a couple."""
+    def _load_forces(self) -> list[PointForce]:
+        """The resultant of all loads on the link, where it meets the axis; a couple where it passes by."""
         link = self.problem.link
         fx, fy, moment = self.forces.fetch((f"on:{link}.x", f"on:{link}.y", f"on:{link}.m"))
         if not (np.any(fx) or np.any(fy) or np.any(moment)):
             return []
         force = np.stack([fx, fy], axis=1)
-        first = next(iter(self.link.points))
+        first, own = next(iter(self.link.points.items()))
         origin = self.forces.motion.point(f"{link}.{first}").position
-        about = moment - (origin[:, 0] * fy - origin[:, 1] * fx)
-        along, across = self._parts(force)
-        with np.errstate(all="ignore"):
-            place = np.where(across != 0.0, about / across, 0.0) + self.place(self.link.points[first])
-        place = np.clip(np.nan_to_num(place), *self.span)
-        couple = about - across * (place - self.place(self.link.points[first]))
-        return [("loads", place, along, across, couple)]
-
-    @cached_property
-    def _spread(self) -> tuple[list[Polynomial], list[Floats]]:
-        """Line loads: polynomials of s with weights (n,): across ρ·(−a_n + g_n), ρ·s·(−α); along the same way."""
-        motion, link = self.forces.motion.link(self.problem.link), self.link
-        gravity = np.asarray(self.problem.mechanism.gravity)
-        still = np.zeros((self.forces.steps, 2))
-        acceleration = motion.centre.acceleration if link.mass else still
-        along, across = self._parts(gravity - acceleration)
-        arm = Polynomial([-self.place(link.centre), 1.0])
-        return [self.density, self.density * arm], [across, -motion.angular_acceleration, along,
-                                                   motion.angular_velocity**2]  # fmt: skip
+        turned = self._turned(force)
+        about = moment - cross(origin, force) + cross(np.array(own, dtype=float), turned)
+        place, couple = self.axis.crossed(turned, about)
+        piece = np.clip(
+            np.searchsorted(self.axis.places, place, side="right") - 1, 0, len(self.axis.tangents) - 1
+        )
+        return [PointForce("loads", place, turned, self.axis.at(place, piece), couple)]
 
     @cached_property
     def _cut(self) -> tuple[Floats, Floats, Floats]:
         """Shear, moment, normal (n, k): sums of all that acts below every station."""
-        s, (start, end) = self.stations, self.mass_span
-        shapes, (across, turning, along, swinging) = self._spread
-        inside, beyond = np.clip(s, start, end), np.maximum(s - end, 0.0)
-        once = [p.integ(lbnd=start) for p in shapes]
-        first = [p(inside) for p in once]
-        second = [p.integ(lbnd=start)(inside) + p(end) * beyond for p in once]
-        shear = np.outer(across, first[0]) + np.outer(turning, first[1])
-        moment = np.outer(across, second[0]) + np.outer(turning, second[1])
-        normal = -np.outer(along, first[0]) - np.outer(swinging, first[1])
-        for _, place, force_along, force_across, couple in self.point_forces:
-            below = self._below(place)
-            reach = s[None, :] - place[:, None]
-            shear += below * force_across[:, None]
-            moment += below * (force_across[:, None] * reach - couple[:, None])
-            normal -= below * force_along[:, None]
-        return shear, moment, normal
+        motion, (points, along, across) = self.forces.motion.link(self.problem.link), self._ways
+        still = np.zeros((self.forces.steps, 2))
+        acceleration = motion.centre.acceleration if self.link.mass else still
+        pull = self._turned(np.asarray(self.problem.mechanism.gravity) - acceleration)
+        alpha, swing = motion.angular_acceleration[:, None], motion.angular_velocity[:, None] ** 2
+        m0, m1, m2 = self.mass.below(*self._laid_out)
+        turned = np.stack([-m1[:, 1], m1[:, 0]], axis=1)
+        force = m0[:, None] * pull[:, None] - alpha[:, :, None] * turned + swing[:, :, None] * m1
+        centre = np.array(self.link.centre, dtype=float)
+        moment = cross(centre, force) + cross(m1[None], pull[:, None]) - alpha * m2
+        for each in self.point_forces:
+            below = self._below(each.place)
+            force = force + below[:, :, None] * each.force[:, None]
+            moment = moment + below * (cross(each.point, each.force) + each.couple)[:, None]
+        left = cross(points[None], force) - moment
+        return (force * across).sum(axis=2), left, -(force * along).sum(axis=2)
 
     def _below(self, place: Floats) -> Floats:
         """1 where a force at ``place`` (n,) is below a station: of equal stations from the second on."""
         s = self.stations
-        repeated = np.append(False, np.isclose(s[1:], s[:-1], atol=1e-12 * max(abs(s[0]), abs(s[-1]))))
+        repeated = np.append(False, np.isclose(s[1:], s[:-1], atol=1e-12 * self.axis.length))
         gap = s[None, :] - place[:, None]
-        near = np.abs(gap) <= 1e-9 * (self.span[1] - self.span[0])
+        near = np.abs(gap) <= 1e-9 * self.axis.length
         final = np.zeros(len(s), dtype=bool)
         final[-1] = True
         return np.where(near, (repeated | final)[None, :], gap > 0).astype(float)
+
+    @cached_property
+    def deflection(self) -> Floats:
+        """How far every station moves by bending and stretching, (n, k, 2) m along and across the axis there.
+
+        Against the line from the first to the last corner, whose ends stay on it: du/ds = θ n + N/(E A) t,
+        dθ/ds = M/(E I).
+        """
+        points, along, across = self._ways
+        section, modulus = self.problem.section, self.problem.material.modulus
+        bend, shear = (
+            self.moment / (modulus * section.second_moment),
+            self.shear / (modulus * section.second_moment),
+        )
+        h = np.diff(self.stations)
+        turn = _summed(0.5 * h * (bend[:, 1:] + bend[:, :-1]) + h**2 / 12 * (shear[:, :-1] - shear[:, 1:]))
+        rise = 0.5 * h * (turn[:, 1:] + turn[:, :-1]) + h**2 / 12 * (bend[:, :-1] - bend[:, 1:])
+        strain = self.normal / (modulus * (section.area or math.inf))
+        stretch = 0.5 * h * (strain[:, 1:] + strain[:, :-1])
+        moved = _summed(rise[:, :, None] * across[1:] + stretch[:, :, None] * along[1:])
+        chord = points[-1] - points[0]
+        if chord @ chord > 0.0:
+            aside = np.array([-chord[1], chord[0]])
+            arms = points - points[0]
+            held = -(moved[:, -1] @ aside) / (chord @ chord)
+            moved = moved + held[:, None, None] * np.stack([-arms[:, 1], arms[:, 0]], axis=1)
+        return np.stack([(moved * along).sum(axis=2), (moved * across).sum(axis=2)], axis=2)
 
     @property
     def shear(self) -> Floats:
@@ -330,7 +332,7 @@ class LinkStress(Result):
     def closure(self) -> float:
         """Largest force (N) left beyond the last point: zero but for rounding."""
         ends = [np.abs(each[:, -1]).max() for each in (self.shear, self.normal)]
-        return float(max(*ends, np.abs(self.moment[:, -1]).max() / (self.span[1] - self.span[0])))
+        return float(max(*ends, np.abs(self.moment[:, -1]).max() / self.axis.length))
 
     def worst(self, values: Floats) -> tuple[int, int]:
         """Position and station of the largest size."""
@@ -350,12 +352,13 @@ class LinkStress(Result):
         return None if strength is None else float(np.abs(self.moment).max()) * self.problem.safety / strength
 
     def columns(self) -> dict[str, Floats]:
-        """Over the cycle: input, the largest moment and normal force by size, the largest stress."""
+        """Over the cycle: input, the largest moment and normal force by size, the largest stress and deflection."""
         return {
             "input": self.forces.motion.input,
             "moment [N·m]": np.abs(self.moment).max(axis=1),
             "normal [N]": np.abs(self.normal).max(axis=1),
             "stress [Pa]": self.stress.max(axis=1),
+            "deflection [m]": np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1]).max(axis=1),
         }
 
     def blocks(self, say: Say) -> list[Block]:
@@ -369,6 +372,8 @@ class LinkStress(Result):
                 Row("safety", self.safety),
                 Row("needed_modulus", self.needed_modulus, "section_modulus"),
             ]
+        size = np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
+        rows.append(self._row("largest_deflection", size, "length", say))
         rows.append(Row("closure", self.closure, "force"))
         return [Block("cycle", say("beam.cycle"), rows, self._remarks(say))]
 
@@ -383,32 +388,32 @@ class LinkStress(Result):
 
     def _remarks(self, say: Say) -> list[str]:
         found = []
-        a, b = self.mass_span
-        if (a, b) != self.span:
+        a, b = self.mass.span
+        if (a, b) != (0.0, self.axis.length):
             found.append(
                 say(
                     "beam.mass_span", link=self.problem.link, start=shown(a, "length"), end=shown(b, "length")
                 )
             )
-        if self.density(np.linspace(a, b, 101)).min() < -1e-9 * max(self.link.mass, 1e-300) / (b - a):
+        if self.mass.density(np.linspace(a, b, 101)).min() < -1e-9 * max(self.link.mass, 1e-300) / (b - a):
             found.append(say("beam.negative_density", link=self.problem.link))
-        if any(name == "loads" for name, *_ in self.point_forces):
+        if any(each.name == "loads" for each in self.point_forces):
             found.append(say("beam.as_resultant", link=self.problem.link))
         return found
 
     def steps(self, say: Say) -> list[Step]:
         i, k = self.worst(self.stress)
         step = Step("1", say("beam.link_position", at=self._input(i)))
-        a, b = self.mass_span
-        density = np.asarray(self.density.coef, dtype=float)
+        a, b = self.mass.span
+        density = np.asarray(self.mass.density.coef, dtype=float)
         largest = np.abs(density * (b - a) ** np.arange(len(density))).max()
         text = polynomial_text(density, largest, b - a).replace("ξ", "s")
         step.say(f"{say('beam.link_density')} {text} kg/m")
         step.say(say("beam.link_forces"))
-        for name, place, along, across, couple in self.point_forces:
-            where = shown(float(place[i]), "length")
-            values = f"({shown(float(along[i]), 'force')}, {shown(float(across[i]), 'force')})"
-            step.say(f"  {name}, s = {where}: {values}, {shown(float(couple[i]), 'torque')}")
+        for each in self.point_forces:
+            where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
+            values = f"({shown(x, 'force')}, {shown(y, 'force')})"
+            step.say(f"  {each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
         cut = Step("2", say("beam.link_cut"))
         put(cut, "s", "", float(self.stations[k]), "length")
         put(cut, "V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -16,10 +15,10 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.model.fields import Quantity, Text
 from linkwright.model.mechanism import Mechanism
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.display import shown
 from linkwright.parts.fields import Whole
-from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.steps import put
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
 from linkwright.words import Say
@@ -27,7 +26,7 @@ from linkwright.worked.page import Step
 
 
 @dataclass(frozen=True)
-class Conveyor(Problem):
+class Conveyor(OfMechanism):
     """The ``link`` of a ``mechanism`` is a trough that does not turn; its surface rises by ``incline`` rad along +x.
 
     ``friction`` at rest, ``sliding_friction`` in motion (the same unless given).
@@ -52,10 +51,6 @@ class Conveyor(Problem):
     steps: int = 720
     name: str = ""
     source: str = ""
-
-    @classmethod
-    def of_file(cls, values: Mapping[str, Any], folder: Path) -> Conveyor:
-        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
 
     @cached_property
     def motion(self) -> Motion:

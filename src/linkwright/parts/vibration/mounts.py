@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -15,10 +14,10 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.fields import Quantity
 from linkwright.model.mechanism import Mechanism
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Whole
-from linkwright.parts.mechanism_field import MECHANISM, load_beside
+from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.steps import put
 from linkwright.parts.vibration.linear import Complexes
 from linkwright.words import Say
@@ -29,7 +28,7 @@ SMALL = 1e-3
 
 
 @dataclass(frozen=True)
-class Mounts(Problem):
+class Mounts(OfMechanism):
     """A machine of ``mass`` (kg, frame and moving links) on mounts of ``stiffness_x``, ``stiffness_y`` (N/m).
 
     ``damping_ratio`` ζ of both directions. x and y are those of the mechanism's frame; the machine does not rock.
@@ -52,10 +51,6 @@ class Mounts(Problem):
     steps: int = 360
     name: str = ""
     source: str = ""
-
-    @classmethod
-    def of_file(cls, values: Mapping[str, Any], folder: Path) -> Mounts:
-        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
 
     @cached_property
     def forces(self) -> Forces:

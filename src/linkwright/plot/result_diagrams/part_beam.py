@@ -39,7 +39,7 @@ class BeamDiagram(ResultKind):
 
 @RESULT_DIAGRAMS.register("link_stress")
 class LinkDiagram(ResultKind):
-    """Largest moment and stress of a link over the cycle, and the moment along it in the worst position."""
+    """Moment, normal force and deflection along a link in the worst position, and the largest stress of the cycle."""
 
     name = "link_stress"
     takes = LinkStress
@@ -50,6 +50,7 @@ class LinkDiagram(ResultKind):
             Pane("M", "torque", (Line(result.stations, result.moment[i]),), fill=True),
             Pane("N", "force", (Line(result.stations, result.normal[i]),), fill=True),
             Pane("max σ", "pressure", (Line(result.stations, np.asarray(result.stress.max(axis=0))),)),
+            Pane("w", "length", (Line(result.stations, result.deflection[i, :, 1]),), fill=True),
         ]
         title = f"{result.title}: {request.say('kind.link_stress')}"
         return panes(title, ("s", "length"), given, request)
