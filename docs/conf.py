@@ -1,13 +1,67 @@
 """Settings of the documentation."""
 
+import sys
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import pages
+
+pages.make()
+
 project = "Linkwright"
 author = "Linkwright contributors"
 copyright = "2026, Linkwright contributors"
-extensions = ["myst_parser"]
-myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+extensions = ["myst_parser", "sphinx_design"]
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence", "html_image"]
 myst_heading_anchors = 3
-source_suffix = {".md": "markdown"}
+source_suffix = {".md": "markdown", ".markdown": "markdown"}
 exclude_patterns = ["_build"]
-html_theme = "alabaster"
-html_theme_options = {"description": "planar machines, from file to forces", "page_width": "72rem"}
+templates_path = ["_templates"]
+html_static_path = ["_static"]
+html_css_files = ["linkwright.css"]
+html_theme = "furo"
+html_title = "Linkwright"
 html_show_sourcelink = False
+html_copy_source = False
+html_sidebars = {
+    "**": [
+        "sidebar/brand.html", "sidebar/language.html", "sidebar/search.html", "sidebar/scroll-start.html",
+        "sidebar/navigation.html", "sidebar/scroll-end.html",
+    ]
+}  # fmt: skip
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#1565c0", "color-brand-content": "#1565c0"},
+    "dark_css_variables": {"color-brand-primary": "#7cb8ff", "color-brand-content": "#7cb8ff"},
+}
+#: Pages that have another name in the other language.
+COUNTERPARTS = {
+    "en/how-to/model": "zh/model", "en/how-to/drawings": "zh/drawings", "en/how-to/gears": "zh/gears",
+    "en/how-to/cams": "zh/cams", "en/how-to/worked": "zh/worked", "en/how-to/report": "zh/report",
+    "en/how-to/course": "zh/course", "en/how-to/export": "zh/export", "en/how-to/machine": "zh/machine",
+    "en/how-to/synthesis": "zh/synthesis", "en/how-to/parts": "zh/parts", "en/theory/dyads": "zh/dyads",
+}  # fmt: skip
+
+
+def other_language(name: str, known: set[str]) -> tuple[str, str]:
+    """The page of the other language, and that language; its entrance where there is no such page."""
+    reverse = {zh: en for en, zh in COUNTERPARTS.items()}
+    for own, other in (("zh", "en"), ("en", "zh")):
+        if f"/{own}/" in f"/{name}" or name.startswith(f"{own}/"):
+            direct = f"/{name}".replace(f"/{own}/", f"/{other}/", 1)[1:]
+            found = next(
+                (each for each in (COUNTERPARTS.get(name), reverse.get(name), direct) if each in known), None
+            )
+            return found or f"{other}/index", other
+    return "zh/index", "zh"
+
+
+def language_link(app: Any, name: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """What the switch in the sidebar leads to."""
+    page, language = other_language(name, set(app.env.found_docs))
+    context["other_page"], context["other_language"] = page, {"zh": "中文", "en": "English"}[language]
+
+
+def setup(app: Any) -> None:
+    app.connect("html-page-context", language_link)
