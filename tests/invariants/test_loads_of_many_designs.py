@@ -106,3 +106,14 @@ def test_a_part_longer_than_the_stroke_of_a_design_is_told() -> None:
     mechanism = lw.loads(MODEL.replace("LOAD", load))
     found = lw.sweep(mechanism, {"crank.length": [0.2, 0.19]}, outputs=["driver.effort max"])
     assert found.ok.tolist() == [True, False]
+
+
+@pytest.mark.parametrize("load", ["last share", "table", "torsion spring"])
+def test_prepared_machines_equal_single_designs(load: str) -> None:
+    mechanism = machine(load)
+    prepared = lw.prepare(mechanism, vary=[BY])
+    for length in (0.7, 0.72):
+        one, other = prepared.solve({BY: length}), lw.solve_forces(mechanism.with_dimensions({BY: length}))
+        assert one.input_torque == pytest.approx(other.input_torque, rel=1e-11, abs=1e-9)
+        assert one.load("process").moment == pytest.approx(other.load("process").moment, rel=1e-11, abs=1e-9)
+        assert one.shaking_force == pytest.approx(other.shaking_force, rel=1e-11, abs=1e-9)

@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import NEAR, is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces
+from linkwright.kinetostatics.site import TracedSite
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.loads.along_input import magnitude
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
+from linkwright.study.limit_stages import constants
+from linkwright.study.loaded_cycle import AlongInput, along_input
+from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
 #: The row of how near a group is to a change point or a gap.
@@ -68,15 +75,16 @@ class Prepared:
         self.vary = vary
         self.positions = positions
         self.backend = backend
-        self.solver = MotionSolver(mechanism, Manner(frozenset(vary)))
+        self._loads = _Followed.of(self)
+        self.solver = self._loads.traced.solver
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
-        self._names = (*motion[:-1], *forces, NEAREST, "outcome")
+        self._names = (*motion[:-1], *forces, *self._loads.fields, NEAREST, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
-        nominal = self.solver.nominal.parameters
-        self._base = np.array([nominal[name] for name in self.program.parameters])
+        known = {**self.solver.nominal.parameters, **self._loads.known}
+        self._base = np.array([known.get(name, np.nan) for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         self._plain = not (self.program.fields or self.program.states)
         self._fine = is_way(positions) and parts(self.solver, positions) == 1
@@ -85,10 +93,10 @@ class Prepared:
         return Prepared, (self.mechanism, self.vary, self.positions, self.backend)
 
     def _trace(self) -> Program:
-        motion, forces = self.solver.outputs, self.force_solver.outputs
-        stored = set(motion.standard())
+        motion, forces = self.solver.outputs, self._loads.traced.forces.outputs
+        stored, sizes = set(motion.standard()), self._loads.sizes
         values = {
-            name: (motion if name in stored else forces).value(name)
+            name: sizes[name] if name in sizes else (motion if name in stored else forces).value(name)
             for name in self._names
             if name != NEAREST
         }
@@ -104,7 +112,8 @@ class Prepared:
             able = bool(self.program.positions) and not self.program.states
             compiled = compile_program(self.program) if able else None
             if compiled is not None:
-                return lambda table: compiled.run(table, arrays)
+                tables = self._loads.tables
+                return lambda table: compiled.run(table, arrays, tables=tables)
             if backend == "llvm":
                 raise LinkwrightError(Sentence("study.not_compiled"))
         evaluator = numpy_program(self.program)
@@ -120,12 +129,22 @@ class Prepared:
         design = Design(self.mechanism, self.solver.assembly.modes, changes)
         if not (self._plain and self._fine):
             return self._solve_in_turn(design, failures)
-        values = self._evaluate(self._table(changes))
+        table = self._table(changes)
+        found = self._loads.limits(changes)
+        if found is None:
+            return self._solve_in_turn(design, failures)
+        for name, value in found.items():
+            if name in self._places:
+                table[self._places[name]] = value
+        values = self._evaluate(table)
         near = values[-2]
+        fields = {name: values[self._index[name]] for name in self._loads.fields}
+        if not all(np.isfinite(row).all() for row in fields.values()):
+            return self._solve_in_turn(design, failures)
         if np.count_nonzero(values[-1]) or near.min() < NEAR + np.abs(near[1:] - near[:-1]).max():
             return self._solve_in_turn(design, failures)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
-        return Forces(motion, self.force_solver, {}, False, motion.rows)
+        return Forces(motion, self.force_solver, fields, False, motion.rows)
 
     def _table(self, changes: Mapping[str, float]) -> Floats:
         table = self._base.copy()
@@ -148,3 +167,53 @@ class Prepared:
             self._refuse_fixed(address)
         solver = self.solver.for_design(design)
         return run_forces(MotionRun(solver, self.positions).solve(failures), False)
+
+
+class _Followed:
+    """Loads that a compiled program traces, with the cycle program that finds their limit positions before."""
+
+    def __init__(self, traced: Traced, loads: AlongInput, backend: Backend) -> None:
+        self.traced, self._backend = traced, backend
+        self.tables = loads.tables
+        self.fields = tuple(f"load:{name}" for name in sorted(loads.names))
+        self._limits = CycleProgram(tuple(loads.stages(traced))) if loads.outputs else None
+        self._doubts = tuple(f"doubt:{each}" for each in loads.outputs)
+        self.known = {**constants(traced), **loads.constants}
+
+    @classmethod
+    def of(cls, prepared: Prepared) -> _Followed:
+        """The loads of a mechanism, where they can be traced and code can be compiled; else none."""
+        mechanism, vary, positions = prepared.mechanism, prepared.vary, prepared.positions
+        plain = Traced(mechanism, vary, positions)
+        fields = plain.forces.fields_needed()
+        nothing = AlongInput(frozenset())
+        if not fields or prepared.backend == "numpy" or not available() or plain.solver.motion.next_states:
+            return cls(plain, nothing, prepared.backend)
+        loads = along_input(plain, vary, fields) or nothing
+        traced = Traced(mechanism, vary, positions, along_input=loads.names) if loads.names else plain
+        return cls(traced, loads, "llvm")
+
+    @cached_property
+    def sizes(self) -> dict[str, Scalar]:
+        """Their magnitudes, by the names of the fields that forces know them by."""
+        motion, loads = self.traced.solver.motion, self.traced.mechanism.loads
+        found = {name: loads[name.removeprefix("load:")] for name in self.fields}
+        return {
+            name: magnitude(load, TracedSite(motion, load, along_input=True)) for name, load in found.items()
+        }
+
+    def limits(self, changes: Mapping[str, float]) -> dict[str, float] | None:
+        """What the program takes besides dimensions; None for designs whose limit positions are not certain."""
+        if self.fields and any(name.rpartition(".")[0] in self.traced.mechanism.drivers for name in changes):
+            return None
+        if self._limits is None:
+            return {}
+        known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
+        table = [[known[name] for name in self._limits.dimensions]]
+        positions = self.traced.positions.arrays
+        found = self._limits.evaluate(table, positions, tables=self.tables, threads=1, backend=self._backend)
+        if any(found[name][0] != 0.0 for name in self._doubts):
+            return None
+        return {
+            name: float(column[0]) for name, column in found.items() if name.startswith(("limit:", "value:"))
+        }
