@@ -11,7 +11,7 @@ import linkwright
 ROOT = Path(linkwright.__file__).parent
 PROJECT = Path(__file__).parents[2] / "pyproject.toml"
 #: Names of distributions by what they are imported as, where the two differ.
-DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py"}
+DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py", "docx": "python-docx"}
 
 
 def declared(requirements: list[str]) -> set[str]:
@@ -33,7 +33,9 @@ def test_every_requirement_is_imported_and_every_import_is_required() -> None:
     project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
     required = declared(project["dependencies"])
     extras = project["optional-dependencies"]
-    optional = set.union(*(declared(extras[name]) for name in ("plot", "video", "export", "notebook")))
+    optional = set.union(
+        *(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook"))
+    )
     assert required <= imported()
     assert imported() <= required | optional
 
