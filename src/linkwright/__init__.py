@@ -59,6 +59,9 @@ if TYPE_CHECKING:
     from linkwright.model.file import read_document as read_document
     from linkwright.model.mechanism import Mechanism as Mechanism
     from linkwright.model.schema import json_schema as json_schema
+    from linkwright.optimisation.optimize import optimize as optimize
+    from linkwright.optimisation.optimum import OptimizeError as OptimizeError
+    from linkwright.optimisation.optimum import Optimum as Optimum
     from linkwright.plot.animation import Animation as Animation
     from linkwright.plot.animation import animate as animate
     from linkwright.plot.diagrams.diagram_by_name import plot as plot
@@ -129,6 +132,8 @@ PUBLIC = {
     "linkwright.model.file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
     "linkwright.model.mechanism": ("Mechanism",),
     "linkwright.model.schema": ("json_schema",),
+    "linkwright.optimisation.optimize": ("optimize",),
+    "linkwright.optimisation.optimum": ("OptimizeError", "Optimum"),
     "linkwright.plot.animation": ("Animation", "animate"),
     "linkwright.plot.diagrams.diagram_by_name": ("plot",),
     "linkwright.plot.diagrams.picture": ("Diagram",),

@@ -30,7 +30,7 @@ STAGES = (
     ("kinematics",),
     ("kinetostatics",),
     ("metrics", "machine", "worked"),
-    ("study", "synthesis", "cams", "gears", "parts", "tolerance"),
+    ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),
     ("report", "plot", "export", "page", "validation", "course"),
     ("cli", "server", "__main__"),
 )
@@ -54,6 +54,7 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "study/designs.py": {PLOT},
     "study/sensitivity.py": {PLOT},
     "study/study.py": {PLOT},
+    "optimisation/optimum.py": {PLOT},
     "synthesis/result.py": {PLOT},
 }
 FRONT_END_PACKAGES = {

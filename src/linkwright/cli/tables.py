@@ -13,6 +13,7 @@ from linkwright.words import Say
 from linkwright.words.carried import cell_text
 
 if TYPE_CHECKING:
+    from linkwright.optimisation.optimum import Optimum
     from linkwright.study.compare import Comparison
     from linkwright.study.study import Study
 
@@ -20,7 +21,9 @@ if TYPE_CHECKING:
 PICTURES = (".svg", ".pdf", ".png")
 
 
-def write_diagram(name: str | None, found: Comparison | Study, session: Session, *, force: bool) -> None:
+def write_diagram(
+    name: str | None, found: Comparison | Study | Optimum, session: Session, *, force: bool
+) -> None:
     """Draws the usual diagram of a result and writes it, as the file's ending says."""
     if name is None:
         return

@@ -150,6 +150,7 @@ class Mechanism(Frozen):
     synthesis: Mapping[str, Any] = field(default_factory=dict)
     report: Mapping[str, Any] = field(default_factory=dict)
     course: Mapping[str, Any] = field(default_factory=dict)
+    optimize: Mapping[str, Any] = field(default_factory=dict)
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""

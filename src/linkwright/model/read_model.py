@@ -37,6 +37,7 @@ SECTIONS = (
     "synthesis",
     "report",
     "course",
+    "optimize",
     "parameters",
     "frame",
     "links",
@@ -61,6 +62,7 @@ HEADER: Mapping[str, Field] = {
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "report": Free(doc="title, own text, order of sections and more for the command report"),
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
+    "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
     "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
 
@@ -120,6 +122,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         synthesis=header.get("synthesis") or {},
         report=header.get("report") or {},
         course=header.get("course") or {},
+        optimize=header.get("optimize") or {},
     )
     check_whole(reader, root, mechanism)
     if reader.error_count:

@@ -62,6 +62,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["synthesis"] = dict(mechanism.synthesis)
     data["report"] = dict(mechanism.report)
     data["course"] = dict(mechanism.course)
+    data["optimize"] = dict(mechanism.optimize)
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 

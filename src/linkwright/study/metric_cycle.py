@@ -49,13 +49,13 @@ _PLACES = ("argmax", "argmin")
 def metric_cycle(
     mechanism: Mechanism,
     varied: Iterable[str],
-    names: Iterable[str],
+    names: Iterable[str | Term],
     *,
     steps: int = 360,
     asked: Asked | None = None,
 ) -> MetricCycle | None:
     """Registered metrics (``peak_reaction``, ``peak_reaction O5``) of all designs of a mechanism with some dimensions
-    changed, as cycle values; those that apply to it and are formulas of summaries.
+    changed, as cycle values; those that apply to it and are formulas of summaries. Terms are taken as they are.
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the cycle is no single turn of one driver of constant speed, groups have no closed
@@ -68,7 +68,8 @@ def metric_cycle(
     if plain.nominal.modes:
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
-    terms = [each for name in given if (each := term(name, analysis, asked)) is not None]
+    offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
+    terms = [each for each in offered if each is not None]
     outputs = [part.output for part in map(one, all_parts(terms)) if part.kind not in _PLACES]
     loads = along_input(plain, addresses, plain.program(plain.quantities(outputs)).fields)
     if loads is None:

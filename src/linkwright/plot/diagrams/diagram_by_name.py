@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from linkwright.machine.torque_curve import TorqueCurve
     from linkwright.metrics.coupler_curve import CouplerCurve
     from linkwright.metrics.table import MetricsTable
+    from linkwright.optimisation.optimum import Optimum
     from linkwright.parts.base import Result as PartResult
     from linkwright.study.compare import Comparison
     from linkwright.study.designs import Sweep
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
         | CouplerCurve
         | PartResult
         | Synthesis
+        | Optimum
     )
 
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]

@@ -1,0 +1,109 @@
+"""``linkwright optimize``: the dimensions that make a number least, within what must be kept."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.optimisation.optimum import OptimizeError, Optimum
+
+ENDINGS = (".yaml", ".yml", ".json")
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", help=say("optimize.file_help"))
+    parser.add_argument("--vary", nargs="+", metavar="RANGE", help=say("optimize.vary_help"))
+    parser.add_argument("--minimize", nargs="+", metavar="NUMBER", help=say("optimize.minimize_help"))
+    parser.add_argument("--maximize", nargs="+", metavar="NUMBER", help=say("optimize.maximize_help"))
+    parser.add_argument("--keep", nargs="+", metavar="DEMAND", help=say("optimize.keep_help"))
+    parser.add_argument(
+        "--evaluations", type=whole_number, metavar="N", help=say("optimize.evaluations_help")
+    )
+    parser.add_argument("--seed", type=int, metavar="N", help=say("optimize.seed_help"))
+    parser.add_argument("--state", metavar="FILE", help=say("optimize.state_help"))
+    parser.add_argument("--output", metavar="FILE", help=say("optimize.output_help"))
+    parser.add_argument("--plot", metavar="FILE", help=say("optimize.plot_help"))
+    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Optimises and prints or writes what came out."""
+    from linkwright.cli.progress import progress
+    from linkwright.cli.tables import PICTURES, refuse_output
+    from linkwright.optimisation.optimize import optimize
+    from linkwright.optimisation.optimum import OptimizeError
+
+    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.plot, PICTURES, session.say, force=options.force)
+    settings = {
+        "vary": _pairs(options.vary, session.say),
+        "keep": _pairs(options.keep, session.say),
+        "minimize": options.minimize,
+        "maximize": options.maximize,
+        "evaluations": options.evaluations,
+        "seed": options.seed,
+    }
+    try:
+        with progress(session.say("optimize.searching")) as report:
+            found = optimize(options.file, state=options.state, progress=report, **settings)
+    except OptimizeError as error:
+        return _unmet(error, session)
+    _show(found, options, session)
+    return 0
+
+
+def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
+    """``NAME=TEXT`` by name; None where nothing is given."""
+    if texts is None:
+        return None
+    found: dict[str, str] = {}
+    for text in texts:
+        name, sign, value = text.partition("=")
+        if not sign or not name.strip() or not value.strip():
+            raise UsageError(say("optimize.bad_pair", text=text))
+        found[name.strip()] = value.strip()
+    return found
+
+
+def _unmet(error: OptimizeError, session: Session) -> int:
+    """Says which demand fails, and shows the nearest design."""
+    from linkwright.cli.data import json_text
+
+    sentence = error.say(session.language)
+    session.tell(f"{session.alarm(session.say('cli.error'))}: {sentence}")
+    if session.json:
+        session.show(json_text({"ok": False, "error": sentence, "nearest": error.nearest.data()}))
+    else:
+        session.show(error.nearest.text(session.language))
+    return 1
+
+
+def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None:
+    from linkwright.cli.data import json_text
+    from linkwright.cli.files import write_whole
+    from linkwright.cli.tables import write_diagram
+
+    written = []
+    if options.output is not None:
+        path = Path(options.output)
+        targets = [path]
+        if len(found) > 1:
+            targets += [path.with_name(f"{path.stem}_{k}{path.suffix}") for k in range(2, len(found) + 1)]
+        for index, target in enumerate(targets):
+            write_whole(target, found.model_text(index), force=options.force)
+        written += targets[:1] if len(targets) == 1 else [targets[0], targets[-1]]
+    write_diagram(options.plot, found, session, force=options.force)
+    if session.json:
+        session.show(json_text({"ok": True, **found.data()}))
+        return
+    session.show(found.text(session.language))
+    for path in [*written, *([options.plot] if options.plot else [])]:
+        session.show(session.say("cli.written", path=path))

@@ -1,0 +1,215 @@
+"""Values of everything that a problem asks, for many designs at once, and their exact gradients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import units
+from linkwright.engine.machine_code import available
+from linkwright.engine.stage import Backend
+from linkwright.engine.trace import Scalar
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.metrics.base import Number
+from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.summary import is_summary, one, wanted
+from linkwright.model.expressions import Expression, array_functions, parse
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import Output
+from linkwright.optimisation.problem import Problem
+from linkwright.study.alternatives import Alternative
+from linkwright.study.criteria import criterion
+from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.terms import OWN, Asked, Term, is_metric
+from linkwright.study.vary import refuse_moved_positions
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+
+
+class Measures:
+    """The quantities of a problem: texts of goals and demands, each a design number or an expression of some.
+
+    ``side_by_side``: designs go together, with exact gradients; else one after the other, without.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.mechanism = problem, problem.mechanism
+        texts = dict.fromkeys(
+            [*(each.text for each in problem.goals), *(each.text for each in problem.demands)]
+        )
+        self.expressions = {text: self._expression(text) for text in texts}
+        self.numbers = tuple(dict.fromkeys(
+            name for _, names in self.expressions.values() for name in names.values() if name not in self._dimensions
+        ))  # fmt: skip
+        extremes = {each.address: np.array([each.low, each.high]) for each in problem.variables}
+        refuse_moved_positions(self.mechanism, over_cycle(self.mechanism, problem.steps), extremes)
+        self.cycle = self._cycle()
+        self.side_by_side = self.cycle is not None
+        self.backend: Backend = "llvm" if available() else "numpy"
+        self.evaluations = 0
+
+    @cached_property
+    def _dimensions(self) -> Mapping[str, float]:
+        return self.mechanism.dimensions()
+
+    def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
+        """An expression with the design numbers of its names; None for a number that stands alone."""
+        given = str(self.problem.define.get(text, text))
+        if self._is_number(given):
+            return None, {"": given}
+        defined = {name: str(value) for name, value in self.problem.define.items()}
+        known = [*defined, *self.mechanism.parameters]
+        found = parse(text, known)
+        names = {name: defined.get(name, name) for name in found.names}
+        for name in names.values():
+            if not self._is_number(name):
+                raise RequestError(Sentence("optimize.no_number", text=name))
+        if not names:
+            raise RequestError(Sentence("optimize.no_number", text=text))
+        for name in set(names.values()) & set(self._dimensions):
+            if name in self.mechanism.expressions and name not in self.problem.addresses:
+                raise RequestError(Sentence("optimize.derived", name=name))
+        return found, names
+
+    def _is_number(self, name: str) -> bool:
+        if name in OWN or is_metric(name) or name in self._dimensions:
+            return True
+        if is_summary(name):
+            wanted([name])
+            return True
+        try:
+            criterion(name)
+        except RequestError:
+            return False
+        return True
+
+    # many designs ------------------------------------------------------------------------------------
+    def _cycle(self) -> MetricCycle | None:
+        terms = [self._term(name) for name in self.numbers]
+        found = (
+            metric_cycle(
+                self.mechanism, self.problem.addresses, terms, steps=self.problem.steps, asked=self._asked
+            )
+            if terms
+            else None
+        )
+        if found is None or {each.name for each in found.terms} != set(self.numbers):
+            return None
+        return found
+
+    def _term(self, name: str) -> str | Term:
+        if name in OWN or is_metric(name) or not is_summary(name):
+            return name
+        (summary,) = wanted([name])[:1]
+        return Term(name, (Number("", (summary.name,), _itself),), "")
+
+    def dimension(self, text: str) -> units.Dimension:
+        """The dimension of a quantity."""
+        expression, names = self.expressions[text]
+        kinds = {name: self._kind(number) for name, number in names.items()}
+        return kinds[""] if expression is None else expression.dimension(kinds)
+
+    def _kind(self, name: str) -> units.Dimension:
+        from linkwright.study.ranges import dimension_of
+
+        if name in self._dimensions:
+            return dimension_of(self.mechanism, name) or units.NONE
+        if self.cycle is not None:
+            term = next(each for each in self.cycle.terms if each.name == name)
+            if term.dimension:
+                return units.DIMENSIONS[term.dimension]
+            summary = one(term.parts[0])
+            angle = summary.kind in ("argmin", "argmax")
+            return units.DIMENSIONS["angle" if angle else self.cycle.quantities[summary.output].dimension]
+        found = criterion(name).measure(self._alternative(self.mechanism))
+        return units.DIMENSIONS[found.dimension] if found is not None else units.NONE
+
+    def __call__(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
+        count = len(next(iter(columns.values())))
+        self.evaluations += count
+        found = self._found(columns, count) | self._held(columns, count)
+        return {text: self._combined(text, found) for text in self.expressions}
+
+    def _found(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        if self.cycle is not None:
+            with np.errstate(all="ignore"):
+                seen = self.cycle.evaluate(columns, backend=self.backend)
+            return {name: np.where(seen.certain, seen.values[name], np.nan) for name in self.numbers}
+        values = {name: np.full(count, np.nan) for name in self.numbers}
+        for index in range(count):
+            try:
+                design = self.mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()})
+                each = self._alternative(design)
+                for name in self.numbers:
+                    measured = criterion(name).measure(each)
+                    values[name][index] = np.nan if measured is None else measured.value
+            except RequestError:
+                raise
+            except LinkwrightError:
+                for name in self.numbers:
+                    values[name][index] = np.nan
+        return values
+
+    def _alternative(self, design: Mechanism) -> Alternative:
+        asked = self._asked
+        return Alternative(design.name, design, asked.output, self.problem.steps, asked.fluctuation)
+
+    @cached_property
+    def _asked(self) -> Asked:
+        """The output whose travel counts, and δ."""
+        own, last = mechanism_outputs(self.mechanism), list(self.mechanism.links)[-1]
+        return Asked(own[-1] if own else Output("angle", last, last), self.problem.fluctuation)
+
+    def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        """Dimensions that stand in expressions."""
+        names = {
+            name
+            for _, each in self.expressions.values()
+            for name in each.values()
+            if name in self._dimensions
+        }
+        return {name: columns.get(name, np.full(count, self._dimensions[name])) for name in names}
+
+    def _combined(self, text: str, found: Mapping[str, Floats]) -> Floats:
+        expression, names = self.expressions[text]
+        if expression is None:
+            return found[names[""]]
+        with np.errstate(all="ignore"):
+            return np.asarray(expression.evaluate({n: found[m] for n, m in names.items()}, array_functions()))
+
+    # gradients ---------------------------------------------------------------------------------------
+    def gradient(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
+        """Gradient (k,) of a quantity of one design (columns of one value) by the addresses ``by``."""
+        expression, names = self.expressions[text]
+        if expression is None:
+            return self._slope(names[""], columns, by)
+        found = {**self._found(columns, 1), **self._held(columns, 1)}
+        values = {name: found[number] for name, number in names.items()}
+        total = np.zeros(len(by))
+        for name, number in names.items():
+            with np.errstate(all="ignore"):
+                rate = np.asarray(expression.diff(name).evaluate(values, array_functions()))
+            total = total + float(rate.ravel()[0]) * self._slope(number, columns, by)
+        return total
+
+    def _slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
+        if name in self._dimensions:
+            return np.array([1.0 if address == name else 0.0 for address in by])
+        assert self.cycle is not None
+        own = tuple(address for address in by if address in self.cycle.dimensions)
+        slope = np.zeros(len(by))
+        if own:
+            with np.errstate(all="ignore"):
+                _, found = self.cycle.gradient({name: 1.0}, columns, own, backend=self.backend)
+            slope[[by.index(address) for address in own]] = found[0]
+        return slope
+
+
+def _itself(value: Scalar) -> Scalar:
+    return value

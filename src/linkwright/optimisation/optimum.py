@@ -1,0 +1,173 @@
+"""What an optimisation gives: designs, their numbers beside those of the start, and the model files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import units
+from linkwright.core.frozen import Frozen
+from linkwright.errors import LinkwrightError
+from linkwright.model.document import Document
+from linkwright.model.mechanism import Mechanism
+from linkwright.optimisation.problem import Problem
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.plot import Diagram
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One design: ``values`` of the variables, ``numbers`` of goals and demands, SI; ``missed``: demands that it
+    does not meet; ``made``: share of the machines within the tolerances that meet all, None where none are given."""
+
+    values: Mapping[str, float]
+    numbers: Mapping[str, float]
+    missed: tuple[str, ...] = ()
+    made: float | None = None
+
+
+@dataclass(eq=False)
+class Optimum(Frozen):
+    """The designs that an optimisation found: one, or the front of several objectives in order of the first.
+
+    Args:
+        problem: what was asked.
+        choices: the designs; ``best`` is the first.
+        start: numbers of the machine as it was.
+        limits: demands as (low, high), SI.
+        kinds: dimension of every number.
+        evaluations, generations: of the search.
+        history: least first objective after each generation (infinite: none was feasible yet).
+        hypervolume: share of the box between the front's best values and its worst (or the start's) that the front
+            beats; None for one objective.
+        exact: gradients were exact.
+        interrupted: the search was stopped before its end.
+    """
+
+    problem: Problem
+    choices: tuple[Choice, ...]
+    start: Mapping[str, float]
+    limits: Mapping[str, tuple[float, float]]
+    kinds: Mapping[str, units.Dimension]
+    evaluations: int
+    generations: int
+    history: tuple[float, ...]
+    hypervolume: float | None = None
+    exact: bool = True
+    interrupted: bool = False
+    document: Document | None = field(default=None, repr=False)
+
+    @property
+    def best(self) -> Choice:
+        """The first design."""
+        return self.choices[0]
+
+    def __iter__(self) -> Iterator[Choice]:
+        return iter(self.choices)
+
+    def __len__(self) -> int:
+        return len(self.choices)
+
+    def mechanism(self, index: int = 0) -> Mechanism:
+        """One of the designs as a mechanism."""
+        return self.problem.mechanism.with_dimensions(dict(self.choices[index].values))
+
+    def model_text(self, index: int = 0) -> str:
+        """The model file with the design's values in it; all else stays as it was written, comments too."""
+        if self.document is None:
+            from linkwright.model.file import dump
+
+            return dump(self.mechanism(index))
+        changed = Document(self.document.text, self.document.name, self.document._read_text)
+        for variable in self.problem.variables:
+            factor, unit = (units.unit(variable.unit)[0], f" {variable.unit}") if variable.unit else (1.0, "")
+            value = self.choices[index].values[variable.address]
+            changed.set(variable.address, f"{value / factor:.12g}{unit}")
+        return changed.text
+
+    def write(self, path: str | Path, index: int = 0) -> Path:
+        """Writes the model file of one design, whole or not at all."""
+        from linkwright.whole_files import write_whole
+
+        return write_whole(path, self.model_text(index).encode())
+
+    def text(self, language: str = "en") -> str:
+        """Variables and numbers beside the start, and what to know about them."""
+        from linkwright.optimisation.report import report
+
+        return "\n".join(report(self, language))
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        addresses = [each.address for each in self.problem.variables]
+        return {
+            "name": self.problem.mechanism.name,
+            "objectives": [{"number": each.text, "sign": each.sign} for each in self.problem.goals],
+            "demands": {text: list(limits) for text, limits in self.limits.items()},
+            "start": {"values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
+                      "numbers": dict(self.start)},
+            "designs": [{"values": dict(each.values), "numbers": dict(each.numbers), "missed": list(each.missed),
+                         "made": each.made} for each in self.choices],
+            "hypervolume": self.hypervolume,
+            "evaluations": self.evaluations,
+            "generations": self.generations,
+            "exact_gradients": self.exact,
+            "interrupted": self.interrupted,
+        }  # fmt: skip
+
+    def plot(self, **options: Any) -> Diagram:
+        """The front with the start, or how the least value fell; options: ``linkwright.plot.plot``."""
+        from linkwright.plot import plot
+
+        return plot(self, "optimisation", **options)
+
+    def __repr__(self) -> str:
+        goals = ", ".join(each.text for each in self.problem.goals)
+        return f"Optimum({self.problem.mechanism.name!r}: {len(self)} designs for {goals})"
+
+
+class OptimizeError(LinkwrightError):
+    """Demands that cannot be met together: which fail, and the ``nearest`` design."""
+
+    def __init__(self, sentence: Sentence, nearest: Optimum) -> None:
+        self.nearest = nearest
+        super().__init__(sentence)
+
+    def __reduce__(self) -> tuple[type[OptimizeError], tuple[Any, ...]]:
+        return OptimizeError, (self.args[0], self.nearest)
+
+
+def hypervolume(goals: Floats, worst: Floats) -> float:
+    """Volume that points (N, m) beat below a point (m,), as a share of the box from their least values to it."""
+    low = np.minimum(goals.min(axis=0), worst)
+    size = worst - low
+    if not (size > 0).all():
+        return 0.0
+    return _volume((goals - low) / size)
+
+
+def _volume(points: Floats) -> float:
+    """Volume below 1 in all coordinates that points from 0 beat, slice by slice along the last coordinate."""
+    points = points[(points < 1).all(axis=1)]
+    if not len(points):
+        return 0.0
+    if points.shape[1] == 1:
+        return 1.0 - float(points.min())
+    order = points[np.argsort(points[:, -1], kind="stable")]
+    edges = np.append(order[:, -1], 1.0)
+    return float(
+        sum(
+            (edges[k + 1] - edges[k]) * _volume(order[: k + 1, :-1])
+            for k in range(len(order))
+            if edges[k + 1] > edges[k]
+        )
+    )

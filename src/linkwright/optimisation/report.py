@@ -1,0 +1,117 @@
+"""The text of an optimisation."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright import units
+from linkwright.optimisation.optimum import Choice, Optimum
+from linkwright.words import Say, speaker
+from linkwright.words.width import aligned
+
+#: Designs of a front that are listed.
+LISTED = 24
+
+
+def report(found: Optimum, language: str) -> list[str]:
+    """Title, the best design beside the start, the front, and notes."""
+    tell = speaker(language)
+    lines = [tell("optimize.title", name=found.problem.mechanism.name, goals=_goals(found, tell)), ""]
+    lines += _comparison(found, found.best, tell)
+    if len(found.problem.goals) > 1:
+        lines += [
+            "",
+            tell("optimize.front", count=len(found), hypervolume=f"{found.hypervolume or 0.0:.4f}"),
+            "",
+        ]
+        lines += _front(found)
+    lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
+    lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
+    if found.best.made is not None:
+        lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
+    if found.interrupted:
+        lines.append(tell("optimize.interrupted"))
+    return lines
+
+
+def _goals(found: Optimum, tell: Say) -> str:
+    words = {1.0: "optimize.least", -1.0: "optimize.most"}
+    return ", ".join(tell(words[goal.sign], number=goal.text) for goal in found.problem.goals)
+
+
+def _comparison(found: Optimum, choice: Choice, tell: Say) -> list[str]:
+    rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
+    for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
+        factor = units.unit(variable.unit)[0] if variable.unit else 1.0
+        now = choice.values[variable.address]
+        bounds = f"{variable.low / factor:.6g}..{variable.high / factor:.6g}"
+        shown = [_shown(value, factor, variable.unit) for value in (was, now)]
+        rows.append([variable.address, *shown, _change(was, now), bounds])
+    for text, now in choice.numbers.items():
+        kind = found.kinds[text]
+        symbol, factor = _unit(kind)
+        was = found.start[text]
+        shown = [_shown(value, factor, symbol) for value in (was, now)]
+        rows.append([text, *shown, _change(was, now), _limits(found, text, factor, tell)])
+    return aligned(rows, "<>>><")
+
+
+def _limits(found: Optimum, text: str, factor: float, tell: Say) -> str:
+    goals = {goal.text: goal.sign for goal in found.problem.goals}
+    said = [tell("optimize.goal" if goals[text] > 0 else "optimize.goal_most")] if text in goals else []
+    if text in found.limits:
+        said.append(_between(found, text, factor))
+    if text in found.best.missed:
+        said.append(tell("optimize.missed"))
+    return ", ".join(said)
+
+
+def _unit(kind: units.Dimension) -> tuple[str, float]:
+    """Symbol and factor of a shown value; angles in degrees."""
+    if kind == units.DIMENSIONS["angle"]:
+        return "deg", math.pi / 180
+    return (units.si_symbol(kind) if kind != units.NONE else ""), 1.0
+
+
+def _shown(value: float, factor: float, unit: str) -> str:
+    return f"{value / factor:.6g}{' ' if unit else ''}{unit}"
+
+
+def _change(was: float, now: float) -> str:
+    if not math.isfinite(was) or was == 0:
+        return "–"
+    return f"{100 * (now - was) / abs(was):+.2f} %"
+
+
+def _front(found: Optimum) -> list[str]:
+    texts = [goal.text for goal in found.problem.goals]
+    addresses = [variable.address for variable in found.problem.variables]
+    rows = [["", *texts, *addresses]]
+    step = max(1, math.ceil(len(found) / LISTED))
+    for number, choice in list(enumerate(found.choices, 1))[::step]:
+        cells = []
+        for text in texts:
+            symbol, factor = _unit(found.kinds[text])
+            cells.append(_shown(choice.numbers[text], factor, symbol))
+        for variable in found.problem.variables:
+            factor = units.unit(variable.unit)[0] if variable.unit else 1.0
+            cells.append(_shown(choice.values[variable.address], factor, variable.unit))
+        rows.append([str(number), *cells])
+    return aligned(rows, ">" * len(rows[0]))
+
+
+def missing(found: Optimum) -> list[str]:
+    """The demands that the first design misses, with what is demanded and what it has."""
+    said = []
+    for text in found.best.missed:
+        symbol, factor = _unit(found.kinds[text])
+        wanted, has = _between(found, text, factor), _shown(found.best.numbers[text], factor, symbol)
+        said.append(f"{text} {wanted}{' ' if symbol else ''}{symbol} ({has})")
+    return said
+
+
+def _between(found: Optimum, text: str, factor: float) -> str:
+    low, high = (each / factor for each in found.limits[text])
+    if math.isinf(low) or math.isinf(high):
+        return f"≤ {high:.6g}" if math.isinf(low) else f"≥ {low:.6g}"
+    return f"{low:.6g}..{high:.6g}"

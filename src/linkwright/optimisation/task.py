@@ -1,0 +1,223 @@
+"""A problem as numbers: objectives and violations of designs in the unit cube, also under tolerances."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import units
+from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.optimisation.measures import Measures
+from linkwright.optimisation.problem import Demand, Problem
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+#: Samples of the tolerances while searching and at the end; a violation below this share of a demand is none.
+SAMPLES, CHECKED, MET = 16, 512, 1e-6
+_SHARE = re.compile(r"^(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*%$")
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """A demand in SI: the quantity lies between ``low`` and ``high``; ``scale``: what counts as much."""
+
+    text: str
+    low: float
+    high: float
+    scale: float
+
+    def violation(self, value: Floats) -> Floats:
+        """By how much a value misses, in scales; 0 where it is met."""
+        with np.errstate(invalid="ignore"):
+            miss = np.maximum(self.low - value, value - self.high) / self.scale
+            return np.where(miss > MET, miss, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """Designs (N, k) with objectives (N, goals) to be made small and violations (N, demands); inf: does not move."""
+
+    x: Floats
+    goals: Floats
+    violations: Floats
+    values: Mapping[str, Floats]
+
+    @property
+    def total(self) -> Floats:
+        """Sum of violations, (N,)."""
+        return np.asarray(self.violations.sum(axis=1))
+
+
+class Task:
+    """Evaluates designs x (N, k), 0 to 1 between the bounds of the variables."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.measures = Measures(problem)
+        self.low = np.array([each.low for each in problem.variables])
+        self.high = np.array([each.high for each in problem.variables])
+        self.at_start = {
+            text: float(value[0])
+            for text, value in self.measures(self.columns_of(problem.start[None])).items()
+        }
+        self.bounds = self._bounds()
+
+    # places ------------------------------------------------------------------------------------------
+    def place(self, x: Floats) -> Floats:
+        """Values (N, k), SI, of places in the cube; variables with choices take the nearest."""
+        span = np.where(self.high > self.low, self.high - self.low, 0.0)
+        raw = self.low + np.clip(x, 0.0, 1.0) * span
+        return np.column_stack([each.allowed(raw[:, k]) for k, each in enumerate(self.problem.variables)])
+
+    def inverse(self, values: Floats) -> Floats:
+        """Places in the cube of values (k,)."""
+        return np.asarray((values - self.low) / np.where(self.high > self.low, self.high - self.low, 1.0))
+
+    def columns_of(self, values: Floats) -> dict[str, Floats]:
+        """Columns by address of values (N, k), with the nominal values of dimensions that have only tolerances."""
+        columns = {each.address: values[:, k] for k, each in enumerate(self.problem.variables)}
+        for address in self.problem.tolerances:
+            columns.setdefault(address, np.full(len(values), self.problem.mechanism.dimension(address)))
+        return columns
+
+    # judging -----------------------------------------------------------------------------------------
+    def judge(self, x: Floats, samples: int = SAMPLES) -> Judged:
+        """Objectives and violations of designs."""
+        columns = self.columns_of(self.place(x))
+        if self.problem.robust:
+            return self._robust(x, columns, samples)
+        values = self.measures(columns)
+        goals = np.column_stack([goal.sign * values[goal.text] for goal in self.problem.goals])
+        return Judged(x, *self._finite(goals, values), values)
+
+    def _finite(self, goals: Floats, values: Mapping[str, Floats]) -> tuple[Floats, Floats]:
+        misses = [each.violation(values[each.text]) for each in self.bounds]
+        violations = np.column_stack(misses) if misses else np.zeros((len(goals), 1))
+        stuck = ~np.isfinite(np.column_stack([goals, *(values[each.text] for each in self.bounds)])).all(
+            axis=1
+        )
+        goals, violations = goals.copy(), violations.copy()
+        goals[stuck], violations[stuck] = np.inf, np.inf
+        return goals, violations
+
+    def _robust(self, x: Floats, columns: Mapping[str, Floats], samples: int) -> Judged:
+        """The worst of the samples, or their share that meets all demands."""
+        values = self.sampled(columns, samples)
+        signs = {goal.text: goal.sign for goal in self.problem.goals}
+        worst = {}
+        for text, each in values.items():
+            sign = signs.get(text, 1.0)
+            worst[text] = np.where(np.isnan(each).any(1), np.nan, sign * (sign * each).max(1))
+        goals = np.column_stack([goal.sign * worst[goal.text] for goal in self.problem.goals])
+        misses = [each.violation(values[each.text]) for each in self.bounds]
+        if self.problem.robust == "worst":
+            violations = (
+                np.column_stack([each.max(1) for each in misses]) if misses else np.zeros((len(x), 1))
+            )
+        else:
+            met = np.ones(next(iter(values.values())).shape, bool)
+            for each in [*(np.where(np.isnan(v), 1.0, 0.0) for v in values.values()), *misses]:
+                met &= each == 0.0
+            lack = np.maximum(self.problem.least_yield - met.mean(axis=1), 0.0)
+            violations = lack[:, None]
+            goals = np.column_stack([goal.sign * values[goal.text][:, 0] for goal in self.problem.goals])
+        stuck = ~np.isfinite(goals).all(axis=1) | np.isnan(violations).any(axis=1)
+        goals[stuck], violations[stuck] = np.inf, np.inf
+        return Judged(x, goals, violations, {text: each[:, 0] for text, each in values.items()})
+
+    def sampled(self, columns: Mapping[str, Floats], samples: int) -> dict[str, Floats]:
+        """Values (N, 1 + samples) of the designs as drawn (first) and as made."""
+        count = len(next(iter(columns.values())))
+        made = {}
+        for address, column in columns.items():
+            off = self._deviations(samples).get(address, np.zeros(samples + 1))
+            made[address] = (column[:, None] + off).ravel()
+        return {text: value.reshape(count, -1) for text, value in self.measures(made).items()}
+
+    def _deviations(self, samples: int) -> dict[str, Floats]:
+        """The same deviations for all designs: drawn evenly, uniform within ±."""
+        if samples not in self._kept:
+            from scipy.stats import qmc
+
+            names = list(self.problem.tolerances)
+            share = qmc.Sobol(len(names), rng=np.random.default_rng(self.problem.seed)).random(samples)
+            self._kept[samples] = {
+                name: np.concatenate([[0.0], self.problem.tolerances[name] * (2 * share[:, k] - 1)])
+                for k, name in enumerate(names)
+            }
+        return self._kept[samples]
+
+    @cached_property
+    def _kept(self) -> dict[int, dict[str, Floats]]:
+        return {}
+
+    def yield_of(self, values: Floats) -> float:
+        """Share of many samples of a design (k,) that move and meet all demands."""
+        found = self.sampled(self.columns_of(values[None]), CHECKED)
+        met = np.ones(CHECKED + 1, bool)
+        for text, each in found.items():
+            met &= np.isfinite(each[0])
+            for bounds in self.bounds:
+                if bounds.text == text:
+                    met &= bounds.violation(each[0]) == 0.0
+        return float(met[1:].mean())
+
+    # demands -----------------------------------------------------------------------------------------
+    def _bounds(self) -> tuple[Bounds, ...]:
+        findings: list[Finding] = []
+        found = []
+        for demand in self.problem.demands:
+            try:
+                found.append(self._bound(demand))
+            except QuantityError as error:
+                place = self.problem.mechanism.name
+                findings.append(
+                    Finding("error", place, f"optimize.keep.{demand.text}", error.sentence, "", "optimize")
+                )
+        if findings:
+            raise ModelError(findings)
+        return tuple(found)
+
+    def _bound(self, demand: Demand) -> Bounds:
+        kind, start = self.measures.dimension(demand.text), self.at_start[demand.text]
+        if demand.same is not None:
+            share = _SHARE.match(demand.same)
+            if not np.isfinite(start):
+                raise QuantityError(Sentence("optimize.no_start", text=demand.text))
+            within = (
+                float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
+            )
+            within = max(within, 1e-12 * abs(start))
+            return Bounds(demand.text, start - within, start + within, max(within, 1e-3 * abs(start)))
+        low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
+        high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
+        sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
+        return Bounds(
+            demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0
+        )
+
+    def _value(self, text: str, kind: units.Dimension, name: str) -> float:
+        number, unit = _split(text)
+        factor, given = units.unit(unit) if unit else (1.0, units.NONE)
+        if given != kind:
+            need = Sentence(
+                "optimize.unit",
+                text=name,
+                need=units.name_of(kind),
+                example=units.si_symbol(kind),
+                given=text,
+            )
+            raise QuantityError(need)
+        return number * factor
+
+
+def _split(text: str) -> tuple[float, str]:
+    match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
+    if match is None:
+        raise QuantityError(Sentence("optimize.no_value", text=text))
+    return float(match[1]), match[2].strip()

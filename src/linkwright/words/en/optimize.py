@@ -1,0 +1,78 @@
+"""The command ``optimize`` and the sentences of optimisation."""
+
+WORDS = {
+    "summary": "make a number of the machine least, within what must be kept",
+    "description": """\
+Varies dimensions within bounds so that one number or several become least (or
+greatest) while others are kept: a global search that judges all designs of a
+generation in one sweep, then exact gradients. The settings stand in the file's
+section "optimize", or here. Prints the design beside the start and writes the
+model file with everything else as it was. Several objectives give a front.""",
+    "examples": """\
+linkwright optimize crusher.yaml --output better.yaml
+linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
+    --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
+linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state search.json""",
+    "file_help": "a model file, or gallery:NAME",
+    "vary_help": "what varies, in place of the file's: ADDRESS=RANGE, such as crank.length=80..120mm",
+    "minimize_help": "numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'",
+    "maximize_help": "numbers to make greatest",
+    "keep_help": "demands: 'NUMBER=at least 40 deg', 'at most', '1..2 m', 'same within 1 %%' of the start",
+    "evaluations_help": "most designs that the search judges",
+    "seed_help": "seed of the search; the same seed gives the same result",
+    "state_help": "keep the search's state in this file, and go on from it where it exists",
+    "output_help": "write the model file with the best values (a front: NAME_2 … as well)",
+    "plot_help": "draw the front, or the search's progress, in a .svg, .pdf or .png file",
+    "bad_pair": '"{text}" is no setting; write NAME=VALUE, such as crank.length=80..120mm',
+    "searching": "searching",
+    "title": "{name}: {goals}",
+    "least": "least {number}",
+    "most": "greatest {number}",
+    "column.what": "number",
+    "column.start": "start",
+    "column.found": "found",
+    "column.change": "change",
+    "column.bounds": "bounds",
+    "goal": "made least",
+    "goal_most": "made greatest",
+    "missed": "missed",
+    "front": "Front: {count} designs, none beaten by another in all objectives; hypervolume {hypervolume} of the box "
+    "to the worst values",
+    "work": "{evaluations} designs judged in {generations} generations; every design passes the whole cycle with the "
+    "start's assembly",
+    "exact": "The last steps followed exact gradients.",
+    "differences": "This machine's designs go one after the other, and the last steps followed differences: slower, "
+    "and less exact.",
+    "made": "{share} % of the machines made within the tolerances meet all demands (512 samples).",
+    "interrupted": "The search was interrupted; run it again with the same --state to go on.",
+    "picture": "Optimisation of {name}",
+    "legend.front": "front",
+    "legend.start": "start",
+    "legend.search": "best of the search",
+    "legend.polished": "after the last steps",
+    "axis.generation": "generation",
+    "no_section": '{name} has no section "optimize"; add one with vary: and minimize:, or give them here',
+    "unknown": '"{key_}" is no setting of an optimisation; {hint}',
+    "no_goal": "nothing is made least or greatest; give minimize: or maximize: with a number such as "
+    "peak_input_torque",
+    "robust": 'robust: "{given}" is neither worst nor yield; write one of them, or leave it out',
+    "no_tolerance": "robust: needs tolerance: with ± of dimensions, such as crank.length: 0.1 mm",
+    "mapping": "{key_}: must be names with their values; write NAME: VALUE on lines of their own",
+    "texts": "{key_}: must be a number's name or a list of them, such as [peak_input_torque, flywheel]",
+    "number": "{key_}: {given} is no number between {low} and {high}; give one",
+    "no_choice": "{address} has no value to choose from; give values: or a whole: range that holds a whole number",
+    "bounds": "{address} has equal bounds; give a lower and a higher one",
+    "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
+    "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',
+    "unit": '"{text}" is {need}, and "{given}" is not; write a value in {example}',
+    "no_value": '"{text}" is no value; write a number with its unit, such as 40 deg',
+    "no_number": 'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a summary such '
+    'as "jaw.angle range", a dimension, or an expression of names given by define:',
+    "derived": '"{name}" follows from parameters; name the parameters in the expression instead',
+    "nothing_moves": "no design of {name} within the bounds passes the whole cycle; widen the bounds, or start from "
+    "a machine that moves",
+    "failing": "the demands cannot be met together; the nearest design misses {demands}: change these demands, or "
+    "widen the bounds",
+    "other_state": 'the state "{path}" belongs to another problem; name another file, or remove it',
+    "bad_state": 'the state "{path}" cannot be read; name another file, or remove it',
+}

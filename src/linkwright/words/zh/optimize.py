@@ -1,0 +1,71 @@
+"""optimize 命令与优化的语句。"""
+
+WORDS = {
+    "summary": "在须保持的条件下使机器的某个数最小",
+    "description": """\
+在上下限内改变尺寸，使一个或几个数最小（或最大），同时保持其他数：先全局搜索，
+每一代的全部设计一次算出，再按精确梯度收敛。设定写在文件的 "optimize" 一节，
+或在此给出。列出所得设计与原设计的比较，并写出模型文件，其余内容不变。
+几个目标给出一条前沿。""",
+    "examples": """\
+linkwright optimize crusher.yaml --output better.yaml
+linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
+    --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
+linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state search.json""",
+    "file_help": "模型文件，或 gallery:NAME",
+    "vary_help": "改变哪些量，代替文件中的设定：ADDRESS=RANGE，如 crank.length=80..120mm",
+    "minimize_help": "使之最小的数：设计指标、flywheel、汇总如 'jaw.angle range'",
+    "maximize_help": "使之最大的数",
+    "keep_help": "要求：'NUMBER=at least 40 deg'、'at most'、'1..2 m'、与原设计 'same within 1 %%'",
+    "evaluations_help": "搜索最多计算的设计数",
+    "seed_help": "搜索的种子；同一种子给出同一结果",
+    "state_help": "把搜索状态存在此文件，已存在时由此继续",
+    "output_help": "把最好的值写入模型文件（前沿另写 NAME_2 …）",
+    "plot_help": "把前沿或搜索过程画成 .svg、.pdf 或 .png 文件",
+    "bad_pair": '"{text}" 不是设定；请写 NAME=VALUE，如 crank.length=80..120mm',
+    "searching": "搜索",
+    "title": "{name}：{goals}",
+    "least": "{number} 最小",
+    "most": "{number} 最大",
+    "column.what": "数",
+    "column.start": "原设计",
+    "column.found": "所得",
+    "column.change": "变化",
+    "column.bounds": "界限",
+    "goal": "求最小",
+    "goal_most": "求最大",
+    "missed": "不满足",
+    "front": "前沿：{count} 个设计，没有一个在所有目标上被另一个胜过；超体积为到最差值之盒的 {hypervolume}",
+    "work": "共计算 {evaluations} 个设计，{generations} 代；每个设计都以原设计的装配方式走完整个循环",
+    "exact": "最后几步按精确梯度。",
+    "differences": "此机器的设计须逐个计算，最后几步按差分：较慢，也较不精确。",
+    "made": "公差内制成的机器有 {share} % 满足全部要求（512 个样本）。",
+    "interrupted": "搜索被中断；用同一 --state 再次运行即可继续。",
+    "picture": "{name} 的优化",
+    "legend.front": "前沿",
+    "legend.start": "原设计",
+    "legend.search": "搜索中最好者",
+    "legend.polished": "最后几步之后",
+    "axis.generation": "代",
+    "no_section": '{name} 没有 "optimize" 一节；请加上 vary: 与 minimize:，或在此给出',
+    "unknown": '"{key_}" 不是优化的设定；{hint}',
+    "no_goal": "没有使之最小或最大的数；请给 minimize: 或 maximize:，如 peak_input_torque",
+    "robust": 'robust："{given}" 既非 worst 也非 yield；请写其一，或略去',
+    "no_tolerance": "robust: 需要 tolerance: 给出尺寸的 ±，如 crank.length: 0.1 mm",
+    "mapping": "{key_}：应为名称与值；请逐行写 NAME: VALUE",
+    "texts": "{key_}：应为一个数的名称或其列表，如 [peak_input_torque, flywheel]",
+    "number": "{key_}：{given} 不是 {low} 与 {high} 之间的数；请给一个",
+    "no_choice": "{address} 没有可选的值；请给 values:，或含整数的 whole: 范围",
+    "bounds": "{address} 的上下限相等；请给不同的上下限",
+    "demand": '"{given}" 不是要求；请写 at least 40 deg、at most 60 kN、1..2 m 或 same within 1 %',
+    "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',
+    "unit": '"{text}" 是{need}，而 "{given}" 不是；请以 {example} 给值',
+    "no_value": '"{text}" 不是值；请写带单位的数，如 40 deg',
+    "no_number": '没有名为 "{text}" 的数；请给设计指标（linkwright metrics）、flywheel、汇总如 "jaw.angle range"、'
+    "尺寸，或由 define: 所给名称的表达式",
+    "derived": '"{name}" 由参数导出；请在表达式中改用这些参数',
+    "nothing_moves": "{name} 在上下限内没有一个设计能走完整个循环；请放宽上下限，或从能运动的机器开始",
+    "failing": "各项要求不能同时满足；最近的设计不满足 {demands}：请改变这些要求，或放宽上下限",
+    "other_state": '状态文件 "{path}" 属于另一个问题；请另给文件，或删除它',
+    "bad_state": '状态文件 "{path}" 无法读取；请另给文件，或删除它',
+}

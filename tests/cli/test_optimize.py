@@ -1,0 +1,44 @@
+"""The command optimize."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+
+SEARCH = [
+    "optimize", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.15..1.35m", "crank.length=80..120mm",
+    "--keep", "jaw.angle range=same within 1 %", "--evaluations", "200",
+]  # fmt: skip
+
+
+def test_the_better_machine_is_shown_and_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, picture = tmp_path / "better.yaml", tmp_path / "search.svg"
+    words = ["--minimize", "peak_input_torque", "--output", str(file), "--plot", str(picture)]
+    assert main([*SEARCH, *words]) == 0
+    out = capsys.readouterr().out
+    assert "least peak_input_torque" in out and "1633.67 N·m" in out and "made least" in out
+    assert lw.load(file).dimension("crank.length") < 0.1
+    assert "# a pin is implied" in file.read_text()
+    assert picture.read_text().startswith("<?xml")
+    assert main([*SEARCH, *words]) == 2
+
+
+def test_data_of_a_front(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*SEARCH, "--minimize", "peak_input_torque", "flywheel", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["ok"] and 0 < found["hypervolume"] <= 1
+    assert {"values", "numbers", "missed", "made"} <= set(found["designs"][0])
+
+
+def test_what_cannot_be_met_and_misuse(capsys: pytest.CaptureFixture[str]) -> None:
+    demand = ["--minimize", "flywheel", "--lang", "zh"]
+    assert (
+        main([*SEARCH[:5], "--keep", "jaw.angle range=at least 9 deg", "--evaluations", "60", *demand]) == 1
+    )
+    told = capsys.readouterr()
+    assert "不能同时满足" in told.err and "不满足" in told.out
+    assert main([*SEARCH, "--minimize", "flywheel", "--keep", "jaw"]) == 2
+    assert main(["optimize", "gallery:jaw_crusher_sixbar"]) == 2

@@ -1,0 +1,144 @@
+"""Optimisation: optima known in closed form, written models that keep what they claim, interruption without loss."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.optimisation.evolution import crowding
+from linkwright.optimisation.optimum import hypervolume
+
+SLIDER = """\
+format: 1
+name: Press  # a comment that stays
+frame:
+  points: {O: [0 mm, 0 mm]}
+links:
+  crank: {points: [O, A], length: 50 mm}   # the crank
+  rod: {points: [A, B], length: 200 mm, mass: 2 kg, inertia: 0.007 kg·m²}
+  ram: {points: [B], mass: 5 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 120 rpm}
+optimize:
+  vary: {crank.length: 20..80 mm, rod.length: 120..400 mm}
+  minimize: r + l
+  define: {r: crank.length, l: rod.length}
+  keep: {stroke guide: at least 60 mm, r/l: at most 0.2}
+"""
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    path = tmp_path / "press.yaml"
+    path.write_text(SLIDER)
+    return path
+
+
+def test_an_optimum_known_in_closed_form(press: Path) -> None:
+    found = lw.optimize(press, evaluations=1200)
+    # stroke 2 r, so r = 30 mm, and l = r / 0.2
+    assert found.best.values["crank.length"] == pytest.approx(0.030, rel=1e-5)
+    assert found.best.values["rod.length"] == pytest.approx(0.150, rel=1e-5)
+    assert found.best.numbers["stroke guide"] == pytest.approx(0.060, rel=1e-5)
+    assert not found.best.missed
+    text = found.model_text()
+    assert "# a comment that stays" in text and "# the crank" in text
+    written = lw.loads(text)
+    assert written.dimension("crank.length") == pytest.approx(found.best.values["crank.length"], rel=1e-11)
+    changed = [a for a, b in zip(SLIDER.splitlines(), text.splitlines(), strict=True) if a != b]
+    assert [line.split(":")[0].strip() for line in changed] == ["crank", "rod"]
+
+
+def test_whole_numbers_and_catalogues(press: Path) -> None:
+    vary = {
+        "crank.length": {"values": "20, 28, 33, 45 mm"},
+        "rod.length": {"values": ["150 mm", "170 mm", "200 mm"]},
+    }
+    found = lw.optimize(press, vary=vary, evaluations=300)
+    assert dict(found.best.values) == pytest.approx({"crank.length": 0.033, "rod.length": 0.170})
+    vary = {"ram.mass": {"whole": "3.5..9 kg"}}
+    whole = lw.optimize(press, vary=vary, minimize="m", keep={}, define={"m": "ram.mass"})
+    assert whole.best.values["ram.mass"] == 4.0
+
+
+def test_demands_that_cannot_be_met_name_the_failing_one(press: Path) -> None:
+    with pytest.raises(lw.OptimizeError, match=r"stroke guide ≥ 0\.2 m \(0\.16 m\)") as caught:
+        lw.optimize(press, keep={"stroke guide": "at least 200 mm"}, evaluations=400)
+    assert caught.value.nearest.best.values["crank.length"] == pytest.approx(0.08)
+    assert "不能同时满足" in caught.value.say("zh")
+
+
+def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_path: Path) -> None:
+    whole = lw.optimize(press, evaluations=800, seed=3)
+    state = tmp_path / "state.json"
+
+    def stop(done: int, most: int) -> None:
+        if done > 300:
+            raise KeyboardInterrupt
+
+    part = lw.optimize(press, evaluations=800, seed=3, state=state, progress=stop)
+    assert part.interrupted and state.exists()
+    rest = lw.optimize(press, evaluations=800, seed=3, state=state)
+    assert not rest.interrupted
+    assert rest.history == whole.history
+    assert dict(rest.best.values) == dict(whole.best.values)
+    with pytest.raises(lw.LinkwrightError, match="another problem"):
+        lw.optimize(press, evaluations=800, seed=4, state=state)
+
+
+def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
+    start = lw.load("gallery:jaw_crusher_sixbar")
+    vary = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
+    keep = {"jaw.angle range": "same within 1 %", "transmission_angle": "at least 30 deg"}
+    goals = ["peak_input_torque", "flywheel"]
+    found = lw.optimize(start, vary=vary, minimize=goals, keep=keep, evaluations=1000)
+    rows = np.array([[each.numbers[goal] for goal in goals] for each in found])
+    assert (np.diff(rows[:, 0]) > 0).all() and (np.diff(rows[:, 1]) < 0).all()
+    for each in (found.choices[0], found.choices[-1]):
+        machine = start.with_dimensions(dict(each.values))
+        forces = lw.solve_forces(lw.solve_motion(machine))
+        was = lw.solve_motion(start).link("jaw").angle
+        now = forces.motion.link("jaw").angle
+        assert np.ptp(now) == pytest.approx(np.ptp(was), rel=0.0105)
+        assert np.abs(forces.input_torque).max() == pytest.approx(each.numbers["peak_input_torque"], rel=2e-3)
+        running = lw.steady_running(forces, fluctuation=0.02)
+        assert running.flywheel == pytest.approx(each.numbers["flywheel"], rel=1e-4)
+    assert found.best.numbers["peak_input_torque"] < 0.95 * found.start["peak_input_torque"]
+
+
+def test_tolerances_worst_case_and_yield(press: Path) -> None:
+    tolerance = {"crank.length": "0.5 mm"}
+    worst = lw.optimize(press, tolerance=tolerance, robust="worst", evaluations=800)
+    assert worst.best.made == pytest.approx(1.0, abs=0.07)
+    assert 0.0302 < worst.best.values["crank.length"] <= 0.0308  # 30 mm and most of the tolerance
+    plain = lw.optimize(press, tolerance=tolerance, evaluations=800)
+    assert plain.best.made is not None and plain.best.made < 0.6
+
+
+def test_hypervolume_and_crowding_in_closed_form() -> None:
+    points = np.array([[0.0, 2.0], [1.0, 1.0], [2.0, 0.0]])
+    assert hypervolume(points, np.array([3.0, 3.0])) == pytest.approx(6 / 9)
+    cube = np.array([[0.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
+    assert hypervolume(cube, np.array([2.0, 2.0, 2.0])) == pytest.approx((4 + 1) / 8)
+    assert crowding(points)[1] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        ({"vary": {"crank.lenght": "20..80 mm"}}, "crank.length"),
+        ({"vary": {"crank.length": "20..20 mm"}}, "equal bounds"),
+        ({"keep": {"stroke guide": "more than 2"}}, "at least 40 deg"),
+        ({"keep": {"stroke guide": "at least 2 kg"}}, "length"),
+        ({"minimize": "nothing at all"}, "nothing"),
+        ({"minimise": "r"}, "minimize"),
+        ({"robust": "worst"}, "needs tolerance"),
+        ({"evaluations": 0}, "evaluations"),
+    ],
+)
+def test_settings_that_cannot_be_read(press: Path, settings: dict, told: str) -> None:
+    with pytest.raises(lw.LinkwrightError, match=told):
+        lw.optimize(press, **settings)
