@@ -101,13 +101,16 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "animation": lambda: lw.animate(lw.load("gallery:kite")),
     "diagram": lambda: lw.plot(lw.solve_motion(lw.load("gallery:kite"), steps=24)),
     "gear": lambda: lw.Gear(20, 0.002),
+    "optimum": lambda: lw.optimize(
+        lw.load(SIX), vary={"pitman.length": "1.2..1.3 m"}, minimize="peak_input_torque", evaluations=48
+    ),
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
     **{f"part {name}": lambda name=name: parts.load(f"gallery:{name}").solve() for name in part_names()},
 }
 
 
 #: Public types that hold compiled programs or are parts of another result, and errors of the same make as others.
-MADE_OF_CODE = {"Candidate", "GearPair", "Objective", "PathError", "Rack", "SynthesisError"}
+MADE_OF_CODE = {"Candidate", "GearPair", "Objective", "OptimizeError", "PathError", "Rack", "SynthesisError"}
 
 
 @cache
