@@ -24,7 +24,7 @@ from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import criterion
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
-from linkwright.study.terms import OWN, Asked, Term, is_metric
+from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
 
@@ -77,7 +77,7 @@ class Measures:
         return found, names
 
     def _is_number(self, name: str) -> bool:
-        if name in OWN or is_metric(name) or name in self._dimensions:
+        if _is_metric(name) or name in self._dimensions:
             return True
         if is_summary(name):
             wanted([name])
@@ -103,7 +103,7 @@ class Measures:
         return found
 
     def _term(self, name: str) -> str | Term:
-        if name in OWN or is_metric(name) or not is_summary(name):
+        if _is_metric(name) or not is_summary(name):
             return name
         (summary,) = wanted([name])[:1]
         return Term(name, (Number("", (summary.name,), _itself),), "")
@@ -209,6 +209,11 @@ class Measures:
                 _, found = self.cycle.gradient({name: 1.0}, columns, own, backend=self.backend)
             slope[[by.index(address) for address in own]] = found[0]
         return slope
+
+
+def _is_metric(name: str) -> bool:
+    """Whether a name means a design number, not a summary of the output of the same name."""
+    return name in OWN or (metric_of(name) is not None and not is_summary(name))
 
 
 def _itself(value: Scalar) -> Scalar:
