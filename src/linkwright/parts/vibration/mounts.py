@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -12,43 +12,92 @@ import numpy as np
 
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.fields import Quantity
+from linkwright.model.fields import Quantities, Quantity
 from linkwright.model.mechanism import Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
-from linkwright.parts.display import number
-from linkwright.parts.fields import Whole
+from linkwright.parts.display import number, shown
+from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.steps import put
 from linkwright.parts.vibration.linear import Complexes
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
+#: Columns and dimensions of shaking force, motion and force on the ground, by axis.
+TITLES = {
+    axis: (
+        (f"shaking force {axis} [N]", "force"),
+        (f"machine {axis} [m]", "length"),
+        (f"force on ground {axis} [N]", "force"),
+    )
+    for axis in "xy"
+} | {
+    "turn": (
+        ("shaking moment [N·m]", "torque"),
+        ("machine turn [rad]", "angle"),
+        ("moment on ground [N·m]", "torque"),
+    )
+}
 #: Harmonics below this share of the largest are not listed.
 SMALL = 1e-3
 
 
 @dataclass(frozen=True)
-class Mounts(OfMechanism):
-    """A machine of ``mass`` (kg, frame and moving links) on mounts of ``stiffness_x``, ``stiffness_y`` (N/m).
+class Mount:
+    """A mount ``at`` a place of the frame, m, with its stiffnesses, N/m."""
 
-    ``damping_ratio`` ζ of both directions. x and y are those of the mechanism's frame; the machine does not rock.
+    at: tuple[float, float]
+    stiffness_x: float
+    stiffness_y: float
+
+
+MOUNT = {
+    "at": Quantities("length", ("x", "y"), required=True, doc="where it is", form="[0 m, 0 m]"),
+    "stiffness_x": Quantity("stiffness", required=True, above=0.0, doc="stiffness along x"),
+    "stiffness_y": Quantity("stiffness", required=True, above=0.0, doc="stiffness along y"),
+}
+
+
+@dataclass(frozen=True)
+class Mounts(OfMechanism):
+    """A machine of ``mass`` (kg, frame and moving links) on mounts.
+
+    Either it does not rock, and its mounts have together ``stiffness_x`` and ``stiffness_y`` (N/m); or ``mounts``
+    says where each of them is, and the machine turns about its ``mass_centre`` with ``inertia`` (kg·m²).
+    ``damping_ratio`` ζ of every mode. x and y are those of the mechanism's frame.
     """
 
     kind: ClassVar[str] = "mounts"
     fields: ClassVar[Mapping[str, Any]] = {
         "mechanism": MECHANISM,
         "mass": Quantity("mass", required=True, above=0.0, doc="mass of the whole machine"),
-        "stiffness_x": Quantity("stiffness", required=True, above=0.0, doc="of all mounts along x"),
-        "stiffness_y": Quantity("stiffness", required=True, above=0.0, doc="of all mounts along y"),
+        "stiffness_x": Quantity(
+            "stiffness", above=0.0, doc="of all mounts along x, where the machine does not rock"
+        ),
+        "stiffness_y": Quantity(
+            "stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"
+        ),
+        "mounts": Named(
+            Table(MOUNT, Mount),
+            "mount",
+            doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
+        ),
+        "inertia": Quantity("inertia", above=0.0, doc="of the whole machine about its mass centre"),
+        "mass_centre": Quantities(
+            "length", ("x", "y"), doc="of the whole machine, in the axes of the frame", form="[0.4 m, 0.3 m]"
+        ),
         "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"),
         "steps": Whole(8, doc="positions over the cycle, 360 unless given"),
     }
     mechanism: Mechanism
     mass: float
-    stiffness_x: float
-    stiffness_y: float
+    stiffness_x: float | None = None
+    stiffness_y: float | None = None
     damping_ratio: float = 0.0
     steps: int = 360
+    mounts: Mapping[str, Mount] = field(default_factory=dict)
+    inertia: float | None = None
+    mass_centre: tuple[float, float] | None = None
     name: str = ""
     source: str = ""
 
@@ -68,19 +117,42 @@ class Mounts(OfMechanism):
         moving = sum(link.mass for link in self.mechanism.links.values())
         if self.mass < moving:
             found.append(fault("vibration.too_light", "mass", moving=moving))
+        together = self.stiffness_x is not None and self.stiffness_y is not None
+        if together == bool(self.mounts):
+            found.append(fault("vibration.one_way", "mounts" if self.mounts else "stiffness_x"))
+        elif self.mounts and (self.inertia is None or self.mass_centre is None):
+            found.append(fault("vibration.rocking", "mounts"))
+        elif self.mounts and np.linalg.eigvalsh(self.stiffness)[0] <= 1e-12 * self.stiffness[2, 2]:
+            found.append(fault("vibration.tips", "mounts"))
         return found
+
+    @cached_property
+    def inertias(self) -> Floats:
+        """Mass, mass and, of a machine that rocks, inertia about the mass centre."""
+        return np.array([self.mass, self.mass, *([self.inertia] if self.mounts else [])], dtype=float)
+
+    @cached_property
+    def stiffness(self) -> Floats:
+        """Stiffness of the mounts against x, y and turning of the mass centre, (2, 2) or (3, 3)."""
+        if not self.mounts:
+            return np.diag(np.array([self.stiffness_x, self.stiffness_y], dtype=float))
+        whole = np.zeros((3, 3))
+        for each in self.mounts.values():
+            x, y = np.subtract(each.at, self.mass_centre or (0.0, 0.0))
+            moved = np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
+            whole += moved.T @ np.diag([each.stiffness_x, each.stiffness_y]) @ moved
+        return whole
 
     def solve(self) -> Shaken:
         """The machine's vibration. Raises ModelError with all findings, also for a resonance without damping."""
         self.require()
         shaken = Shaken(self)
         if not self.damping_ratio:
-            for axis, own in zip("xy", shaken.frequencies, strict=True):
+            for own, shape in zip(shaken.frequencies, shaken.modes.T, strict=True):
                 order = own / shaken.speed
-                near = abs(order - round(order)) < 1e-9 and round(order) > 0
-                if near and abs(shaken.harmonics[round(order), "xy".index(axis)]) > 0:
-                    hertz = own / (2 * math.pi)
-                    raise ModelError([fault("vibration.resonance", f"stiffness_{axis}", hertz=hertz)])
+                near = abs(order - round(order)) < 1e-9 and 0 < round(order) < len(shaken.harmonics)
+                if near and abs(shaken.harmonics[round(order)] @ shape) > 0:
+                    raise ModelError([fault("vibration.resonance", "mass", hertz=own / (2 * math.pi))])
         return shaken
 
 
@@ -88,8 +160,8 @@ class Mounts(OfMechanism):
 class Shaken(Result):
     """Steady vibration of a machine on its mounts under the mechanism's shaking force, harmonic by harmonic.
 
-    X_k = F_k/(K − m (kω)² + i kω c); the ground gets (K + i kω c) X_k. ``harmonics`` F_k (h, 2) N of the force
-    Σ Re F_k e^(ikωt); ``moved``, ``passed`` in the same way.
+    X_k = (K − M (kω)² + i kω C)⁻¹ F_k for x, y and, of a machine that rocks, its turn about the mass centre; the
+    ground gets (K + i kω C) X_k. ``harmonics`` F_k of Σ Re F_k e^(ikωt); ``moved``, ``passed`` in the same way.
     """
 
     area: ClassVar[str] = "vibration"
@@ -110,43 +182,71 @@ class Shaken(Result):
         """Basic angular frequency of the cycle, rad/s."""
         return 2 * math.pi / self.period
 
-    @property
-    def stiffness(self) -> Floats:
-        """Of the mounts along x and y, (2,) N/m."""
-        return np.array([self.problem.stiffness_x, self.problem.stiffness_y])
+    @cached_property
+    def _own(self) -> tuple[Floats, Floats]:
+        """Natural frequencies, rad/s, and modes as columns with φᵀ M φ = 1; along x and y where nothing rocks."""
+        root = np.sqrt(self.problem.inertias)
+        if not self.problem.mounts:
+            return np.sqrt(np.diag(self.problem.stiffness)) / root, np.diag(1.0 / root)
+        values, vectors = np.linalg.eigh(self.problem.stiffness / np.outer(root, root))
+        return np.sqrt(values), vectors / root[:, None]
 
     @property
     def frequencies(self) -> Floats:
-        """Natural frequencies along x and y, (2,) rad/s."""
-        return np.asarray(np.sqrt(self.stiffness / self.problem.mass))
+        """Natural frequencies, rad/s: along x and y, or of the three modes of a machine that rocks."""
+        return self._own[0]
+
+    @property
+    def modes(self) -> Floats:
+        """Their modes as columns, x, y and turn."""
+        return self._own[1]
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """What moves: x, y and, of a machine that rocks, turn."""
+        return ("x", "y", "turn")[: len(self.problem.inertias)]
+
+    @cached_property
+    def shaking(self) -> Floats:
+        """Shaking force (N) and, of a machine that rocks, its moment about the mass centre (N·m), (n, 2 or 3)."""
+        force = self.problem.forces.shaking_force
+        if not self.problem.mounts or self.problem.mass_centre is None:
+            return force
+        x, y = self.problem.mass_centre
+        moment = self.problem.forces.shaking_moment - (x * force[:, 1] - y * force[:, 0])
+        return np.column_stack([force, moment])
 
     @cached_property
     def harmonics(self) -> Complexes:
-        """Amplitudes F_k of the shaking force, (h, 2) N, k = 0 the mean."""
-        force = self.problem.forces.shaking_force
+        """Amplitudes F_k of :attr:`shaking`, (h, 2) or (h, 3), k = 0 the mean."""
+        force = self.shaking
         found = np.fft.rfft(force, axis=0) * 2 / len(force)
         found[0] /= 2
-        return np.asarray(np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found))
+        return np.asarray(np.where(np.abs(found) < 1e-12 * np.abs(found).max(axis=0), 0.0, found))
 
     @property
     def orders(self) -> Floats:
         """Angular frequencies of the harmonics, (h,) rad/s."""
         return np.asarray(np.arange(len(self.harmonics)) * self.speed, dtype=float)
 
-    @property
-    def _rates(self) -> Floats:
-        return 2 * self.problem.damping_ratio * np.sqrt(self.stiffness * self.problem.mass)
+    @cached_property
+    def _damping(self) -> Floats:
+        """Damping matrix with the ratio ζ in every mode: M φ 2ζω φᵀ M."""
+        turned = self.problem.inertias[:, None] * self.modes
+        return np.asarray(turned * (2 * self.problem.damping_ratio * self.frequencies) @ turned.T)
 
     @cached_property
     def moved(self) -> Complexes:
-        """Amplitudes of the machine's motion, (h, 2) m."""
-        w = self.orders[:, None]
-        return np.asarray(self.harmonics / (self.stiffness - self.problem.mass * w**2 + 1j * w * self._rates))
+        """Amplitudes of the motion of the machine's mass centre, m, and of its turning, rad, as ``harmonics``."""
+        w = self.orders[:, None, None]
+        whole = self.problem.stiffness - np.diag(self.problem.inertias) * w**2 + 1j * w * self._damping
+        return np.asarray(np.linalg.solve(whole, self.harmonics[:, :, None])[:, :, 0])
 
     @property
     def passed(self) -> Complexes:
-        """Amplitudes of the force on the ground, (h, 2) N."""
-        return np.asarray((self.stiffness + 1j * self.orders[:, None] * self._rates) * self.moved)
+        """Amplitudes of the force on the ground, N, and of its moment about the mass centre, N·m."""
+        held = self.problem.stiffness + 1j * self.orders[:, None, None] * self._damping
+        return np.asarray((held @ self.moved[:, :, None])[:, :, 0])
 
     def _curve(self, amplitudes: Complexes) -> Floats:
         n = len(self.problem.forces.motion.time)
@@ -155,71 +255,73 @@ class Shaken(Result):
         return np.asarray(np.fft.irfft(whole, n, axis=0))
 
     def columns(self) -> dict[str, Floats]:
-        moved, passed = self._curve(self.moved), self._curve(self.passed)
-        force = self.problem.forces.shaking_force
+        """Over the cycle: shaking force, motion of the machine, force on the ground, by axis."""
         found = {"time [s]": self.problem.forces.motion.time}
-        for i, axis in enumerate("xy"):
-            found[f"shaking force {axis} [N]"] = force[:, i]
-            found[f"machine {axis} [m]"] = moved[:, i]
-            found[f"force on ground {axis} [N]"] = passed[:, i]
+        curves = (self.shaking, self._curve(self.moved), self._curve(self.passed))
+        for i, axis in enumerate(self.axes):
+            found |= {title: each[:, i] for (title, _), each in zip(TITLES[axis], curves, strict=True)}
         return found
 
-    def blocks(self, say: Say) -> list[Block]:
-        columns, rows = self.columns(), []
-        for i, axis in enumerate("xy"):
-            rows.append(
-                Row(
-                    f"own_{axis}",
-                    self.frequencies[i] / (2 * math.pi),
-                    "frequency",
-                    say("vibration.own", axis=axis),
-                )
+    def _own_rows(self, say: Say) -> list[Row]:
+        """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
+        hertz = self.frequencies / (2 * math.pi)
+        if not self.problem.mounts:
+            return [Row(f"own_{axis}", hertz[i], "frequency", say("vibration.own", axis=axis))
+                    for i, axis in enumerate(self.axes)]  # fmt: skip
+        sizes = np.abs(self.modes) * np.sqrt(self.problem.inertias)[:, None]
+        most = [self.axes[int(k)] for k in sizes.argmax(axis=0)]
+        return [
+            Row(
+                f"own_{k}",
+                hertz[k],
+                "frequency",
+                say("vibration.own_mode", mode=k + 1, axis=say(f"vibration.way_{most[k]}")),
             )
-            for key, name, dimension in (("shaking", f"shaking force {axis} [N]", "force"),
-                                         ("machine", f"machine {axis} [m]", "length"),
-                                         ("ground", f"force on ground {axis} [N]", "force")):  # fmt: skip
-                largest = float(np.abs(columns[name]).max())
-                rows.append(Row(f"{key}_{axis}", largest, dimension, say(f"vibration.{key}", axis=axis)))
+            for k in range(len(hertz))
+        ]
+
+    def blocks(self, say: Say) -> list[Block]:
+        columns, rows = self.columns(), self._own_rows(say)
+        for axis in self.axes:
+            for key, (title, dimension) in zip(("shaking", "machine", "ground"), TITLES[axis], strict=True):
+                largest = float(np.abs(columns[title]).max())
+                label = say(f"vibration.{key}_turn") if axis == "turn" else say(f"vibration.{key}", axis=axis)
+                rows.append(Row(f"{key}_{axis}", largest, dimension, label))
         found = [Block("mounts", say("vibration.largest_values"), rows)]
         listed = []
         for k in self.listed():
-            for i, axis in enumerate("xy"):
-                label = say(
-                    "vibration.harmonic",
-                    order=k,
-                    axis=axis,
-                    hertz=number(float(self.orders[k]) / (2 * math.pi)),
-                )
-                moved, passed = (
-                    number(float(abs(each[k, i])), d)
-                    for each, d in ((self.moved, "length"), (self.passed, ""))
-                )
-                note = f"→ {moved} mm, {passed} N"
-                listed.append(
-                    Row(f"force_{k}_{axis}", float(abs(self.harmonics[k, i])), "force", label, note)
-                )
+            for i, axis in enumerate(self.axes):
+                (_, kind), (_, way), _ = TITLES[axis]
+                hertz = number(float(self.orders[k]) / (2 * math.pi))
+                label = say("vibration.harmonic", order=k, axis=say(f"vibration.way_{axis}"), hertz=hertz)
+                note = f"→ {shown(float(abs(self.moved[k, i])), way)}, {shown(float(abs(self.passed[k, i])), kind)}"
+                listed.append(Row(f"force_{k}_{axis}", float(abs(self.harmonics[k, i])), kind, label, note))
         return [*found, Block("harmonics", say("vibration.harmonics"), listed)]
 
     def listed(self) -> list[int]:
         """Harmonics that matter, k from 1."""
-        size = np.abs(self.harmonics[1:]).max(axis=1)
+        size = np.abs(self.harmonics[1:, :2]).max(axis=1)
         return [k + 1 for k in range(len(size)) if size[k] > SMALL * size.max()][:12]
 
     def steps(self, say: Say) -> list[Step]:
         own, each = Step("1", say("vibration.step_mounts")), Step("2", say("vibration.harmonics"))
         put(own, "ω", "2π/T", self.speed, "angular_velocity")
-        for i, axis in enumerate("xy"):
-            put(own, f"ω{axis}", f"√(K{axis}/m)", float(self.frequencies[i]), "angular_velocity")
-        for i, axis in enumerate("xy"):
+        ways = ["1", "2", "3"] if self.problem.mounts else list(self.axes)
+        for i, way in enumerate(ways):
+            formula = "det(K − ω²·M) = 0" if self.problem.mounts else f"√(K{way}/m)"
+            put(own, f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity")
+        for i, way in enumerate(ways):
             speeds = ", ".join(
                 number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4)
                 for k in self.listed()[:4]
             )
-            own.say(say("vibration.critical", axis=axis, speeds=speeds))
-        each.say("  X_k = F_k/(K − m·(kω)² + i·kω·c),  G_k = (K + i·kω·c)·X_k")
+            own.say(say("vibration.critical", axis=way, speeds=speeds))
+        each.say("  X_k = (K − M·(kω)² + i·kω·C)⁻¹·F_k,  G_k = (K + i·kω·C)·X_k")
         for k in self.listed():
-            for i, axis in enumerate("xy"):
-                put(each, f"F{k}{axis}", "", float(abs(self.harmonics[k, i])), "force")
-                put(each, f"X{k}{axis}", "", float(abs(self.moved[k, i])), "length")
-                put(each, f"G{k}{axis}", "", float(abs(self.passed[k, i])), "force")
+            for i, axis in enumerate(self.axes):
+                (_, kind), (_, way), _ = TITLES[axis]
+                mark = "θ" if axis == "turn" else axis
+                put(each, f"F{k}{mark}", "", float(abs(self.harmonics[k, i])), kind)
+                put(each, f"X{k}{mark}", "", float(abs(self.moved[k, i])), way)
+                put(each, f"G{k}{mark}", "", float(abs(self.passed[k, i])), kind)
         return [own, each]

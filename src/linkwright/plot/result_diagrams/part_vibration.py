@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.parts.vibration.follower import FollowerVibration
-from linkwright.parts.vibration.mounts import Shaken
+from linkwright.parts.vibration.mounts import TITLES, Shaken
 from linkwright.parts.vibration.system import Vibration
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
@@ -104,5 +104,9 @@ class MountsDiagram(ResultKind):
                 ("G", "force on ground {} [N]", "force"),
             )
         ]
+        for symbol, (name, dimension) in (
+            zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ()
+        ):
+            given.append(Pane(symbol, dimension, (Line(time, columns[name]),)))
         title = f"{result.title}: {request.say('kind.mounts')}"
         return panes(title, (request.say("time"), "time"), given, request)
