@@ -22,7 +22,7 @@ from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.width import cells
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
-SYMBOLS = {"F", "n", "p", "w", "m"}
+SYMBOLS = {"F", "n", "p", "p_H", "w", "m"}
 LATIN = re.compile(r"[A-Za-z]\w*")
 
 FOURBAR = """
@@ -53,6 +53,8 @@ drawing: {{A: [{x} m, {y} m]}}
 def foreign(text: str, mechanism: lw.Mechanism) -> set[str]:
     """Latin words that are neither symbols of formulas nor names in the model nor signatures of its groups."""
     known = SYMBOLS | {*mechanism.links, *mechanism.joints, *mechanism.drivers}
+    for train in lw.structure(mechanism).trains:
+        known |= {train.carrier, *(f"n_{link}" for link in (train.carrier, *train.ratios))}
     for group in lw.structure(mechanism).groups:
         known |= set(LATIN.findall(group.signature))
     return set(LATIN.findall(text)) - known

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkwright.export.results import Results
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.words import say
 
@@ -96,9 +95,9 @@ def _points(results: Results) -> Iterator[Column]:
 def _joints(results: Results) -> Iterator[Column]:
     """Displacement of guides; angle of the second link of a pin against its first."""
     for name, joint in results.mechanism.joints.items():
-        if joint.kind == "weld":
+        if not joint.coordinate:
             continue
-        pin = isinstance(joint, RevoluteJoint)
+        pin = joint.coordinate == "turn"
         motion = results.motion.joint(name)
         kinds = ("displacement", "velocity", "acceleration")
         if pin:
@@ -120,7 +119,7 @@ def _forces(results: Results) -> Iterator[Column]:
         for link in joint.joined:
             if link != "frame":
                 yield from _vector(f"{name} on {link}", "", "N", forces.reaction(name, on=link))
-                if joint.kind != "revolute":
+                if joint.couples:
                     yield Column(f"{name} on {link}", "couple", "N·m", forces.couple(name, on=link))
     yield from _vector("shaking_force", "", "N", forces.shaking_force, size=False)
     yield Column("", "shaking_moment", "N·m", forces.shaking_moment)

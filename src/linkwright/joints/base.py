@@ -19,6 +19,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
     from linkwright.engine.vector import Vec
+    from linkwright.joints.marks import Mark
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.cycle import Floats
@@ -107,6 +108,25 @@ class Cut(Protocol):
     def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
         """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work."""
         ...
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The force T of a higher pair on its first link, T being the multiplier of ``scale`` times the row of its sums.
+
+    With the unit vector e at ``angle`` in the axes of ``link``, e⊥ left of it: force e⊥ ``across`` T + e (``press``
+    |T| + ``steady``), N, in the point ``at`` (link, name) + ``reach`` e, m, and the couple ``couple`` T, N·m.
+    """
+
+    scale: float
+    link: str
+    angle: float
+    at: tuple[str, str]
+    reach: float = 0.0
+    across: float = 1.0
+    press: float = 0.0
+    steady: float = 0.0
+    couple: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -220,14 +240,28 @@ class Joint(ABC):
         raise self.lacks("hang_in_loop")
 
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        """Adds the equations of the cut joint to the closed loops."""
-        raise self.lacks("close_loop")
+        """Adds the equations of the cut joint to the closed loops; by default those of :meth:`sums`."""
+        build.sum(*self.sums(build.mechanism))
+
+    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+        """The row of a higher pair as a sum that is zero: factors of links' rotations (rad, with turns), factors of
+        guides' displacements (m), and a constant."""
+        raise self.lacks("sums")
+
+    def contact(self, mechanism: Mechanism) -> Contact:
+        """How the force of a higher pair acts, for worked solutions."""
+        raise self.lacks("contact")
 
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
     ) -> Iterable[Row]:
         """The joint's equations over (x, y, θ) of the links that are ``kept``, for the rank."""
         raise self.lacks("rows")
+
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """What drawings show of it beside its links; ``tooth``: where wheels (link, centre) that are drawn already
+        have a tooth, rad in their axes, to which a joint adds its own."""
+        return ()
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import cmath
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, maximum, reciprocal, sqrt
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Poses
+from linkwright.joints.base import JOINTS, Contact, Poses
+from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import WheelCut, WheelPair, length
 from linkwright.model.fields import Field, Quantity, Word
 from linkwright.words.sentence import Sentence
@@ -94,6 +97,35 @@ class BeltPair(WheelPair):
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         a, b = self.pitch_radii()
         return a, -self.sense * b
+
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """Two pulleys and the strands between them."""
+        radii = self.pitch_radii()
+        for k, link in enumerate(self.links):
+            yield Mark("disc", link, mechanism.link(link).points[self.centres[k]], radii[k])
+        points = mechanism.link(self.carrier).points
+        a, b = (complex(*points[each]) for each in self.centres)
+        e, far = (b - a) / abs(b - a), abs(b - a)
+        sine = (radii[0] - self.sense * radii[1]) / far
+        for side in (1.0, -1.0):
+            n = e * complex(sine, side * sqrt_of(1.0 - sine * sine))
+            start, end = a + radii[0] * n, b + self.sense * radii[1] * n
+            yield Mark("strand", self.carrier, (start.real, start.imag), to=(end.real, end.imag))
+
+    def contact(self, mechanism: Mechanism) -> Contact:
+        line, (first, other) = self.line(mechanism), self.arms(mechanism)
+        sine = (first + other) / abs(line)
+        cosine = sqrt_of(1.0 - sine * sine)
+        return Contact(
+            -other,
+            self.carrier,
+            cmath.phase(line),
+            (self.carrier, self.centres[0]),
+            across=sine,
+            press=0.0 if self.pretension else cosine,
+            steady=2.0 * self.pretension * cosine,
+            couple=first,
+        )
 
     def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
         """The radii as traced values."""

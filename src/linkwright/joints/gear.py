@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import cmath
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import dist, pi
+from math import atan2, dist, pi
+from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from linkwright.engine.trace import Scalar, absolute, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Joint, Poses
+from linkwright.joints.base import JOINTS, Contact, Joint, Poses
+from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
 from linkwright.model.fields import Field, Quantity, Word
 from linkwright.words.sentence import Sentence
@@ -162,10 +165,56 @@ class GearPair(WheelPair):
         i = self.transmission
         return np.asarray(a + (b - a) * (i / (i - 1.0)))
 
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """Two gears whose teeth mesh, where their numbers are known; else two wheels of the pitch radii."""
+        radii = [abs(each) for each in self.arms(mechanism)]
+        turned = self._meshing(mechanism, tooth) if self.teeth is not None else (0.0, 0.0)
+        for k, link in enumerate(self.links):
+            yield Mark(
+                "gear" if self.kind == "gear" else "disc",
+                link,
+                mechanism.link(link).points[self.centres[k]],
+                radii[k],
+                turned[k],
+                self.mesh == "internal" and radii[k] > radii[1 - k],
+                None if self.teeth is None else int(self.teeth[k]),
+            )
+
+    def _meshing(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> tuple[float, float]:
+        """Where a tooth of each wheel is, rad in its axes, so that teeth of one lie in gaps of the other.
+
+        With the numbers of pitches u, v from a tooth to the pitch point, counter-clockwise: u + v (external) or v - u
+        (internal) is a whole number and a half, in all positions if it is in one.
+        """
+        assert self.teeth is not None
+        points = mechanism.link(self.carrier).points
+        (ax, ay), (bx, by) = (points[each] for each in self.centres)
+        line, (za, zb), phase = atan2(by - ay, bx - ax), self.teeth, self.phase or 0.0
+        from_a = line if self.arms(mechanism)[0] > 0 else line + pi
+        from_b = line + pi if self.arms(mechanism)[1] > 0 else line
+        a, b = ((link, centre) for link, centre in zip(self.links, self.centres, strict=True))
+        sense = -self.sense
+
+        def other(z: float, toward: float, mine: float, own: float) -> float:
+            """Tooth of one wheel from that of the other: sense · u z + v z' = half a pitch."""
+            return (toward * z + sense * mine - pi) / z - own
+
+        if a not in tooth and b in tooth:
+            tooth[a] = other(za, from_a, (from_b - phase - tooth[b]) * zb, 0.0)
+        tooth.setdefault(a, 0.0)
+        if b not in tooth:
+            tooth[b] = other(zb, from_b - phase, (from_a - tooth[a]) * za, 0.0)
+        return tooth[a], tooth[b]
+
+    def contact(self, mechanism: Mechanism) -> Contact:
+        reach, other = self.arms(mechanism)
+        angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
+        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * tan_of(self.pressure_angle))
+
     def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
         line = b - a
-        d = line.x if isinstance(line.y, float) and line.y == 0.0 else sqrt(line.square)
+        d = sqrt(line.square)
         i = self.traced_ratio(dimensions)
         part = d * reciprocal(i - 1.0)
         phase = dimensions(f"{self.name}.phase")

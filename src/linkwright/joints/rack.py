@@ -5,12 +5,15 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import pi
+from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, absolute, tan
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Contact, Joint, Poses, States
 from linkwright.joints.gear import STANDARD
+from linkwright.joints.marks import Mark
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.toothed import FITS, length
 from linkwright.model.fields import Field, Quantity
@@ -18,7 +21,6 @@ from linkwright.model.reference_fields import Direction, LinkName, PointName
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.model.drawing import Drawing
@@ -207,6 +209,28 @@ class RackPair(Joint):
             yield grouping.connection(self, self.pinion, self.rack, None)
 
     # motion -----------------------------------------------------------------------------------
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """The pinion, and the rack as far as it is used."""
+        centre = mechanism.link(self.pinion).points[self.centre]
+        teeth = None if self.teeth is None else int(self.teeth)
+        yield Mark(
+            "gear", self.pinion, centre, self.radius, tooth.get((self.pinion, self.centre), 0.0), teeth=teeth
+        )
+        yield Mark(
+            "rack",
+            self.rack,
+            mechanism.link(self.rack).points[self.through],
+            turned=self.direction,
+            inside=self.side < 0,
+            follows=(self.pinion, self.centre),
+        )
+
+    def contact(self, mechanism: Mechanism) -> Contact:
+        angle, press = self.direction - 0.5 * pi, -self.side * tan_of(self.pressure_angle)
+        return Contact(
+            1.0, self.rack, angle, (self.pinion, self.centre), self.side * self.radius, press=press
+        )
+
     def cut(self, connection: Connection, dimensions: Dimensions) -> RackCut:
         name = self.name
         radius = (
@@ -225,15 +249,15 @@ class RackPair(Joint):
             self.side,
         )
 
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        way = self._way(build.mechanism)
+    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+        way = self._way(mechanism)
         assert way is not None
         lever = self.side * self.radius
-        factors = {self.pinion: lever, self.rack: -lever}
         slides: dict[str, float] = {}
         for name, sign in way.guides:
             slides[name] = slides.get(name, 0.0) + sign
-        build.sum(factors, slides, way.gap.real - lever * (self.phase or 0.0))
+        rest = way.gap.real - lever * (self.phase or 0.0)
+        return {self.pinion: lever, self.rack: -lever}, slides, rest
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

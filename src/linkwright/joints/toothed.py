@@ -26,7 +26,6 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.joints.base import Cut
-    from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.model.drawing import Drawing
@@ -183,13 +182,15 @@ class WheelPair(Joint):
         key = "teeth" if self.teeth is not None else "radii"
         return self.sense * dimensions(f"{self.name}.{key}.0") / dimensions(f"{self.name}.{key}.1")
 
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         i = self.transmission
-        a, b, c = self.turning
-        factors: dict[str, float] = {}
-        for link, factor in ((a, i), (b, -1.0), (c, 1.0 - i)):
-            factors[link] = factors.get(link, 0.0) + factor
-        build.sum(factors, {}, self.phase or 0.0)
+        return dict(zip(self.turning, (i, -1.0, 1.0 - i), strict=True)), {}, self.phase or 0.0
+
+    def line(self, mechanism: Mechanism) -> complex:
+        """From the centre of a to that of b in the carrier's axes, m."""
+        points = mechanism.link(self.carrier).points
+        a, b = (complex(*points[each]) for each in self.centres)
+        return b - a
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -6,7 +6,7 @@ Newton's method places has no turns of its own: its angle is the one nearest to 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from linkwright.engine.trace import Scalar, angle, nearest_turn
 from linkwright.joints.pose import Pose
@@ -44,10 +44,11 @@ def counted_links(groups: Iterable[Group], touched: Mapping[str, tuple[str, ...]
 class Angles:
     """Gives the rotation of a link's x axis against the frame's with its turns, rad, as a traced value."""
 
-    def __init__(self, groups: Iterable[Group], dimensions: Dimensions, poses: Mapping[str, Pose]) -> None:
+    def __init__(self, groups: Sequence[Group], dimensions: Dimensions, poses: Mapping[str, Pose]) -> None:
         self.dimensions = dimensions
         self.poses = poses
         self.carried: dict[str, Scalar] = {}
+        self._pairs = any(geared(group) for group in groups)
         self._steps = {step.child: (group, step) for group in groups for step in group.tree}
         self._known: dict[str, Scalar] = {"frame": 0.0}
 
@@ -55,6 +56,15 @@ class Angles:
         if link not in self._known:
             self._known[link] = self._found(*self._steps[link])
         return self._known[link]
+
+    def counts(self, link: str) -> bool:
+        """Whether the mechanism has pairs that count turns, and those of a link are known."""
+        if not self._pairs or link not in self._steps:
+            return False
+        group, step = self._steps[link]
+        if step.free and step.turns:
+            return geared(group) or link in self._known
+        return step.parent == "frame" or self.counts(step.parent)
 
     def give(self, link: str, value: Scalar) -> None:
         """Notes the rotation of a link whose group has it as an unknown."""

@@ -11,8 +11,6 @@ import numpy as np
 
 from linkwright.core.frozen import FrozenDict, locked
 from linkwright.errors import RequestError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import canonical, find_point, vector_names
@@ -84,6 +82,11 @@ class LinkMotion:
 
         Continuous over positions that can be reached; the first lies in (-π, π].
         """
+        if self._motion.solver.motion.angles.counts(self.name):
+            turned = self._motion.row("o", self.name)
+            known = turned[np.isfinite(turned)]
+            first = float(known[0]) if len(known) else 0.0
+            return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         good = np.isfinite(raw)
         raw[good] = np.unwrap(raw[good])
@@ -186,10 +189,10 @@ class Motion:
     def joint(self, name: str) -> JointMotion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
         joint = self.design.base.joints.get(name)
-        if isinstance(joint, PrismaticJoint):
+        if joint is not None and joint.coordinate == "slide":
             return JointMotion(name, *(self.row(kind, name) for kind in ("s", "sv", "sa")))
-        if isinstance(joint, RevoluteJoint):
-            a, b = (self.link(link) for link in joint.links[:2])
+        if joint is not None and joint.coordinate == "turn":
+            a, b = (self.link(link) for link in joint.joined[:2])
             return JointMotion(
                 name,
                 locked(b.angle - a.angle),

@@ -12,7 +12,8 @@ from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.trace import MotionTrace
 
 #: ``p:C.x`` position, ``v:`` velocity, ``a:`` acceleration of points; ``e:jaw.x`` direction, ``w:jaw`` angular
-#: velocity, ``g:jaw`` angular acceleration of links; ``s:guide``, ``sv:``, ``sa:`` displacements of guides.
+#: velocity, ``g:jaw`` angular acceleration, ``o:jaw`` angle with turns (where they are counted) of links;
+#: ``s:guide``, ``sv:``, ``sa:`` displacements of guides.
 
 
 class MotionOutputs:
@@ -42,6 +43,8 @@ class MotionOutputs:
             base, axis = key.rsplit(".", 1)
             direction = self.motion.poses[base].direction
             return direction.x if axis == "x" else direction.y
+        if kind == "o":
+            return self.motion.angles(key)
         if kind in ("w", "g"):
             state = self.motion.states[key]
             return state.omega if kind == "w" else state.alpha

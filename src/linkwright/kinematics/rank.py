@@ -286,11 +286,13 @@ def coordinates(motion: Motion, index: int) -> Floats:
     mechanism, found = motion.mechanism, []
     size, places = mechanism_size(mechanism), _first_points(mechanism)
     motion.rows.fetch(_pose_outputs(mechanism), motion.evaluate)  # all in one program
+    wheels = any(joint.higher for joint in mechanism.joints.values())
     for name, link in mechanism.links.items():
         c, s = motion.link(name).direction[index]
         px, py = next(iter(link.points.values()))
         x, y = motion.point_of(places[name]).position[index]
-        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size, math.atan2(s, c)]
+        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size]
+        found.append(motion.link(name).angle[index] if wheels else math.atan2(s, c))
     return np.array(found)
 
 
@@ -458,18 +460,25 @@ def _report(
     where = "_drawn" if drawn else ""
     if mobility == count:
         return make(Sentence(f"rank.confirmed{where}", count=count))
-    reason = _reason(redundant, links, special, guides)
+    wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)
+    reason = _reason(redundant, links, special, guides, wheels)
     return make(Sentence(f"rank.differs{where}", count=count, mobility=mobility, reason=reason))
 
 
 def _reason(
-    redundant: tuple[str, ...], links: tuple[str, ...], special: bool, guides: tuple[str, ...]
+    redundant: tuple[str, ...],
+    links: tuple[str, ...],
+    special: bool,
+    guides: tuple[str, ...],
+    wheels: bool,
 ) -> Sentence:
     if special:
         return Sentence("rank.special", redundant=redundant)
     if links:
         named = tuple(Sentence("rank.named", name=name) for name in links)
         return Sentence("rank.links" if len(links) > 1 else "rank.link", links=named)
+    if guides and wheels:
+        return Sentence("rank.wheels", pairs=guides, redundant=redundant)
     if guides:
         return Sentence(
             "rank.guides" if len(guides) > 1 else "rank.guide", guides=guides, redundant=redundant

@@ -41,6 +41,7 @@ class StepRule:
     def __post_init__(self) -> None:
         trace = self.motion.trace
         begun = self._state("begun", 0.0, 1.0)
+        self.following |= self.motion.angles.carried
         for placed in self.motion.placed.values():
             if placed.coordinates:
                 self._judge(placed, trace.compare("less", begun, 0.5))

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.names import vector_names
 from linkwright.words.sentence import Sentence
@@ -29,7 +28,7 @@ def columns(motion: Motion) -> dict[str, Floats]:
         found[f"{name}.angular_velocity [rad/s]"] = link.angular_velocity
         found[f"{name}.angular_acceleration [rad/s²]"] = link.angular_acceleration
     for name, joint in motion.mechanism.joints.items():
-        if isinstance(joint, PrismaticJoint):
+        if joint.coordinate == "slide":
             slide = motion.joint(name)
             found[f"{name}.displacement [m]"] = slide.displacement
             found[f"{name}.velocity [m/s]"] = slide.velocity

@@ -41,9 +41,12 @@ def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], st
 
 
 def _indeterminate(motion: Motion) -> tuple[str, ...]:
-    """Says which couples statics cannot tell, because a loop of guides prevents a rotation more than once."""
-    guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.kind == "prismatic"]
-    return tuple(Sentence("forces.indeterminate", name=name) for name in guides)
+    """Says which couples and forces statics cannot tell, because others prevent the same rotation."""
+    guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.slides]
+    said = [Sentence("forces.indeterminate", name=name) for name in guides]
+    if passive := motion.structure.passive:
+        said.append(Sentence("forces.passive", names=passive))
+    return tuple(said)
 
 
 def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:

@@ -25,7 +25,7 @@ def columns(forces: Forces) -> dict[str, Floats]:
             force = forces.reaction(name, on=link)
             found[f"{name} on {link}.x [N]"], found[f"{name} on {link}.y [N]"] = force[:, 0], force[:, 1]
             found[f"{name} on {link}.magnitude [N]"] = np.hypot(force[:, 0], force[:, 1])
-            if joint.kind != "revolute":
+            if joint.couples:
                 found[f"{name} on {link}.couple [N·m]"] = forces.couple(name, on=link)
     found["shaking_force.x [N]"], found["shaking_force.y [N]"] = forces.shaking_force.T
     found["shaking_moment [N·m]"] = forces.shaking_moment

@@ -6,8 +6,6 @@ import math
 from functools import partial
 
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.model.mechanism import Link, Mechanism, Vec
 from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node
@@ -75,9 +73,7 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
                 Sentence("model.share_point"),
                 "unused",
             )
-        elif len(link.points) == 1 and not any(
-            isinstance(joint, PrismaticJoint | WeldJoint) for joint in joints
-        ):
+        elif len(link.points) == 1 and all(joint.coordinate == "turn" for joint in joints):
             reader.error(
                 node,
                 key,
@@ -155,7 +151,7 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
     sliding, grown = {"frame"}, bool(mechanism.drivers)
     while grown:
-        pairs = [j.joined[:2] for j in mechanism.joints.values() if isinstance(j, PrismaticJoint | WeldJoint)]
+        pairs = [j.joined[:2] for j in mechanism.joints.values() if j.ties]
         more = {link for pair in pairs if sliding & set(pair) for link in pair} - sliding
         sliding, grown = sliding | more, bool(more)
     for name, link in mechanism.links.items() if mechanism.drivers else ():

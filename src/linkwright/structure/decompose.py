@@ -17,6 +17,7 @@ from linkwright.structure.constraints import FRAME, ConstraintGraph
 from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.matching import components, maximum_matching
 from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler, islands
+from linkwright.structure.trains import gear_trains
 
 
 def structure(mechanism: Mechanism) -> Structure:
@@ -36,6 +37,7 @@ def structure(mechanism: Mechanism) -> Structure:
         drivers=tuple(mechanism.drivers),
         groups=tuple(groups),
         counts=numbers,
+        trains=gear_trains(mechanism),
         passive=tuple(name for name in graph.redundant if mechanism.joints[name].higher),
         parts=tuple(tuple(part) for part in islands(mechanism)),
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from linkwright.joints.base import JOINTS
+from linkwright.structure.trains import GearTrain
 
 
 @dataclass(frozen=True)
@@ -135,8 +136,8 @@ class Structure:
 
     ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
     make already (joint names), added to it, those of higher pairs also in ``passive``; ``parts``: sets of links
-    that share nothing but the frame (more than one: several mechanisms in one model). See the theory page on
-    structure.
+    that share nothing but the frame (more than one: several mechanisms in one model); ``trains``: ratios of gears and
+    belts with their carriers stopped. See the theory page on structure.
     """
 
     grubler: int
@@ -146,6 +147,7 @@ class Structure:
     counts: dict[str, int]
     parts: tuple[tuple[str, ...], ...] = ()
     passive: tuple[str, ...] = ()
+    trains: tuple[GearTrain, ...] = ()
 
     @property
     def mobility(self) -> int:

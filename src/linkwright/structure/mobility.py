@@ -8,6 +8,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.constraints import FRAME, ConstraintGraph
+from linkwright.structure.trains import GearTrain, gear_trains
 from linkwright.words.sentence import Sentence, together
 
 
@@ -84,8 +85,29 @@ def explain_excess(
             mobility=mobility,
             drivers=_drivers("drivers", drivers),
         )
+    blocked = [train for train in gear_trains(mechanism) if train.blocked]
+    if blocked:
+        train = blocked[0]
+        loop = tuple(map(repr, _loop_of(mechanism, train)))
+        return StructureError(
+            Sentence("mobility.blocked", why=why, pairs=loop, carrier=train.carrier, pair=train.blocked[0])
+        )
     links, extra = tuple(map(repr, bodies)), tuple(map(repr, sources))
     return StructureError(Sentence("mobility.excess", why=why, links=links, extra=extra))
+
+
+def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:
+    """Names of the pairs that lead from one wheel of a blocking pair to the other, and of that pair."""
+    joints = mechanism.joints
+    start, goal = joints[train.blocked[0]].joined
+    ways: list[tuple[str, tuple[str, ...]]] = [(start, ())]
+    for link, way in ways:
+        if link == goal:
+            return [*way, train.blocked[0]]
+        for name in train.pairs:
+            if name != train.blocked[0] and name not in way and link in joints[name].joined:
+                ways.append((next(k for k in joints[name].joined if k != link), (*way, name)))
+    return list(train.pairs)
 
 
 def _has(mechanism: Mechanism, mobility: int) -> Sentence:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.joints.base import JOINTS
 from linkwright.structure.group import Connection, Group, Structure
+from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, has, speaker
 from linkwright.words.width import cells, padded
 
@@ -27,6 +28,8 @@ def describe(structure: Structure, language: str = "en") -> str:
         lines.append(say("structure_text.parts", count=len(structure.parts), parts=parts))
     if structure.drivers:
         lines.append(say("structure_text.other_driver"))
+    for train in structure.trains:
+        lines += ["", *_train(train, say)]
     return "\n".join(lines)
 
 
@@ -69,6 +72,34 @@ def _kind(kind: str, say: Say) -> str:
     return say(f"nouns.pair_{kind}") if has(f"nouns.pair_{kind}") else kind
 
 
+def _train(train: GearTrain, say: Say) -> list[str]:
+    """The ratios of a train by the method of the stopped carrier."""
+    wheels = list(train.ratios)
+    stopped = say("structure_text.stopped", carrier=train.carrier)
+    rows = [["", *wheels], [stopped, *map(written, train.ratios.values())]]
+    if train.planetary:
+        rows[0].append(train.carrier)
+        rows[1].append("0")
+        rows.append([say("structure_text.as_one"), *["1"] * (len(wheels) + 1)])
+    widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = [say("structure_text.train", pairs=", ".join(train.pairs), carrier=train.carrier)]
+    for row in rows:
+        first, *rest = (padded(cell, w) for cell, w in zip(row, widths, strict=True))
+        lines.append("  " + "  ".join([first, *rest]).rstrip())
+    if train.planetary:
+        lines += [
+            say(
+                "structure_text.willis",
+                carrier=train.carrier,
+                first=train.first,
+                wheel=wheel,
+                ratio=written(ratio),
+            )
+            for wheel, ratio in list(train.ratios.items())[1:]
+        ]
+    return lines
+
+
 def _table(structure: Structure, say: Say) -> list[str]:
     """The groups, one in a line."""
     rows = [_row(number, group, say) for number, group in enumerate(structure.groups, 1)]
@@ -102,6 +133,9 @@ def as_data(structure: Structure) -> dict[str, object]:
         "redundant": list(structure.redundant),
         "counts": dict(structure.counts),
         "drivers": list(structure.drivers),
+        "trains": [
+            {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in structure.trains
+        ],
         "parts": [list(part) for part in structure.parts],
         "class": structure.mechanism_class,
         "groups": [

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
@@ -90,8 +91,7 @@ class Book:
         found = {"frame"}
         for _ in self.mechanism.links:
             for joint in self.mechanism.joints.values():
-                if not isinstance(joint, RevoluteJoint) and found & set(joint.joined):
-                    found |= set(joint.joined)
+                found |= _followers(joint, found)
         if not self.mechanism.drivers:
             found |= set(self.mechanism.links)
         return frozenset(found)
@@ -107,8 +107,7 @@ class Book:
                 if turning and isinstance(driver.law, ConstantSpeed) and found & ends:
                     found |= ends
             for joint in self.mechanism.joints.values():
-                if not isinstance(joint, RevoluteJoint) and found & set(joint.joined):
-                    found |= set(joint.joined)
+                found |= _followers(joint, found)
         return frozenset(found)
 
     # points -------------------------------------------------------------------------------
@@ -242,6 +241,15 @@ class Book:
         """A given angle as a plain number of degrees."""
         value = math.degrees(radians)
         return ZERO if value == 0.0 else number(float(f"{value:.13g}"), degrees=True)
+
+
+def _followers(joint: Joint, known: set[str]) -> set[str]:
+    """Links that turn as some others do (not at all, or steadily), as a joint ties their rotations."""
+    if joint.ties:
+        return set(joint.ties) if known & set(joint.ties) else set()
+    if joint.rotations_only and len(set(joint.turning) - known) == 1:
+        return set(joint.turning)
+    return set()
 
 
 def tex(name: str) -> str:

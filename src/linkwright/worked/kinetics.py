@@ -19,6 +19,9 @@ def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
     for group in reversed(forces.motion.structure.groups):
         number += 1
         steps += reactions.group(group, number)
+    if passive := forces.motion.structure.passive:
+        number += 1
+        steps.append(reactions.passive(passive, number))
     shares = reactions.shares(number + 1)
     if shares is not None:
         number += 1

@@ -9,7 +9,7 @@ from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.kinematics.groups import dyad_shape
+from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot, tex
 from linkwright.worked.chains import attach
@@ -110,7 +110,7 @@ class Places:
         shape = dyad_shape(group) if group.unknowns else None
         if shape is not None and self._plain(group, shape[1]):
             self._dyad(step, group, *shape)
-        elif group.unknowns:
+        elif group.unknowns and not in_one_step(group):
             self._newton(step, group)
         for joint in group.tree:
             self.follow(step, joint)

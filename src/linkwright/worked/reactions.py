@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.book import Book, tex
@@ -17,6 +18,7 @@ from linkwright.worked.known import Known, KnownForces
 from linkwright.worked.page import Step
 from linkwright.worked.rates import name_matrix, solve
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
+from linkwright.worked.wheels import Wheels
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,9 @@ class Reactions:
         key = "worked.forces_of_driven" if group.assur_class == 1 and group.drivers else "worked.forces_of"
         title = book.say(key, signature=group.signature, links=links)
         head = Step(f"{number}", title, group.name)
-        if group.cuts:
+        if in_one_step(group):
+            self._wheels(head, group)
+        elif group.cuts:
             self._cuts(head, group)
         for joint in reversed(group.tree):
             self._carry(head, joint)
@@ -97,6 +101,32 @@ class Reactions:
                 force, on = self._normal(step, cut, unknowns[place], closure.across.along), cut.b
                 place += 1
             self.found.append(Found(cut, on, Known(force, closure.tip.place, NOWHERE)))
+
+    def _wheels(self, step: Step, group: Group) -> None:
+        """Tooth forces and pulls of belts, from the moments on the wheels."""
+        book, wheels = self.book, Wheels(self.book)
+        step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
+        right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
+        for cut, force in zip(group.cuts, wheels.multipliers(step, group, right), strict=True):
+            formula, place, couple = wheels.contact(cut, force)
+            on = cut.a if cut.a != "frame" else cut.b
+            if on != cut.a:
+                formula, couple = -formula, -couple
+            name, column = self._names(cut, on)
+            found = step.find_pair(name, self._solver_force(cut, on, 0j), formula, column)
+            self._size(step, cut, on, found)
+            self.found.append(Found(cut, on, Known(found, place, NOWHERE, couple)))
+
+    def passive(self, names: tuple[str, ...], number: int) -> Step:
+        """Pairs that others make superfluous: how they share the load is not determined; they count as unloaded."""
+        step = Step(str(number), self.book.say("worked.passive", joints=", ".join(names)))
+        step.say(self.book.say("worked.passive_share"))
+        for name in names:
+            on = next(k for k in self.book.mechanism.joints[name].joined if k != "frame")
+            n = self.book.numbers[on]
+            plain = (f"F_{name},{n}", f"F_{{{tex(name)},{n}")
+            step.find_pair(plain, 0j, NOWHERE, f"{name} on {on}")
+        return step
 
     def _reversed(self, step: Step, cut: Connection, force: Pair) -> Pair:
         """The force on the group's own link, where the other one was found."""

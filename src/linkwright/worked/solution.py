@@ -8,7 +8,8 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.kinematics.groups import dyad_shape
+from linkwright.kinematics.angles import geared
+from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -22,6 +23,7 @@ from linkwright.worked.places import Places
 from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked.rates import RateWriter, System
 from linkwright.worked.text import page
+from linkwright.worked.wheels import Wheels
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,9 @@ def worked(
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
     _refuse_missing(motion, position)
+    loops = tuple(g.name for g in motion.structure.groups if geared(g) and not in_one_step(g))
+    if loops:
+        raise LinkwrightError(Sentence("worked.geared_loops", groups=loops))
     index = position % motion.steps
     say = speaker(language)
     book = Book(motion, index, say)
@@ -128,6 +133,7 @@ class _Kinematics:
         self.places = Places(book)
         self.movers = Movers(book)
         self.rates = RateWriter(book)
+        self.wheels = Wheels(book)
 
     def steps(self) -> list[Step]:
         found = [self._input()] if self.book.mechanism.drivers else []
@@ -159,13 +165,18 @@ class _Kinematics:
         head = Step(str(number), self._title(group, links), name)
         head.say(self._joints(group))
         places = Step(f"{number}.1", say("worked.positions"), name)
+        wheels = in_one_step(group)
+        if wheels:
+            self.wheels.positions(places, self.places, group)
         self.places.place(places, group)
         place_points(self.book, self.places, places, group)
         cut_displacements(self.book, self.places, places, group)
-        if group.unknowns and dyad_shape(group) is None:
+        if group.unknowns and dyad_shape(group) is None and not wheels:
             check_closure(self.book, places, group)
         if not moving:
             return [head, places]
+        if wheels:
+            return [head, places, *self._wheel_rates(group, number)]
         cuts = closures(self.book, group)
         first = Step(f"{number}.2", say("worked.velocities"), name)
         self.movers.driven_guides(first, group, second=False)
@@ -176,6 +187,18 @@ class _Kinematics:
         self.rates.accelerations(second, group, cuts, system)
         self.movers.move(second, group, second=True)
         return [head, places, first, second]
+
+    def _wheel_rates(self, group: Group, number: int) -> list[Step]:
+        found = []
+        for second, word in ((False, "velocities"), (True, "accelerations")):
+            step = Step(f"{number}.{3 if second else 2}", self.book.say(f"worked.{word}"), group.name)
+            self.movers.driven_guides(step, group, second=second)
+            self.rates.links(step, group, second=second, before=True)
+            self.wheels.rates(step, group, second=second)
+            self.rates.links(step, group, second=second, before=False)
+            self.movers.move(step, group, second=second)
+            found.append(step)
+        return found
 
     def _title(self, group: Group, links: str) -> str:
         key = "worked.group_driven" if group.assur_class == 1 and group.drivers else "worked.group"

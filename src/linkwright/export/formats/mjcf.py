@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.mjcf.bodies import Bodies
 from linkwright.export.mjcf.drives import actuators, key, laws, reflected_inertia
-from linkwright.export.mjcf.loops import loops
+from linkwright.export.mjcf.loops import loops, tendons
 from linkwright.export.mjcf.text import numbers, seconds, written
 from linkwright.export.results import Results
 
@@ -39,6 +39,9 @@ def content(results: Results, *, timestep: float | None = None) -> bytes:
     equality = loops(results, bodies)
     if len(equality):
         root.append(equality)
+    sums = tendons(results, bodies)
+    if len(sums):
+        root.append(sums)
     if results.mechanism.drivers:
         root.append(actuators(results, bodies, step))
         custom = laws(results)

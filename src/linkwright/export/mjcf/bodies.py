@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,6 +45,7 @@ class Bodies:
         self.reflected = reflected
         self.coordinates: list[Coordinate] = []
         self.joint_of: dict[str, str] = {}
+        self.named: dict[str, str] = {}
         self.placed = placements(self.motion)
         self.hung = {step.child: step for group in self.structure.groups for step in group.tree}
         self.riders: dict[str, list[Connection]] = {}
@@ -115,8 +117,21 @@ class Bodies:
             attributes["armature"] = numbers([HEAVY * self.reflected[coordinate.driver]])
         ET.SubElement(body, "joint", attributes)
         self.coordinates.append(coordinate)
+        self.named[step.child] = coordinate.name
         if coordinate.driver is not None:
             self.joint_of[coordinate.driver] = coordinate.name
+
+    def turned(self, rotations: Mapping[str, float]) -> dict[str, float]:
+        """A sum of links' rotations as one of the model's joint coordinates: factors by name."""
+        found: dict[str, float] = {}
+        for link, factor in rotations.items():
+            while link in self.hung:
+                step = self.hung[link]
+                if step.turns:
+                    name = self.named[link]
+                    found[name] = found.get(name, 0.0) + factor * self._sense(step)
+                link = step.parent
+        return found
 
     def _sense(self, step: TreeJoint) -> float:
         """+1 where the child turns with the coordinate, -1 where it turns against it."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import Names, number, quoted
 from linkwright.export.results import Results
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.joints.weld import WeldJoint
@@ -51,6 +52,8 @@ class Equations:
                 self._guide(joint)
             elif isinstance(joint, WeldJoint):
                 self._weld(joint)
+            elif joint.higher and joint.name not in self.results.structure.redundant:
+                self.text.equations.append(f"{self.rolled(joint)} = 0.0;")
         for name in self.mechanism.drivers:
             self._driver(name)
         return self.text
@@ -155,6 +158,22 @@ class Equations:
             angles = [self.motion.link(link).angle[self.index] for link in (joint.block, joint.guide)]
             gap = angles[0] + joint.block_angle - angles[1] - guide_angle(self.mechanism, joint)
             self.text.equations.append(f"{self.angle(joint.block)} + {block} = {along}{turns(gap)};")
+
+    def rolled(self, joint: Joint) -> str:
+        """The sum of rotations and displacements that a higher pair keeps, less its value at the start."""
+        rotations, slides, _ = joint.sums(self.mechanism)
+        terms = [
+            (factor, self.angle(link), self.motion.link(link).angle[self.index])
+            for link, factor in rotations.items()
+        ]
+        terms += [
+            (factor, f"{self.names.of('guide', name)}_s", self.motion.joint(name).displacement[self.index])
+            for name, factor in slides.items()
+        ]
+        start = sum(factor * float(value) for factor, _, value in terms)
+        return (
+            " + ".join(f"({number(factor)})*{name}" for factor, name, _ in terms) + f" + ({number(-start)})"
+        )
 
     def _weld(self, joint: WeldJoint) -> None:
         a, b = joint.links

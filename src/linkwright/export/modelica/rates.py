@@ -10,6 +10,7 @@ from linkwright.export.modelica.equations import Equations, Text
 from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import number, quoted
 from linkwright.export.results import Results
+from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.weld import WeldJoint
 from linkwright.model.drawing import guide_angle
@@ -39,6 +40,8 @@ class Rates:
                 self._guide(joint)
             elif isinstance(joint, WeldJoint):
                 self._weld(joint)
+            elif joint.higher and joint.name not in self.redundant:
+                self._rolling(joint)
         for name in self.mechanism.drivers:
             self._driver(name)
         return self.model.text
@@ -110,6 +113,13 @@ class Rates:
         gap = self.motion.link(link).angle[self.index] - self.motion.link(base).angle[self.index]
         turned = f"{self.model.angle(link)} - {self.model.angle(base)} - ({number(gap)})"
         self._condition(f"{self._spin(link)} - {self._spin(base)}", turned)
+
+    def _rolling(self, joint: Joint) -> None:
+        rotations, slides, _ = joint.sums(self.mechanism)
+        terms = [(factor, self._spin(link)) for link, factor in rotations.items()]
+        terms += [(factor, f"{self.model.names.of('guide', name)}_s_w") for name, factor in slides.items()]
+        rate = " + ".join(f"({number(factor)})*{name}" for factor, name in terms)
+        self._condition(rate, self.model.rolled(joint))
 
     def _weld(self, joint: WeldJoint) -> None:
         a, b = joint.links

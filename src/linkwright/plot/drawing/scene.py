@@ -13,6 +13,7 @@ from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
 from linkwright.plot.drawing.view import fitted, followed, moved, placements
+from linkwright.plot.drawing.wheels import wheels
 from linkwright.plot.svg.element import Element, Floats, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
 
@@ -91,7 +92,7 @@ def laid_out(
     """
     placed = followed(placements(motion), beside)
     machine = Machine(motion, placed, fitted(motion, placed))
-    parts = [*bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
     if inputs:
         parts += input_arrows(machine, index)
     if centres:

@@ -45,24 +45,49 @@ def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]
 
 
 PITCH, TALL, DEEP = 11.0, 3.2, 3.6
+#: Teeth of a smaller pitch on the paper are not drawn one by one.
+FINEST = 4.0
 _TOOTH = np.array([(-0.5, -1.0), (-0.32, -1.0), (-0.16, 1.0), (0.16, 1.0), (0.32, -1.0)])
 
 
 @SYMBOLS.register("gear")
-def gear(*, at: Vec = (0.0, 0.0), radius: float = 40.0, turned: float = 0.0, inside: bool = False) -> Shape:
+def gear(
+    *,
+    at: Vec = (0.0, 0.0),
+    radius: float = 40.0,
+    turned: float = 0.0,
+    inside: bool = False,
+    teeth: int | None = None,
+) -> Shape:
     """A gear: teeth on its pitch circle, a chain line; ``inside`` for the teeth of a ring gear.
 
-    The teeth show that it is a gear; their number is not the gear's.
+    Without their number ``teeth`` they show that it is a gear; likewise where they would be too fine to be seen.
     """
     count = max(12, round(2 * math.pi * radius / PITCH))
+    if teeth is not None and 2 * math.pi * radius / teeth > FINEST:
+        count = teeth
     step = 2 * math.pi / count
     angle = (turned + step * (np.arange(count)[:, None] + _TOOTH[None, :, 0])).ravel()
-    height = np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
+    small = min(1.0, 2 * math.pi * radius / count / PITCH)
+    height = small * np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
     r = radius + height
     outline = np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
-    rim = (circle(at, radius + 4 * DEEP, "lw-support"),) if inside else ()
-    teeth = path(outline, "lw-gear", closed=True)
-    return Shape((*rim, teeth, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
+    rim = (circle(at, radius + 4 * DEEP, "lw-rim"),) if inside else ()
+    wheel = path(outline, "lw-gear", closed=True)
+    return Shape((*rim, wheel, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
+
+
+@SYMBOLS.register("disc")
+def disc(*, at: Vec = (0.0, 0.0), radius: float = 40.0) -> Shape:
+    """A wheel without teeth: a pulley, a sprocket, a rolling wheel."""
+    return Shape((circle(at, radius, "lw-gear"),), (ring(at, radius, 36),))
+
+
+@SYMBOLS.register("strand")
+def strand(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0)) -> Shape:
+    """A free strand of a belt or chain."""
+    line = points([start, end])
+    return Shape((path(line, "lw-strand"),), (line,))
 
 
 @SYMBOLS.register("rack")

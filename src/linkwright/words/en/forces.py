@@ -12,6 +12,8 @@ WORDS = {
     "no_pin_shared": "links {a!r} and {b!r} share no pin, so {name!r} is no four-bar or slider-crank",
     "needs_pin_radius": "joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: "
     "20 mm",
+    "passive": "how the passive pairs {names} and the pairs beside them share the load is statically indeterminate: "
+    "the passive ones are taken as unloaded",
     "indeterminate": "the couple of guide {name!r} is statically indeterminate, as other guides prevent the "
     "same rotation: it is taken as zero, and the couples of those guides carry all",
     "self_locking": "{name!r} is self-locking by friction near {where} (rad or m): the friction in joint "

@@ -1,6 +1,7 @@
 """Titles of the models in the gallery."""
 
 WORDS = {
+    "chain_drive": "Chain drive of a slider-crank",
     "change_point_fourbar": "Four-bar with a change point",
     "chebyshev_lambda": "Chebyshev lambda linkage",
     "class_four_group": "Class IV group",
@@ -13,8 +14,14 @@ WORDS = {
     "dyad_rrr": "RRR dyad between two driven cranks",
     "elliptic_trammel": "Elliptic trammel",
     "excavator": "Excavator arm",
+    "external_gear_pair": "External gear pair",
     "fourbar_lecture": "Crank-rocker of the machine-part lectures",
     "fourth_order_group": "Fourth-order group (6 links, 9 joints)",
+    "gear_differential": "Spur-gear differential",
+    "geared_fivebar": "Geared five-bar, ratio -1",
+    "geared_fivebar_double": "Geared five-bar, ratio 2",
+    "geared_fivebar_third": "Geared five-bar, ratio 1/3",
+    "internal_gear_pair": "Internal gear pair",
     "jaw_crusher_fourbar": "Hinged jaw crusher, four-bar",
     "jaw_crusher_sixbar": "Hinged jaw crusher, six-bar",
     "jaw_crusher_sixbar_as_reported": "Hinged jaw crusher, six-bar, load as reported",
@@ -23,7 +30,10 @@ WORDS = {
     "pantograph": "Pantograph",
     "parallelogram": "Parallelogram linkage",
     "peaucellier": "Peaucellier straight-line linkage",
+    "pinion_between_racks": "Pinion rolling between two racks",
+    "planetary_two_inputs": "Planetary train with two inputs",
     "press_double_crank": "Double crank of a printing press's cylinder drive",
+    "rack_and_rocker": "Rack driven by a rocker",
     "scotch_yoke": "Scotch yoke",
     "shaper_quick_return": "Shaper with crank and slotted lever",
     "slider_crank_inline": "Slider-crank, in line",

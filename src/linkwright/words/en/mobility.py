@@ -11,6 +11,8 @@ WORDS = {
     "{drivers} is given",
     "cannot_be_driven_by_several": "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be "
     "driven, but {drivers} are given",
+    "blocked": "{why}; the wheels of {pairs} block each other: round this loop on {carrier!r} the ratio is not 1, so "
+    "none of them can turn; take {pair!r} away, or change the sizes",
     "excess": "{why}; the links {links} are determined more than once (by {extra} among others); remove a "
     "driver, a redundant link or a redundant guide",
     "drivers_0": "no drivers",

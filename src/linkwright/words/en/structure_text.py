@@ -16,6 +16,10 @@ WORDS = {
     "{mobility}",
     "redundant_pairs": "The pairs {pairs} demand what other pairs demand already: they are passive constraints, so "
     "the mobility is {mobility}.",
+    "train": "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
+    "stopped": "{carrier} stopped",
+    "as_one": "all as one",
+    "willis": "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
     "at_rest": "Mobility 0 and no driver: a structure at rest, which carries loads.",
     "determined": "Mobility equals the number of drivers ({count}): the motion is determined.",
     "groups": "Assur groups in solving order:",

@@ -1,6 +1,14 @@
 """The worked solution of one position."""
 
 WORDS = {
+    "geared_loops": "the worked solution does not go through groups in which gears, belts or racks are part of a "
+    "loop ({groups})",
+    "wheels": "The pairs {joints} add the rotations up, counted with their turns:",
+    "wheel_rates": "Equal velocities along the tangent at the pitch points of {joints}:",
+    "wheel_forces": "Moments about the wheels' centres: T is the tangential force of each of {joints}; teeth add "
+    "T tan α along the line of centres, belts pull along their strands.",
+    "passive": "Passive pairs {joints}",
+    "passive_share": "How they share the load with others is not determined by rigid links; they count as unloaded.",
     "title": "{name}: worked solution of one position",
     "links": "Links: {links}.",
     "convention": "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, v_Ax, "

@@ -11,6 +11,7 @@ WORDS = {
     "中改变质量和质心",
     "no_pin_shared": "构件“{a}”与“{b}”没有公共转动副，因此“{name}”不是四杆机构或曲柄滑块机构",
     "needs_pin_radius": "joints.{name}：计算摩擦需要销轴半径；请加上 pin_radius，如 pin_radius: 20 mm",
+    "passive": "虚约束高副 {names} 与其旁各副如何分担载荷属静不定问题：虚约束按不受力计",
     "indeterminate": "移动副“{name}”的反力偶是静不定的，因为其他移动副也阻止同一转动：取为零，"
     "全部由那些移动副的力偶承受",
     "self_locking": "“{name}”在 {where}（rad 或 m）附近因摩擦自锁：运动副“{joint}”中的摩擦在迭代中无限增大，"

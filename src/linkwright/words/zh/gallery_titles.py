@@ -1,6 +1,7 @@
 """机构库中各模型的名称。"""
 
 WORDS = {
+    "chain_drive": "曲柄滑块机构的链传动",
     "change_point_fourbar": "有变点的四杆机构",
     "chebyshev_lambda": "切比雪夫 λ 形机构",
     "class_four_group": "Ⅳ级组",
@@ -13,8 +14,14 @@ WORDS = {
     "dyad_rrr": "两原动曲柄之间的 RRR Ⅱ级组",
     "elliptic_trammel": "椭圆仪",
     "excavator": "挖掘机臂",
+    "external_gear_pair": "外啮合齿轮副",
     "fourbar_lecture": "机械零件课程中的曲柄摇杆机构",
     "fourth_order_group": "四阶杆组（6 个构件，9 个运动副）",
+    "gear_differential": "圆柱齿轮差动轮系",
+    "geared_fivebar": "齿轮五杆机构，传动比 -1",
+    "geared_fivebar_double": "齿轮五杆机构，传动比 2",
+    "geared_fivebar_third": "齿轮五杆机构，传动比 1/3",
+    "internal_gear_pair": "内啮合齿轮副",
     "jaw_crusher_fourbar": "铰链式颚式破碎机，四杆",
     "jaw_crusher_sixbar": "铰链式颚式破碎机，六杆",
     "jaw_crusher_sixbar_as_reported": "铰链式颚式破碎机，六杆，按报告所用载荷",
@@ -23,7 +30,10 @@ WORDS = {
     "pantograph": "缩放仪",
     "parallelogram": "平行四边形机构",
     "peaucellier": "波塞利耶直线机构",
+    "pinion_between_racks": "在两齿条间滚动的齿轮",
+    "planetary_two_inputs": "双输入行星轮系",
     "press_double_crank": "印刷机滚筒传动的双曲柄机构",
+    "rack_and_rocker": "摇杆驱动的齿条",
     "scotch_yoke": "正弦机构",
     "shaper_quick_return": "带曲柄摆动导杆的牛头刨床",
     "slider_crank_inline": "对心曲柄滑块机构",

@@ -1,6 +1,12 @@
 """一个位置的解题过程。"""
 
 WORDS = {
+    "geared_loops": "解题步骤不包括齿轮、带或齿条处于回路之中的杆组（{groups}）",
+    "wheels": "由 {joints} 将各转角（计入整圈数）叠加：",
+    "wheel_rates": "{joints} 节点处沿切线的速度相等：",
+    "wheel_forces": "对轮心取矩：T 为 {joints} 各自的切向力；轮齿另有沿连心线的 T tan α，带沿其带边拉紧。",
+    "passive": "虚约束高副 {joints}",
+    "passive_share": "各副如何分担载荷，刚性构件不能确定；此处按不受力计。",
     "title": "{name}：一个位置的解题过程",
     "links": "构件：{links}。",
     "convention": "x 向右，y 向上，角度与力矩以逆时针为正，国际单位。x_A、v_Ax、a_Ax：A 点的位置、速度、"

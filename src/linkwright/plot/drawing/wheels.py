@@ -1,0 +1,53 @@
+"""Gears, racks, wheels, belts and chains of a mechanism's drawing, by what their joints say of themselves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.joints.marks import Mark
+from linkwright.plot.drawing.machine import Machine, Part
+from linkwright.plot.symbols.base import SYMBOLS, Shape
+
+#: A rack goes on beyond the last place of its pinion, units of the paper.
+BEYOND = 14.0
+
+
+def wheels(machine: Machine) -> Iterator[Part]:
+    """The marks of all joints, each wheel once: below everything else, rings and large ones first."""
+    mechanism = machine.motion.mechanism
+    tooth: dict[tuple[str, str], float] = {}
+    found: dict[tuple[object, ...], Mark] = {}
+    for joint in mechanism.joints.values():
+        for mark in joint.marks(mechanism, tooth):
+            key = (mark.symbol, mark.link, mark.at, mark.to, round(mark.radius, 9), mark.inside)
+            found.setdefault(key, mark)
+    for mark in sorted(found.values(), key=lambda each: (not each.inside, -each.radius)):
+        yield Part("ground", mark.link, _shape(machine, mark))
+
+
+def _shape(machine: Machine, mark: Mark) -> Shape:
+    scale, at = machine.view.scale, machine.view.local(mark.at)
+    if mark.symbol == "gear":
+        return SYMBOLS["gear"](
+            at=at, radius=mark.radius * scale, turned=-mark.turned, inside=mark.inside, teeth=mark.teeth
+        )
+    if mark.symbol == "disc":
+        return SYMBOLS["disc"](at=at, radius=mark.radius * scale)
+    if mark.symbol == "strand":
+        return SYMBOLS["strand"](start=at, end=machine.view.local(mark.to))
+    assert mark.follows is not None
+    along = (math.cos(mark.turned), -math.sin(mark.turned))
+    link, point = mark.follows
+    gap = machine.placed[link].world(machine.motion.mechanism.link(link).points[point])
+    placed = machine.placed[mark.link]
+    gap = gap - placed.world(mark.at)
+    c, s = math.cos(mark.turned), math.sin(mark.turned)
+    ex, ey = placed.direction[:, 0], placed.direction[:, 1]
+    ways = (gap[:, 0] * (ex * c - ey * s) + gap[:, 1] * (ey * c + ex * s)) * scale
+    low, high = float(np.nanmin(ways)) - BEYOND, float(np.nanmax(ways)) + BEYOND
+    if mark.inside:
+        along, low, high = (-along[0], -along[1]), -high, -low
+    return SYMBOLS["rack"](at=at, along=along, start=low, end=high)
