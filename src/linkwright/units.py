@@ -258,11 +258,13 @@ def exponent(text: str) -> int:
 
 @lru_cache(1024)
 def unit(text: str) -> tuple[float, Dimension]:
-    """Factor to SI and dimension of a unit such as ``N·m/rad`` or ``kg*m^2``.
+    """Factor to SI and dimension of a unit such as ``N·m/rad``, ``kg*m^2`` or ``1/rad``.
 
     Raises QuantityError for a unit that is not known, with the nearest known spelling.
     """
     factor, dimension, sign, at = 1.0, NONE, 1, 0
+    if text.startswith("1/"):
+        sign, at = -1, 2
     turning = re.match(r"r\s*/\s*(?=min|s)", text)
     if turning:
         factor, dimension, sign, at = _TURN, UNITS["rev"][1], -1, turning.end()
@@ -336,7 +338,7 @@ def parse(text: str, dimension: str) -> float:
     sign, digits, rest = found.groups()
     if re.match(r",\s?\d", rest):
         raise decimal_comma(plain)
-    if re.match(r"\d", rest):
+    if re.match(r"(?!1/)\d", rest):
         raise QuantityError(
             Sentence("units.space", plain=plain),
             Sentence("units.write_number", digits=digits, rest=rest),

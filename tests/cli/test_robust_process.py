@@ -77,6 +77,7 @@ class Left:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)
 
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.unraisablehook = process._interrupt_again
 left = Left()
 try:

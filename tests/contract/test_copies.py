@@ -54,6 +54,28 @@ def model() -> lw.Model:
     return found
 
 
+@cache
+def motion_program() -> lw.MotionProgram:
+    return lw.MotionProgram(
+        (lw.Segment(2.0, rise=0.02, law="cycloidal"), lw.Segment(4.28318530717958647, to=0.0))
+    )
+
+
+def cam() -> lw.Cam:
+    return lw.Cam(motion_program(), lw.Follower(roller_radius=0.008, offset=0.004), base_radius=0.045)
+
+
+@cache
+def variants() -> lw.Variants:
+    return lw.variants("gallery:jaw_crusher_fourbar", 1, seed=7)
+
+
+def grades() -> list[lw.Grade]:
+    key = variants().key()
+    answers = {question["name"]: "1" for question in key["questions"]}
+    return list(lw.grade(key, [{"student": "A. Student", "variant": "1", **answers}]))
+
+
 SIX = "gallery:jaw_crusher_sixbar"
 RESULTS: dict[str, Callable[[], Any]] = {
     "mechanism": lambda: lw.load(SIX),
@@ -104,13 +126,34 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "optimum": lambda: lw.optimize(
         lw.load(SIX), vary={"pitman.length": "1.2..1.3 m"}, minimize="peak_input_torque", evaluations=48
     ),
+    "motion laws": lambda: list(lw.laws_for("rest", "turn")),
+    "motion program": motion_program,
+    "found program": lambda: lw.FoundProgram(points=((1.5, 0.02),), windows=(lw.Window(2.5, 4.0, 0.0, 0.0),)),
+    "cam": cam,
+    "cam, solved": lambda: cam().solve(),
+    "follower": lambda: cam().follower,
+    "report": lambda: lw.report("gallery:crank_rocker", sections=["task", "structure"]),
+    "validation": lw.validate,
+    "variants": variants,
+    "grades": grades,
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
     **{f"part {name}": lambda name=name: parts.load(f"gallery:{name}").solve() for name in part_names()},
 }
 
 
 #: Public types that hold compiled programs or are parts of another result, and errors of the same make as others.
-MADE_OF_CODE = {"Candidate", "GearPair", "Objective", "OptimizeError", "PathError", "Rack", "SynthesisError"}
+MADE_OF_CODE = {
+    "Candidate",
+    "GearPair",
+    "Objective",
+    "OptimizeError",
+    "PathError",
+    "Rack",
+    "SynthesisError",
+} | {
+    f"Cam{part}" for part in ("Choice", "Conjugate", "Elasticity", "Limits", "Loading", "Material", "Spring")
+}
+MADE_OF_CODE |= {"Segment", "Window"}
 
 
 @cache

@@ -36,8 +36,8 @@ def test_every_requirement_is_imported_and_every_import_is_required() -> None:
     optional = set.union(
         *(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook"))
     )
-    assert required <= imported()
-    assert imported() <= required | optional
+    found = imported()
+    assert required <= found <= required | optional
 
 
 def test_the_lock_file_holds_every_requirement_from_the_public_index() -> None:

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from math import isnan
 from typing import Any, ClassVar, Literal
 
+import numpy as np
+
 from linkwright.engine.trace import Scalar
 from linkwright.metrics.analysis import Analysis, Extreme, Result
 from linkwright.metrics.quantities import si_unit
@@ -107,7 +109,8 @@ class Number:
     def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
         """Value, place, and whether it is exact between the positions, of one machine."""
         parts = [analysis.part(part) for part in self.parts]
-        found = self.formula(*(part.value for part in parts))
+        with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
+            found = self.formula(*(np.float64(part.value) for part in parts))
         assert isinstance(found, float)
         return float(found), self.at(*parts), all(part.exact for part in parts)
 
