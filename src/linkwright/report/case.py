@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats, at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import Worked
 
 STEPS = 360
-T = TypeVar("T")
 
 
 class Missing(LinkwrightError):
@@ -246,8 +244,7 @@ class Case:
             language=self.language,
             **options,  # type: ignore[arg-type]
         )
-        svg = shown.svg()
-        return re.sub(r'="([\d.]+)pt"', r'="\1"', svg[svg.index("<svg") :], count=2)
+        return picture(shown)
 
     def told(self, error: LinkwrightError) -> str:
         """What an error says, in the report's language."""
@@ -258,13 +255,7 @@ class Case:
         return in_language(text, self.language)
 
 
-def attempts(*makers: Callable[[], T]) -> Iterator[T | LinkwrightError]:
-    """What each gives, or why it does not."""
-    for make in makers:
-        try:
-            yield make()
-        except LinkwrightError as error:
-            yield error
-
-
-__all__ = ["Case", "Missing", "Numbered", "RequestError", "attempts"]
+def picture(diagram: Diagram) -> str:
+    """A diagram as SVG text that begins with its element, its size without a unit (points)."""
+    svg = diagram.svg()
+    return re.sub(r'="([\d.]+)pt"', r'="\1"', svg[svg.index("<svg") :], count=2)

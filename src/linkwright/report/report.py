@@ -10,6 +10,7 @@ from pathlib import Path
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
+from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.report.case import Case
 from linkwright.report.document import (
@@ -25,7 +26,7 @@ from linkwright.report.document import (
 )
 from linkwright.report.markdown import own_text
 from linkwright.report.section import SECTIONS, CommonSection, Section
-from linkwright.report.settings import settings
+from linkwright.report.settings import Settings, settings
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, speaker
 from linkwright.words.sentence import Sentence
@@ -79,8 +80,11 @@ class Report:
         return f"Report({self.document.title!r}: {len(self.document.blocks)} blocks)"
 
 
+Machine = Mechanism | Problem | str | Path
+
+
 def report(
-    machines: Mechanism | str | Path | Sequence[Mechanism | str | Path],
+    machines: Machine | Sequence[Machine],
     *,
     sources: Sequence[str] = (),
     sections: Sequence[str] = (),
@@ -89,10 +93,10 @@ def report(
     positions: int | None = None,
     progress: Progress | None = None,
 ) -> Report:
-    """The report of a machine, or of several with their comparison.
+    """The report of a machine, or of several with their comparison; and of calculations, cams among them.
 
     Args:
-        machines: mechanisms, paths or gallery names.
+        machines: mechanisms, calculations of machine parts, paths or gallery names.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
         sections: names of sections in the order wanted; empty: what the first file says, else all that apply.
         language: ``en`` or ``zh``.
@@ -110,28 +114,65 @@ def report(
     """
     if language not in LANGUAGES:
         raise RequestError(Sentence("worked.no_language", language=language, languages=tuple(LANGUAGES)))
-    cases = _cases(machines, sources, language, position, positions)
-    chosen = _chosen(sections or cases[0].settings.sections)
-    title = cases[0].settings.title or " / ".join(dict.fromkeys(case.mechanism.name for case in cases))
-    document = Document(title, speaker(language), language, _lines(cases[0]))
-    parts = list(_parts(cases, chosen, document))
+    given, problems = _told_apart(machines)
+    cases = _cases(given, sources, language, position, positions)
+    own = cases[0].settings if cases else settings({})
+    chosen = _chosen(sections or own.sections)
+    names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
+    document = Document(
+        own.title or " / ".join(dict.fromkeys(names)), speaker(language), language, _lines(own)
+    )
+    parts = list(_parts(cases, chosen, document)) if cases else []
     for done, (case, part) in enumerate(parts):
         if progress is not None:
             progress(done, len(parts))
         _add(document, case, part, asked=bool(sections))
+    for problem in problems:
+        _add_calculation(document, problem)
     return Report(document)
 
 
-def _cases(
-    machines: Mechanism | str | Path | Sequence[Mechanism | str | Path],
-    sources: Sequence[str],
-    language: str,
-    position: str,
-    positions: int | None,
-) -> list[Case]:
-    given = [machines] if isinstance(machines, Mechanism | str | Path) else list(machines)
+def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism | str], list[Problem]]:
+    """Mechanisms (or their files) and calculations."""
+    from linkwright.parts.file import kind_of
+    from linkwright.parts.file import load as load_calculation
+
+    given = [machines] if isinstance(machines, Mechanism | Problem | str | Path) else list(machines)
     if not given:
         raise RequestError(Sentence("report.no_machine"))
+    found: list[Mechanism | str] = []
+    problems = []
+    for each in given:
+        if isinstance(each, Problem):
+            problems.append(each)
+        elif isinstance(each, Mechanism):
+            found.append(each)
+        elif kind_of(str(each)) is not None:
+            problems.append(load_calculation(str(each)))
+        else:
+            found.append(str(each))
+    return found, problems
+
+
+def _add_calculation(document: Document, problem: Problem) -> None:
+    """Adds a calculation; one without a result says why."""
+    from linkwright.report.calculation import calculation
+
+    try:
+        for block in calculation(problem, document.say, document.language):
+            document.blocks += _parts_of(block, document)
+    except LinkwrightError as error:
+        sentence = error.say(document.language)
+        document.blocks.append(Heading(literal(problem.name), 1))
+        document.blocks.append(
+            Paragraph(document.say("report.left_out", sentence=literal(sentence)), "missing")
+        )
+        document.missing.append(f"{problem.name}: {sentence}")
+
+
+def _cases(
+    given: list[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
+) -> list[Case]:
     found = []
     for index, each in enumerate(given):
         mechanism = each if isinstance(each, Mechanism) else load(str(each))
@@ -161,8 +202,7 @@ def _chosen(names: Iterable[str]) -> list[str]:
     return asked
 
 
-def _lines(case: Case) -> tuple[str, ...]:
-    own = case.settings
+def _lines(own: Settings) -> tuple[str, ...]:
     return tuple(line for line in (own.course, own.author, own.date) if line)
 
 

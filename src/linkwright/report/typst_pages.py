@@ -38,6 +38,8 @@ CHINESE = (
 LINE, LEFT = 41.0, 9.0
 #: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
 SURE = 35.0
+#: A paragraph of fewer characters stays with the table or figure that it leads to.
+SHORT = 400
 #: Width of the text, mm, and rows of a table that stays on one page.
 TEXT, TOGETHER = 170.0, 32
 #: Warnings of Typst that say nothing about the page.
@@ -187,7 +189,9 @@ class _Writer:
                 number = self.numbers.of[index]
                 return f"{'=' * block.level} {_words(f'{number}  {block.text}')} <{_place(index)}>\n"
             case Paragraph():
-                return self._paragraph(block)
+                follower = self.document.blocks[index + 1 : index + 2]
+                leads = bool(follower) and isinstance(follower[0], Table | Figure) and len(block.text) < SHORT
+                return self._paragraph(block, sticky=leads)
             case Formula():
                 return self._formula(index, block)
             case Table():
@@ -197,11 +201,11 @@ class _Writer:
             case Source():
                 return f"{block.text}\n"
 
-    def _paragraph(self, block: Paragraph) -> str:
+    def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
         text = self.inline(block.text)
         if block.kind == "bullet":
             return f"- {text}"
-        if not block.kind and block.text.endswith((":", "：", "**")):
+        if not block.kind and (sticky or block.text.endswith((":", "：", "**"))):
             return f"#block(sticky: true)[{text}]\n"
         return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
 

@@ -1,0 +1,59 @@
+"""The report of a calculation of machine parts, a cam among them: data, numbers, the way to them, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.errors import LinkwrightError
+from linkwright.parts.base import Problem, Result
+from linkwright.report.case import picture
+from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
+from linkwright.words import Say
+from linkwright.worked.page import Equation, Note, Step
+
+
+def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block]:
+    """The blocks of one calculation, under a heading with its name; raises LinkwrightError where it has no result."""
+    found = problem.solve()
+    yield Heading(literal(found.title), 1)
+    if problem.source:
+        yield Paragraph(say("report.source", source=literal(problem.source)))
+    yield from _pictures(found, say, language)
+    yield Heading(say("report.results"), 2)
+    for block in found.blocks(say):
+        cells = [row.cells(found.area, say) for row in block.rows]
+        head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
+        if cells:
+            yield Table(literal(block.title), head, tuple(tuple(map(literal, row)) for row in cells), "<><<")
+        for remark in block.remarks:
+            yield Paragraph(literal(str(remark)))
+    yield Heading(say("report.way"), 2)
+    for step in found.steps(say):
+        yield Heading(literal(step.title), 3)
+        yield from _lines(step)
+
+
+def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
+    """Its own drawing, where it has one, and its diagram."""
+    draw = getattr(found, "draw", None)
+    if draw is not None:
+        yield Figure(literal(found.title), ((draw(language=language).svg, 0.7),))
+    try:
+        svg = picture(found.plot(language=language, title=""))
+    except LinkwrightError as error:
+        yield Paragraph(literal(error.say(language)), "missing")
+        return
+    yield Figure(say("report.caption_curves"), ((svg, 0.85),))
+
+
+def _lines(step: Step) -> Iterator[Block]:
+    """Sentences and equations of a step; calculations write their formulas as plain text."""
+    for item in step.items:
+        if isinstance(item, Note):
+            yield Paragraph(literal(item.text.strip()))
+        elif isinstance(item, Equation):
+            unit = item.unit if item.unit in ("", "°") else f" {item.unit}"
+            sides = [item.symbol, item.formula, item.numbers, f"{item.result}{unit}"]
+            yield Paragraph(literal(" = ".join(side for side in sides if side)))
+        else:
+            yield Paragraph(literal(item.text))
