@@ -5,6 +5,7 @@ import dataclasses
 import pickle
 from collections.abc import Callable
 from functools import cache
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import linkwright as lw
 from linkwright import parts
 from linkwright.metrics import coupler_curve
 from linkwright.parts.file import gallery_names as part_names
+from linkwright.validation.published import published
 
 
 def crusher(steps: int = 24) -> lw.Forces:
@@ -126,14 +128,14 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "optimum": lambda: lw.optimize(
         lw.load(SIX), vary={"pitman.length": "1.2..1.3 m"}, minimize="peak_input_torque", evaluations=48
     ),
-    "motion laws": lambda: list(lw.laws_for("rest", "turn")),
+    "motion law": lambda: lw.motion_law("modified_sine"),
     "motion program": motion_program,
     "found program": lambda: lw.FoundProgram(points=((1.5, 0.02),), windows=(lw.Window(2.5, 4.0, 0.0, 0.0),)),
     "cam": cam,
     "cam, solved": lambda: cam().solve(),
     "follower": lambda: cam().follower,
     "report": lambda: lw.report("gallery:crank_rocker", sections=["task", "structure"]),
-    "validation": lw.validate,
+    "validation": lambda: lw.validate(islice(published(), 4)),
     "variants": variants,
     "grades": grades,
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
