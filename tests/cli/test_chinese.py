@@ -25,6 +25,18 @@ def test_english_titles_are_those_of_the_files() -> None:
     assert dict(titles) == {name: lw.load(f"gallery:{name}").name for name in gallery.names()}
 
 
+def test_titles_of_calculations_are_chinese_and_english_ones_those_of_the_files(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    english, chinese = (words.catalogue("calculation_titles", language) for language in ("en", "zh"))
+    assert {name: lw.parts.load(f"gallery:{name}").name for name in english} == dict(english)
+    assert all(re.search("[一-鿿]", title) for title in chinese.values())
+    assert chinese["propped_cantilever"] in shown(capsys, "gallery", "list")
+    assert chinese["propped_cantilever"] in shown(capsys, "beam", "gallery:propped_cantilever")
+    main(["beam", "gallery:propped_cantilever"])
+    assert english["propped_cantilever"] in capsys.readouterr().out
+
+
 def test_titles_of_the_gallery_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
     listed = shown(capsys, "gallery", "list")
     for title in words.catalogue("gallery_titles", "zh").values():
@@ -81,7 +93,7 @@ KNOWN = set(
         "turn slide about speed start joints loads gravity cycle parameters drawing mass inertia centre position "
         "table law relative left right forward backward link duration from turns mm deg rpm rad kind guide block "
         "through direction offset purpose source expected synthesis damaged linkz fram drivr crnk lft lenght linkage "
-        "null none mn",
+        "null none mn report optimize optimise",
     )
 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -43,13 +44,18 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 
 def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
-    from linkwright.parts.file import KINDS, kind_of, load
+    from linkwright.cli.source import gallery_title
+    from linkwright.parts.file import GALLERY, KINDS, kind_of, load
 
     kind = kind_of(source)
     if kind is not None and kind in KINDS and kind not in kinds:
         say = session.say
         raise UsageError(say("part.other_command", kind=kind, command=COMMANDS[kind], file=source))
-    return load(source)
+    problem = load(source)
+    if source.startswith(GALLERY) and not session.json:
+        title = gallery_title(source.removeprefix(GALLERY), problem.name, session.language)
+        return replace(problem, name=title)  # type: ignore[type-var]
+    return problem
 
 
 #: The command of each kind.

@@ -27,6 +27,7 @@ def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]
 
 
 def gallery_title(name: str, given: str, language: str) -> str:
-    """Title of a model of the gallery in a language; as it is given where the catalogue has none."""
-    key = f"gallery_titles.{name.removesuffix('.yaml')}"
-    return say(key, language) if language != "en" and has(key) else given
+    """Title of a file of the gallery in a language; as it is given where the catalogue has none."""
+    own = name.removesuffix(".yaml")
+    keys = (f"gallery_titles.{own}", f"calculation_titles.{own}")
+    return next((say(key, language) for key in keys if language != "en" and has(key)), given)
