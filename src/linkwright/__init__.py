@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from linkwright.cams.cam import CamConjugate as CamConjugate
     from linkwright.cams.cam import CamElasticity as CamElasticity
     from linkwright.cams.cam import CamLimits as CamLimits
+    from linkwright.cams.compensation import compensating_lift as compensating_lift
     from linkwright.cams.follower import Follower as Follower
     from linkwright.cams.loading import CamLoading as CamLoading
     from linkwright.cams.loading import CamMaterial as CamMaterial
@@ -106,6 +107,7 @@ __version__ = "0.1.0"
 #: Public names by the module that has them.
 PUBLIC = {
     "linkwright.cams.cam": ("Cam", "CamConjugate", "CamElasticity", "CamLimits"),
+    "linkwright.cams.compensation": ("compensating_lift",),
     "linkwright.cams.follower": ("Follower",),
     "linkwright.cams.loading": ("CamLoading", "CamMaterial", "CamSpring"),
     "linkwright.cams.result": ("CamDesign",),

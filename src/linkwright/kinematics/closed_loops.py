@@ -269,8 +269,9 @@ def _real(v: Complexes) -> Floats:
 class LoopBuilder:
     """Walks the chains of the groups and writes down where every link is; the joints add to it."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
+    def __init__(self, mechanism: Mechanism, *, gains: bool = False) -> None:
+        """``gains``: only what coordinates gain over a cycle is asked, not where they are."""
+        self.mechanism, self.gains = mechanism, gains
         self.unknowns: list[Key] = []
         self.groups: list[str] = []
         self.rotations: list[tuple[str, tuple[tuple[str, float], ...]]] = [("", ())]

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
+from linkwright.joints.cam import CamJoint
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.rack import RackPair
 from linkwright.kinematics.cycle import Floats
@@ -231,6 +232,39 @@ class ConstraintSystem:
             pair.rack: (-tx, -ty, turned - lever),
         }
         return Row(pair.name, "rolling", gap, parts)
+
+    def cam(self, pair: CamJoint, poses: Mapping[str, Place]) -> Row:
+        """A follower's coordinate against the lift at the cam's angle."""
+        held, carrier, cam, follower = (
+            pair.geometry(self.mechanism),
+            poses[pair.carrier],
+            poses[pair.cam],
+            poses[pair.follower],
+        )
+        lift, slope, _ = pair.lift.curves(pair.sense * (cam.angle - carrier.angle - pair.phase))
+        slope = slope * pair.sense
+        if pair.side:
+            side = 1.0 if pair.side == "left" else -1.0
+            gap = side * (follower.angle - carrier.angle) - lift
+            rest = self._rest.setdefault(pair.name, float(np.real(gap)))
+            parts = {pair.follower: side, pair.cam: -slope}
+            parts[pair.carrier] = parts.get(pair.carrier, 0.0) + slope - side
+            return Row(pair.name, "rolling", gap - rest, {k: (0.0, 0.0, v) for k, v in parts.items()})
+        nx, ny = follower.arm((math.cos(held.own), math.sin(held.own)))
+        px, py = follower.arm(self._local(pair.follower, pair.at))
+        cx, cy = cam.arm(self._local(pair.cam, pair.centre))
+        gx, gy = follower.x + px - cam.x - cx, follower.y + py - cam.y - cy
+        gap = nx * gx + ny * gy - lift / self.size
+        rest = self._rest.setdefault(pair.name, float(np.real(gap)))
+        turned = ny * px - nx * py + nx * gy - ny * gx
+        driven = slope / self.size
+        parts_of = {
+            pair.follower: (nx, ny, turned),
+            pair.cam: (-nx, -ny, nx * cy - ny * cx - driven),
+        }
+        if pair.carrier != "frame":
+            parts_of[pair.carrier] = (0.0, 0.0, driven)
+        return Row(pair.name, "rolling", gap - rest, parts_of)
 
     def row(self, joint: str, gap: Any, factors: Mapping[str, float]) -> Row:
         """A sum of rotations that keeps the value that it has where it is first seen."""

@@ -42,7 +42,7 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
 
 def _gained(mechanism: Mechanism, structure: Structure, duration: float) -> tuple[Floats, Floats] | None:
     """By how many turns every link turns, and by how many metres wheels move slides, while the drivers come back."""
-    build = LoopBuilder(mechanism)
+    build = LoopBuilder(mechanism, gains=True)
     for group in structure.groups:
         build.add(group)
     unknowns, sums = build.independent()

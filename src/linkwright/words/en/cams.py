@@ -97,4 +97,8 @@ WORDS = {
     "drawing": "{name}",
     "drawn": "base circle r = {radius} mm, φ = {angle}°",
     "drawn_barrel": "unrolled, R = {radius} mm, φ = {angle}°",
+    "compensation_points": "angles and wanted lifts do not fit: give as many of both, twelve or more, the "
+    "angles increasing",
+    "compensation_zone": "the zone with what lies beyond it on both sides is not within the angles given, "
+    "or nearly a whole turn; give a smaller zone",
 }

@@ -28,12 +28,29 @@ WORDS = {
     "fit_distance": "change the distance of the centres, or the sizes of the wheels",
     "pulleys_touch": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
     "pulleys_apart": "put the centres further apart, or take smaller wheels",
-    "no_guide": "no guide leads from the rack {rack!r} to a link that carries the pin of {pinion!r}: nothing keeps "
-    "the pinion at its distance from the rack",
-    "give_guide": "add a prismatic joint between the rack and the link that carries the pinion, along the rack",
+    "no_guide": "no guide leads from the rack {rack!r} to a link that carries the pin of {pinion!r}: "
+    "nothing keeps the pinion at its distance from the rack",
+    "give_guide": "add a prismatic joint between the rack and the link that carries the pinion, along the "
+    "rack",
     "guide_askew": "the guide {guide!r} is not parallel to the pitch line of {rack!r}",
     "guide_along": "give both the same direction, or leave the direction out",
     "rack_misfit": "the pinion's centre {centre!r} is {distance} away from the pitch line, but its radius "
     "is {radius}",
     "fit_rack": "move the rack's guide or the point through which its pitch line goes, or change the radius",
+    "cam_alone": "a cam cannot be its own follower",
+    "cam_alone_remedy": "give two links",
+    "cam_program": "the lift of the cam is not given, or given twice",
+    "cam_program_remedy": "give program: or angles: with lifts:, one of them",
+    "cam_table": "the table of the lift is none",
+    "cam_table_remedy": "give as many lifts as angles, eight or more, the angles increasing from 0 to below "
+    "360 deg",
+    "cam_roller": "a roller and its radius go together",
+    "cam_roller_remedy": "write touch: roller and roller_radius: 10 mm, or neither",
+    "cam_pivot": "the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} turns",
+    "cam_pivot_remedy": "give that link a point that {follower!r} has as well: its pivot",
+    "cam_guide": "the follower {follower!r} has no guide on a link on which the cam {cam!r} turns",
+    "cam_guide_remedy": "add a prismatic joint between them; for an oscillating follower say on which side "
+    "its arm lies: side: left",
+    "cam_reach": "the follower does not reach the base circle",
+    "cam_reach_remedy": "take a larger base circle, or bring follower and cam nearer",
 }

@@ -86,4 +86,6 @@ WORDS = {
     "drawing": "{name}",
     "drawn": "基圆 r = {radius} mm，φ = {angle}°",
     "drawn_barrel": "展开图，R = {radius} mm，φ = {angle}°",
+    "compensation_points": "转角与所需升程不符：二者数目应相同，至少十二个，转角递增",
+    "compensation_zone": "工作区及其两侧的延伸不在所给转角之内，或接近一整转；请给较小的工作区",
 }

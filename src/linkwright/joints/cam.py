@@ -1,0 +1,265 @@
+"""Cam and follower: the follower's coordinate is the lift over the cam's angle."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from linkwright.engine.trace import Scalar
+from linkwright.joints.base import JOINTS, Cut, Joint
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.laws.program_fields import ProgramField
+from linkwright.model.fields import Field, Quantity, Word
+from linkwright.model.reference_fields import LinkName, PointName
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.joints.cam_cuts import Geometry
+    from linkwright.kinematics.closed_loops import LoopBuilder
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.laws.program import MotionProgram
+    from linkwright.laws.traced import LiftCurve
+    from linkwright.model.mechanism import Link, Mechanism
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
+    from linkwright.structure.constraints import ConstraintGraph
+    from linkwright.structure.decompose import Grouping
+    from linkwright.structure.group import Connection
+
+TOUCH = ("roller", "knife", "flat")
+Points = tuple[float, ...]
+
+
+def _lift(given: Mapping[str, Any]) -> str:
+    """Dimension of the lift: an angle where the follower oscillates."""
+    return "angle" if given.get("side") is not None else "length"
+
+
+@JOINTS.register("cam")
+@dataclass(frozen=True)
+class CamJoint(Joint):
+    """Link ``cam`` turns about a pin on a carrier and moves link ``follower``, guided or pinned on the same carrier.
+
+    The lift f over the cam's angle φ = ±(θ_c - θ_k - ``phase``) moves a guided follower along its guide from where
+    its point ``at`` (roller's centre, edge, point of the face) is d above the cam's centre, d² = (r_b + r_r)² - e² (a
+    flat face: d = r_b). With ``side`` the follower oscillates: its arm, from its pivot to ``at``, lies to the
+    ``left`` or ``right`` of the line from the pivot to the cam's centre, and the lift is the angle by which it turns
+    away from the angle ψ₀ of the base circle. The multiplier is the force along the way of ``at`` (of an oscillating
+    flat face: over the distance of the axes); contact force and pressure angle follow from it.
+    """
+
+    kind: ClassVar[str] = "cam"
+    letter: ClassVar[str] = "C"
+    couples: ClassVar[bool] = True
+    freedoms: ClassVar[int] = 2
+    higher: ClassVar[bool] = True
+    cam: str
+    follower: str
+    at: str
+    touch: str
+    base_radius: float
+    roller_radius: float
+    phase: float
+    turn: str
+    side: str
+    curve: str
+    program: MotionProgram | None = None
+    angles: Points = ()
+    lifts: Points = ()
+    carrier: str = ""
+    centre: str = ""
+    holder: str = ""
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return (self.follower, self.cam)
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        return (self.follower, self.carrier) if self.side and self.carrier else ()
+
+    @property
+    def sense(self) -> float:
+        """1 where the program runs on while the cam turns counter-clockwise."""
+        return -1.0 if self.turn == "clockwise" else 1.0
+
+    @cached_property
+    def lift(self) -> LiftCurve:
+        """The lift over the cam's angle."""
+        from linkwright.laws.traced import LiftCurve
+
+        return LiftCurve.read(self.curve)
+
+    # the model file ---------------------------------------------------------------------------
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        from linkwright.model.fields import Quantities
+
+        return {
+            "cam": LinkName(required=True, doc="the link with the cam, pinned on the carrier"),
+            "follower": LinkName(required=True, doc="the link that is guided or pinned on the same carrier"),
+            "at": PointName(
+                "follower", required=True, doc="the roller's centre, the edge, a point of the face"
+            ),
+            "touch": Word(TOUCH, required=True, doc="what touches the cam"),
+            "side": Word(
+                ("left", "right"),
+                doc="of the ray pivot to cam, where the arm of an oscillating follower lies",
+            ),
+            "base_radius": Quantity("length", above=0, required=True, doc="radius of the base circle"),
+            "roller_radius": Quantity("length", above=0, doc="radius of the roller"),
+            "phase": Quantity(
+                "angle", doc="angle of the cam's x axis to the carrier's where the program begins"
+            ),
+            "turn": Word(
+                ("counterclockwise", "clockwise"), doc="turn of the cam in which the program runs on"
+            ),
+            "program": ProgramField(_lift, "angle", doc="segments over one turn of the cam"),
+            "angles": Quantities("angle", doc="angles of a table of the lift, increasing within a turn"),
+            "lifts": Quantities("length", doc="lifts of the table; between them a periodic spline"),
+        }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        from linkwright.laws.traced import LiftCurve
+
+        def say(key: str, word: str, code: str = "reference") -> None:
+            problem, remedy = Sentence(f"joints.{word}"), Sentence(f"joints.{word}_remedy")
+            reader.error(node.get(key) or node, place.child(key), problem, remedy, code)
+
+        program, angles, lifts = values.get("program"), values.get("angles"), values.get("lifts")
+        if values["cam"] == values["follower"]:
+            say("follower", "cam_alone")
+        elif (program is None) == (angles is None):
+            say("program", "cam_program", "missing-key")
+        elif program is None and not _is_table(angles, lifts):
+            say("angles", "cam_table", "range")
+        elif (values["touch"] == "roller") != (values.get("roller_radius") is not None):
+            say("roller_radius", "cam_roller", "missing-key")
+        else:
+            given: dict[str, Any] = {
+                key: values[key] for key in ("cam", "follower", "at", "touch", "base_radius")
+            }
+            given |= {key: values.get(key) or 0.0 for key in ("roller_radius", "phase")}
+            given |= {key: values.get(key) or "" for key in ("turn", "side")}
+            if program is not None:
+                return cls(name, **given, curve=LiftCurve.of(program).text, program=program)
+            x, y = tuple(angles or ()), tuple(lifts or ())
+            return cls(name, **given, curve=LiftCurve.through(x, y).text, angles=x, lifts=y)
+        return None
+
+    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
+        for name, pin in mechanism.joints.items():
+            if pin.coordinate != "turn" or self.cam not in pin.joined:
+                continue
+            for carrier in pin.joined:
+                holder = self._held(mechanism, carrier) if carrier not in (self.cam, self.follower) else ""
+                if holder:
+                    found = replace(self, carrier=carrier, centre=name, holder=holder)
+                    found._check(mechanism, report)
+                    return found
+        word = "cam_pivot" if self.side else "cam_guide"
+        values = {"follower": self.follower, "cam": self.cam}
+        report("follower", Sentence(f"joints.{word}", **values), Sentence(f"joints.{word}_remedy", **values))
+        return self
+
+    def _held(self, mechanism: Mechanism, carrier: str) -> str:
+        """The guide or the pin that holds the follower on a carrier; empty where there is none."""
+        for name, joint in mechanism.joints.items():
+            if self.side and joint.coordinate == "turn" and {self.follower, carrier} <= set(joint.joined):
+                return name
+            if (
+                not self.side
+                and isinstance(joint, PrismaticJoint)
+                and set(joint.ties) == {self.follower, carrier}
+            ):
+                return name
+        return ""
+
+    def _check(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> None:
+        from linkwright.joints.cam_cuts import Geometry
+
+        reach = Geometry.of(self, mechanism).reach
+        if not reach > 0:
+            report("base_radius", Sentence("joints.cam_reach"), Sentence("joints.cam_reach_remedy"))
+
+    def written(self) -> dict[str, Any]:
+        keys = ("cam", "follower", "at", "touch", "turn", "side", "base_radius", "roller_radius", "phase")
+        found: dict[str, Any] = {key: value for key in keys if (value := getattr(self, key))}
+        if self.program is not None:
+            field = ProgramField("angle" if self.side else "length", "angle")
+            return {**found, "program": field.written(self.program)}
+        return {**found, "angles": self.angles, "lifts": self.lifts}
+
+    def dimensions(self) -> Mapping[str, float]:
+        found = {"base_radius": self.base_radius, "phase": self.phase}
+        if self.touch == "roller":
+            found["roller_radius"] = self.roller_radius
+        return {f"{self.name}.{key}": value for key, value in found.items()}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> CamJoint:
+        new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
+        return replace(self, **new)  # type: ignore[arg-type]
+
+    # structure --------------------------------------------------------------------------------
+    def constrain(self, graph: ConstraintGraph) -> None:
+        graph.demand(self.name, self.joined)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if grouping.within(self.joined, links):
+            yield grouping.connection(self, self.follower, self.cam, None)
+
+    # motion -----------------------------------------------------------------------------------
+    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
+        from linkwright.joints.cam_cuts import cut
+
+        return cut(self, connection, dimensions)
+
+    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
+        """A lift gains nothing over whole turns of the cam; where it is within one no sum of rotations says."""
+        if not build.gains:
+            raise self.lacks("close_loop")
+        if self.side:
+            build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
+        else:
+            build.sum({}, {self.holder: 1.0}, 0.0)
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.follower, self.holder),) if self.side else ((self.cam, self.centre),)
+
+    def rows(
+        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
+    ) -> Iterable[Row]:
+        yield system.cam(self, places)
+
+    def geometry(self, mechanism: Mechanism) -> Geometry:
+        """Directions and distances of cam and follower on their carrier."""
+        from linkwright.joints.cam_cuts import Geometry
+
+        return Geometry.of(self, mechanism)
+
+    def radius(self, dimensions: Dimensions) -> Scalar:
+        """Radius of the base circle and the roller together, traced, m."""
+        base = dimensions(f"{self.name}.base_radius")
+        return base + dimensions(f"{self.name}.roller_radius") if self.touch == "roller" else base
+
+
+def _is_table(angles: Points | None, lifts: Points | None) -> bool:
+    if not angles or not lifts or len(angles) != len(lifts) or len(angles) < 8:
+        return False
+    rising = all(a < b for a, b in itertools.pairwise(angles))
+    return rising and angles[0] >= 0 and angles[-1] < 6.283185307179586

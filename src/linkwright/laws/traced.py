@@ -1,0 +1,138 @@
+"""Periodic curves as polynomials between edges: the same numbers in NumPy and in traced programs."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from linkwright.laws.base import Floats
+from linkwright.laws.program import TURN, Program
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from linkwright.engine.trace import Scalar
+
+#: Order of the polynomials; how near they come to lift and acceleration, as shares of the largest.
+_ORDER, _FINE, _BENT = 9, 1e-13, 1e-9
+_MOST = 240
+
+
+@dataclass(frozen=True)
+class LiftCurve:
+    """f over an angle from 0 to a turn: Σ c[i, k] t^k between edges (m + 1,), t from -1 to 1 on every piece."""
+
+    edges: Floats
+    coefficients: Floats
+
+    @classmethod
+    def of(cls, program: Program) -> LiftCurve:
+        """The curve of a program over a turn, its pieces halved until they meet it."""
+        nodes = np.cos(np.pi * (np.arange(_ORDER + 1) + 0.5) / (_ORDER + 1))
+        to_powers = np.linalg.inv(np.vander(nodes, increasing=True))
+        low, high = program.lifts
+        size = max(high - low, 1e-12)
+        bend = max(abs(program.extreme(2, kind).value) for kind in ("min", "max")) or 1.0
+        waiting = list(zip(program.breaks[:-1].tolist(), program.breaks[1:].tolist(), strict=True))
+        found: list[tuple[float, list[float]]] = []
+        looks = np.linspace(-1.0, 1.0, 23)[1:-1]
+        while waiting:
+            a, b = waiting.pop()
+            half, middle = 0.5 * (b - a), 0.5 * (a + b)
+            row = to_powers @ program.curves(middle + half * nodes)[0]
+            exact = program.curves(middle + half * looks)
+            off = np.abs(_powers(row, looks, 0) - exact[0]).max()
+            bent = np.abs(_powers(row, looks, 2) / half**2 - exact[2]).max()
+            fits = off <= _FINE * size and bent <= _BENT * bend
+            if fits or len(waiting) + len(found) > _MOST or half < 1e-4:
+                found.append((a, row.tolist()))
+            else:
+                waiting += [(a, middle), (middle, b)]
+        found.sort()
+        return cls(np.array([*(a for a, _ in found), TURN]), np.array([row for _, row in found]))
+
+    @classmethod
+    def through(cls, angles: Sequence[float], lifts: Sequence[float]) -> LiftCurve:
+        """The periodic spline of order 5 through points of a turn, the angles increasing within it."""
+        from scipy.interpolate import PPoly, make_interp_spline
+
+        x = np.array([*angles, angles[0] + TURN])
+        spline = PPoly.from_spline(
+            make_interp_spline(x, np.array([*lifts, lifts[0]]), k=5, bc_type="periodic")
+        )
+        edges = np.array([0.0, *(each for each in angles if 0.0 < each < TURN), TURN])
+        rows = []
+        for a, b in itertools.pairwise(edges):
+            half, middle = 0.5 * (b - a), 0.5 * (a + b)
+            place = middle if middle >= x[0] else middle + TURN
+            rows.append([spline(place, nu=k) * half**k / math.factorial(k) for k in range(6)])
+        return cls(edges, np.array(rows, dtype=float))
+
+    @property
+    def text(self) -> str:
+        """All numbers as a text, from which :meth:`read` makes the same curve."""
+        return json.dumps([self.edges.tolist(), self.coefficients.tolist()])
+
+    @classmethod
+    def read(cls, text: str) -> LiftCurve:
+        """The curve of a text."""
+        edges, rows = json.loads(text)
+        return cls(np.array(edges), np.array(rows))
+
+    def curves(self, x: Any) -> tuple[Any, Any, Any]:
+        """f and its first two derivatives at angles x (n,), of any turn."""
+        x = np.asarray(x)
+        x = x - TURN * np.floor(x.real / TURN)
+        piece = np.clip(np.searchsorted(self.edges, x.real, side="right") - 1, 0, len(self.coefficients) - 1)
+        low, high = self.edges[piece], self.edges[piece + 1]
+        half = 0.5 * (high - low)
+        t, rows = (x - 0.5 * (low + high)) / half, self.coefficients
+        found = []
+        for order in range(3):
+            value = 0.0 * t
+            for column in rows.T[::-1]:
+                value = value * t + column[piece]
+            found.append(value / half**order)
+            rows = rows[:, 1:] * np.arange(1, rows.shape[1])
+        return found[0], found[1], found[2]
+
+    def traced(self, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+        """The same for a traced angle from 0 to a turn."""
+        from linkwright.engine.trace import select
+
+        low, high = self.edges[:-1], self.edges[1:]
+        scale, shift = 2.0 / (high - low), (low + high) / (low - high)
+        table = np.column_stack([scale, shift, self.coefficients])
+
+        def chosen(first: int, last: int) -> list[Scalar]:
+            """The row of the piece that holds x, by halving."""
+            if last - first == 1:
+                return [float(each) for each in table[first]]
+            middle = (first + last) // 2
+            left, right = chosen(first, middle), chosen(middle, last)
+            below = x < float(self.edges[middle])
+            return [a if a is b or a == b else select(below, a, b) for a, b in zip(left, right, strict=True)]
+
+        slope, start, *row = chosen(0, len(low))
+        t = slope * x + start
+        first: list[Scalar] = [float(k) * row[k] for k in range(1, len(row))]
+        second: list[Scalar] = [float(k) * first[k] for k in range(1, len(first))]
+        return _horner(row, t), _horner(first, t) * slope, _horner(second, t) * (slope * slope)
+
+
+def _horner(row: Sequence[Scalar], t: Scalar) -> Scalar:
+    value = row[-1]
+    for each in row[-2::-1]:
+        value = value * t + each
+    return value
+
+
+def _powers(row: Floats, t: Floats, order: int) -> Floats:
+    for _ in range(order):
+        row = row[1:] * np.arange(1, len(row))
+    return np.asarray(np.polynomial.polynomial.polyval(t, row))

@@ -1,0 +1,217 @@
+"""Cams as joints of a mechanism, against the cam by itself: its closed forms of motion, force and torque."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.errors import ModelError
+from linkwright.model.file import dump
+
+PROGRAM = """
+      - {rise: LIFT, over: 110 deg, law: cycloidal}
+      - {dwell: 60 deg}
+      - {fall: LIFT, over: 100 deg, law: {kind: modified_sine, crossover: 0.45}}
+      - {dwell: 90 deg}"""
+GUIDED = """
+format: 1
+name: guided follower
+frame: {points: {O: [0 mm, 0 mm], G: [OFFSET, 0 mm]}}
+links:
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}, mass_centre: [0 mm, 0 mm], mass: 1 kg, inertia: 0.001 kg·m²}
+  slide: {points: {P: [0 mm, 0 mm], Q: [0 mm, 40 mm]}, mass: 0.5 kg, inertia: 0.001 kg·m²}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}
+  lobe:
+    kind: cam
+    cam: cam
+    follower: slide
+    at: P
+    touch: TOUCH
+    base_radius: 50 mm
+    phase: 20 deg
+    turn: SENSE
+    program: PROGRAM
+driver: {turn: cam, about: O, speed: SPEED}
+gravity: [0, -9.81 m/s²]
+loads: {spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}}
+"""
+SWINGING = """
+format: 1
+name: oscillating follower
+frame: {points: {O: [0 mm, 0 mm], A: [160 mm, 0 mm]}}
+links:
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}, mass_centre: [0 mm, 0 mm], mass: 1 kg, inertia: 0.001 kg·m²}
+  arm: {points: [A, P], length: 130 mm, mass: 0.4 kg, inertia: 0.002 kg·m², mass_centre: [0 mm, 0 mm]}
+joints:
+  lobe:
+    kind: cam
+    cam: cam
+    follower: arm
+    at: P
+    touch: TOUCH
+    side: SIDE
+    base_radius: 70 mm
+    turn: SENSE
+    program: PROGRAM
+driver: {turn: cam, about: O, speed: SPEED}
+loads: {spring: {kind: torque, on: arm, magnitude: MOMENT}}
+"""
+SPEED = 2 * math.pi * 1.5
+
+
+def model(text: str, sense: str, touch: str, lift: str, **values: str) -> str:
+    """The file for a sense of turning and a kind of contact."""
+    speed = "90 rpm" if sense == "counterclockwise" else "-90 rpm"
+    roller = "roller\n    roller_radius: 10 mm" if touch == "roller" else touch
+    given = {"PROGRAM": PROGRAM, "SENSE": sense, "SPEED": speed, "TOUCH": roller, "LIFT": lift, **values}
+    for key, value in given.items():
+        text = text.replace(key, value)
+    return text
+
+
+def follower(touch: str, **values: object) -> lw.Follower:
+    return lw.Follower(touch, roller_radius=0.01 if touch == "roller" else 0.0, **values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("touch", ["roller", "knife", "flat"])
+@pytest.mark.parametrize(("sense", "offset"), [("counterclockwise", 0.006), ("clockwise", -0.004)])
+def test_a_guided_follower_moves_and_presses_as_its_cam_says(touch: str, sense: str, offset: float) -> None:
+    mechanism = lw.loads(model(GUIDED, sense, touch, "18 mm", OFFSET=f"{1e3 * offset} mm"))
+    motion = lw.solve_motion(mechanism, steps=120)
+    forces = lw.solve_forces(motion)
+    turn = 1.0 if sense == "counterclockwise" else -1.0
+    load = lw.CamLoading(SPEED, 0.5, 60 + 0.5 * 9.81)
+    program = mechanism.joints["lobe"].program
+    cam = lw.Cam(program, follower(touch, offset=offset), 0.05, turn, loading=load)
+    phi = turn * (motion.input - math.radians(20))
+    s, v, a, _ = program.curves(phi)
+    d = cam.follower.start_height(0.05)
+    place = motion.point("P")
+    assert place.position[:, 1] == pytest.approx(d + s, abs=1e-14)
+    assert place.velocity[:, 1] == pytest.approx(v * SPEED, abs=1e-11)
+    assert place.acceleration[:, 1] == pytest.approx(a * SPEED**2, abs=1e-7)
+    effort = load.effort(program, phi)
+    assert turn * forces.input_torque == pytest.approx(effort * v, abs=1e-8)
+    assert np.abs(forces.power_residual).max() < 1e-12 * np.abs(forces.input_torque).max() * SPEED + 1e-12
+    contact = cam.walls[0].contact(phi)
+    push = effort / np.cos(contact.pressure_angle) * contact.normal * np.exp(1j * turn * phi)
+    found = forces.reaction("lobe", on="slide")
+    assert found[:, 0] + 1j * found[:, 1] == pytest.approx(push, abs=1e-7)
+    arm = contact.point * np.exp(1j * turn * phi)
+    moment = (arm.conj() * push).imag
+    assert forces.couple("lobe", on="slide") == pytest.approx(moment, abs=1e-8)
+
+
+@pytest.mark.parametrize("touch", ["roller", "knife", "flat"])
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
+def test_an_oscillating_follower_moves_and_presses_as_its_cam_says(touch: str, side: str, sense: str) -> None:
+    """An arm right of the ray from the pivot to the cam's centre lies above a cam to the left of its pivot."""
+    away = -1.0 if side == "right" else 1.0
+    text = model(SWINGING, sense, touch, "15 deg", SIDE=side, MOMENT=f"{-3.0 * away} N·m")
+    mechanism = lw.loads(text)
+    motion = lw.solve_motion(mechanism, steps=120)
+    forces = lw.solve_forces(motion)
+    turn = 1.0 if sense == "counterclockwise" else -1.0
+    load = lw.CamLoading(SPEED, 0.002, 3.0)
+    program = mechanism.joints["lobe"].program
+    rides = follower(touch, motion="oscillating", pivot_distance=0.16, arm=0.13, below=side == "left")
+    cam = lw.Cam(program, rides, 0.07, turn, loading=load)
+    phi = turn * motion.input
+    s, v, a, _ = program.curves(phi)
+    angle = math.pi + away * (rides.start_angle(0.07) + s)
+    arm = motion.link("arm")
+    assert np.exp(1j * arm.angle) == pytest.approx(np.exp(1j * angle), abs=1e-13)
+    assert arm.angular_velocity == pytest.approx(away * v * SPEED, abs=1e-10)
+    assert arm.angular_acceleration == pytest.approx(away * a * SPEED**2, abs=1e-6)
+    effort = load.effort(program, phi)
+    assert turn * forces.input_torque == pytest.approx(effort * v, abs=1e-8)
+    contact = cam.walls[0].contact(phi)
+    lever = np.abs(contact.along) if touch == "flat" else 0.13 * np.cos(contact.pressure_angle)
+    push = effort / lever * contact.normal * np.exp(1j * turn * phi)
+    found = forces.reaction("lobe", on="arm")
+    assert found[:, 0] + 1j * found[:, 1] == pytest.approx(push, abs=1e-6)
+
+
+def test_the_cam_may_be_driven_through_a_linkage_and_its_follower_drive_another() -> None:
+    """A rocker carries the cam; the slide drives a further crank: power balance, rates as differences."""
+    text = """
+format: 1
+name: cam in a linkage
+frame: {points: {C: [-100 mm, 0 mm], O: [0 mm, 0 mm], G: [0 mm, 0 mm], R: [60 mm, 150 mm]}}
+links:
+  crank: {points: [C, A], length: 30 mm, mass: 1 kg}
+  coupler: {points: [A, B], length: 100 mm, mass: 1 kg}
+  rocker: {points: [O, B], length: 60 mm, mass: 1 kg, inertia: 0.01 kg·m²}
+  slide: {points: {P: [0 mm, 0 mm], Q: [0 mm, 40 mm]}, mass: 0.5 kg, inertia: 0.001 kg·m²}
+  rod: {points: [Q, T], length: 90 mm, mass: 0.3 kg}
+  bell: {points: [R, T], length: 70 mm, mass: 0.4 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}
+  lobe:
+    kind: cam
+    cam: rocker
+    follower: slide
+    at: P
+    touch: roller
+    roller_radius: 10 mm
+    base_radius: 50 mm
+    program: PROGRAM
+assembly: {B: left, T: left}
+driver: {turn: crank, about: C, speed: 60 rpm}
+gravity: [0, -9.81 m/s²]
+""".replace("PROGRAM", PROGRAM.replace("LIFT", "15 mm"))
+    mechanism = lw.loads(text)
+    motion = lw.solve_motion(mechanism, steps=720)
+    assert motion.ok.all()
+    forces = lw.solve_forces(motion)
+    assert np.abs(forces.power_residual).max() < 1e-10
+    for name in ("P", "T"):
+        place = motion.point(name)
+        step = motion.time[1] - motion.time[0]
+        rate = (np.roll(place.position, -1, 0) - np.roll(place.position, 1, 0)) / (2 * step)
+        assert np.abs(rate - place.velocity).max() < 2e-3 * np.abs(place.velocity).max()
+        second = (np.roll(place.velocity, -1, 0) - np.roll(place.velocity, 1, 0)) / (2 * step)
+        assert np.abs(second - place.acceleration).max() < 3e-2 * np.abs(place.acceleration).max()
+    assert lw.solve_motion(lw.loads(dump(mechanism)), steps=24).point("T").position == pytest.approx(
+        lw.solve_motion(mechanism, steps=24).point("T").position, abs=1e-12
+    )
+    assert mechanism.structure().mobility == 1
+
+
+def test_a_table_of_lifts_moves_the_follower_through_its_points() -> None:
+    angles = np.arange(0, 360, 6.0)
+    lifts = 5.0 - 5.0 * np.cos(np.radians(angles)) + np.sin(np.radians(2 * angles)) + 1.0
+    table = f"\n    angles: [{', '.join(f'{a} deg' for a in angles)}]"
+    table += f"\n    lifts: [{', '.join(f'{x:.12g} mm' for x in lifts)}]"
+    text = model(GUIDED, "counterclockwise", "roller", "1 mm", OFFSET="0 mm").replace(
+        "\n    program: " + PROGRAM.replace("LIFT", "1 mm"), table
+    )
+    motion = lw.solve_motion(lw.loads(text), steps=360)
+    phi = motion.input - math.radians(20)
+    exact = 1e-3 * (5.0 - 5.0 * np.cos(phi) + np.sin(2 * phi) + 1.0)
+    assert motion.point("P").position[:, 1] - 0.06 == pytest.approx(exact, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("follower: slide\n    at: P", "follower: cam\n    at: X", "own follower"),
+        ("touch: knife", "touch: roller", "roller and its radius"),
+        ("base_radius: 50 mm", "base_radius: 3 mm", "does not reach"),
+        ("    program:", "    angles: [0 deg, 90 deg]\n    lifts: [0 mm, 2 mm]\n    program:", "given twice"),
+        ("touch: knife", "touch: knife\n    side: left", "angle is needed|no pin"),
+        ("direction: 90 deg, block: slide", "direction: 90 deg, block: slide", None),
+    ],
+)
+def test_a_cam_that_cannot_be_is_refused(old: str, new: str, said: str | None) -> None:
+    text = model(GUIDED, "counterclockwise", "knife", "18 mm", OFFSET="6 mm").replace(old, new)
+    if said is None:
+        assert lw.loads(text)
+        return
+    with pytest.raises(ModelError, match=said):
+        lw.loads(text)
