@@ -197,6 +197,24 @@ def test_a_table_of_lifts_moves_the_follower_through_its_points() -> None:
     assert motion.point("P").position[:, 1] - 0.06 == pytest.approx(exact, abs=1e-9)
 
 
+def test_contact_that_would_have_to_pull_is_said_with_its_place() -> None:
+    """At 900 rpm without a spring the roller leaves the cam where m (g + a) < 0; in a groove it cannot."""
+    text = model(GUIDED, "counterclockwise", "roller", "18 mm", OFFSET="6 mm").replace("90 rpm", "900 rpm")
+    text = text[: text.index("loads:")]
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(text), steps=720))
+    program = forces.mechanism.joints["lobe"].program
+    speed = 900 * 2 * math.pi / 60
+    phi = forces.motion.input - math.radians(20)
+    lost = 0.5 * (9.81 + program.curves(phi)[2] * speed**2) < 0
+    first = math.degrees(forces.motion.input[lost][0])
+    (note,) = (each for each in forces.notes if "would have to pull" in each)
+    assert f"from {first:g} deg" in note and "lobe" in note
+    steady = lw.loads(text.replace("touch: roller", "closure: groove\n    touch: roller"))
+    assert not lw.solve_forces(lw.solve_motion(steady, steps=72)).notes
+    pressed = lw.loads(model(GUIDED, "counterclockwise", "roller", "18 mm", OFFSET="6 mm"))
+    assert not lw.solve_forces(lw.solve_motion(pressed, steps=72)).notes
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [

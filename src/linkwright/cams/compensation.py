@@ -29,8 +29,10 @@ def compensating_lift(
 
     ``angles`` (n,) rad, increasing, and ``wanted`` (n,) m (or rad): what the follower should do, from a solved
     motion; they must reach ``beyond`` the ``zone`` (from, to) on both sides. Outside, polynomials of order 7 lead to
-    a dwell and back with continuous velocity, acceleration and jerk. The smallest lift is zero. For the keys ``angles``
-    and ``lifts`` of a cam in a model file, through which a periodic spline of order 5 goes. Raises RequestError.
+    a dwell and back with continuous velocity, acceleration and jerk. The smallest lift is zero. Use them as
+    ``angles`` and ``lifts`` of a cam in a model file, through which a periodic spline of order 5 goes.
+
+    Raises RequestError.
     """
     from scipy.interpolate import make_interp_spline
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.kinetostatics.forces import Forces
     from linkwright.model.drawing import Drawing
     from linkwright.model.fields import Field
     from linkwright.model.mechanism import Link, Mechanism
@@ -262,6 +263,10 @@ class Joint(ABC):
         """What drawings show of it beside its links; ``tooth``: where wheels (link, centre) that are drawn already
         have a tooth, rad in their axes, to which a joint adds its own."""
         return ()
+
+    def pulls(self, forces: Forces) -> Any:
+        """Where (n,) a pair that can only push would have to pull; None for one that can do both."""
+        return None
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
+    from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
     from linkwright.model.mechanism import Link, Mechanism
@@ -67,6 +68,7 @@ class CamJoint(Joint):
     phase: float
     turn: str
     side: str
+    closure: str
     curve: str
     program: MotionProgram | None = None
     angles: Points = ()
@@ -119,6 +121,9 @@ class CamJoint(Joint):
             "turn": Word(
                 ("counterclockwise", "clockwise"), doc="turn of the cam in which the program runs on"
             ),
+            "closure": Word(
+                ("force", "groove"), doc="what keeps the contact: what presses it (default), a groove"
+            ),
             "program": ProgramField(_lift, "angle", doc="segments over one turn of the cam"),
             "angles": Quantities("angle", doc="angles of a table of the lift, increasing within a turn"),
             "lifts": Quantities("length", doc="lifts of the table; between them a periodic spline"),
@@ -154,7 +159,7 @@ class CamJoint(Joint):
                 key: values[key] for key in ("cam", "follower", "at", "touch", "base_radius")
             }
             given |= {key: values.get(key) or 0.0 for key in ("roller_radius", "phase")}
-            given |= {key: values.get(key) or "" for key in ("turn", "side")}
+            given |= {key: values.get(key) or "" for key in ("turn", "side", "closure")}
             if program is not None:
                 return cls(name, **given, curve=LiftCurve.of(program).text, program=program)
             x, y = tuple(angles or ()), tuple(lifts or ())
@@ -197,7 +202,18 @@ class CamJoint(Joint):
             report("base_radius", Sentence("joints.cam_reach"), Sentence("joints.cam_reach_remedy"))
 
     def written(self) -> dict[str, Any]:
-        keys = ("cam", "follower", "at", "touch", "turn", "side", "base_radius", "roller_radius", "phase")
+        keys = (
+            "cam",
+            "follower",
+            "at",
+            "touch",
+            "turn",
+            "side",
+            "closure",
+            "base_radius",
+            "roller_radius",
+            "phase",
+        )
         found: dict[str, Any] = {key: value for key in keys if (value := getattr(self, key))}
         if self.program is not None:
             field = ProgramField("angle" if self.side else "length", "angle")
@@ -236,6 +252,17 @@ class CamJoint(Joint):
             build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
         else:
             build.sum({}, {self.holder: 1.0}, 0.0)
+
+    def pulls(self, forces: Forces) -> Any:
+        if self.closure == "groove":
+            return None
+        if self.side:
+            push = forces.couple(self.name, on=self.follower) * (1.0 if self.side == "left" else -1.0)
+        else:
+            guide = forces.mechanism.joints[self.holder]
+            way = forces.guide_direction(self.holder) * (1.0 if guide.joined[1] == self.follower else -1.0)
+            push = (forces.reaction(self.name, on=self.follower) * way).sum(axis=1)
+        return push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from linkwright.errors import LinkwrightError
@@ -11,7 +13,8 @@ from linkwright.kinematics.rows import Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.words.sentence import Sentence
+from linkwright.units import format as shown
+from linkwright.words.sentence import Sentence, together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400
@@ -37,7 +40,28 @@ def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], st
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: i for i, name in enumerate(names)})
-    return Forces(motion, solver, fields, static, rows, _indeterminate(motion))
+    forces = Forces(motion, solver, fields, static, rows, _indeterminate(motion))
+    forces.notes = (*forces.notes, *_contacts_lost(forces))
+    return forces
+
+
+def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
+    """Where pairs that can only push would have to pull."""
+    motion = forces.motion
+    drivers = motion.mechanism.drivers.values()
+    unit = ("angle", "deg") if all(driver.law.rotary for driver in drivers) else ("length", "mm")
+    for name, joint in motion.mechanism.joints.items():
+        pulls = joint.pulls(forces)
+        if pulls is None or not pulls.any():
+            continue
+        at = np.flatnonzero(pulls)
+        runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
+        ends = [motion.input[run[[0, -1]]].tolist() for run in runs]
+        places = tuple(
+            Sentence("forces.from_to", first=shown(first, *unit), last=shown(last, *unit))
+            for first, last in ends
+        )
+        yield Sentence("forces.contact_lost", name=name, places=together(places))
 
 
 def _indeterminate(motion: Motion) -> tuple[str, ...]:

@@ -19,4 +19,7 @@ WORDS = {
     "self_locking": "{name!r} is self-locking by friction near {where} (rad or m): the friction in joint "
     "{joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
     "coefficient or the pin radius, or improve the transmission angle there",
+    "contact_lost": "the cam {name} cannot hold its follower {places}: it would have to pull; press it on with a "
+    "spring or a load, or run it in a groove",
+    "from_to": "from {first} to {last} of the input",
 }
