@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
     from linkwright.export.export import export as export
+    from linkwright.export.sweep_parts import SweepParts as SweepParts
+    from linkwright.export.sweep_parts import sweep_parts as sweep_parts
     from linkwright.gears.gear import Gear as Gear
     from linkwright.gears.pair import GearPair as GearPair
     from linkwright.gears.pair import gear_pair as gear_pair
@@ -74,6 +76,7 @@ if TYPE_CHECKING:
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure
+    from linkwright.study.cluster import on_cluster as on_cluster
     from linkwright.study.compare import Comparison as Comparison
     from linkwright.study.compare import compare as compare
     from linkwright.study.designs import Sweep as Sweep
@@ -116,6 +119,7 @@ PUBLIC = {
     "linkwright.course.variants": ("Variants", "variants"),
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
     "linkwright.export.export": ("export",),
+    "linkwright.export.sweep_parts": ("SweepParts", "sweep_parts"),
     "linkwright.gears.gear": ("Gear",),
     "linkwright.gears.pair": ("GearPair", "gear_pair"),
     "linkwright.gears.rack": ("Rack",),
@@ -143,6 +147,7 @@ PUBLIC = {
     "linkwright.plot.drawing.picture": ("Drawing",),
     "linkwright.report.report": ("Report", "report"),
     "linkwright.structure": ("Structure", "StructureError", "structure"),
+    "linkwright.study.cluster": ("on_cluster",),
     "linkwright.study.compare": ("Comparison", "compare"),
     "linkwright.study.designs": ("Sweep", "sweep"),
     "linkwright.study.objective": ("Objective", "PathError", "objective"),

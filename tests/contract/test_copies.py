@@ -151,6 +151,7 @@ MADE_OF_CODE = {
     "OptimizeError",
     "PathError",
     "Rack",
+    "SweepParts",
     "SynthesisError",
 } | {
     f"Cam{part}" for part in ("Choice", "Conjugate", "Elasticity", "Limits", "Loading", "Material", "Spring")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output
 from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
+from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.terms import OWN, Asked, Term, metric_of
@@ -29,6 +31,8 @@ from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+#: Designs that a worker of a cluster takes at a time where they go one by one.
+FEW = 4
 
 
 class Measures:
@@ -141,6 +145,9 @@ class Measures:
             with np.errstate(all="ignore"):
                 seen = self.cycle.evaluate(columns, backend=self.backend)
             return {name: np.where(seen.certain, seen.values[name], np.nan) for name in self.numbers}
+        client = current()
+        if client is not None and count > 1:
+            return self._shared(client, columns, count)
         values = {name: np.full(count, np.nan) for name in self.numbers}
         for index in range(count):
             try:
@@ -155,6 +162,13 @@ class Measures:
                 for name in self.numbers:
                     values[name][index] = np.nan
         return values
+
+    def _shared(self, client: Any, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        """The same, a few designs at a time on a cluster."""
+        firsts = range(0, count, FEW)
+        tasks = [(self.problem, {a: np.array(c[k : k + FEW]) for a, c in columns.items()}) for k in firsts]
+        found = dict(in_turn(client, _designs, tasks))
+        return {name: np.concatenate([found[k][name] for k in range(len(tasks))]) for name in self.numbers}
 
     def _alternative(self, design: Mechanism) -> Alternative:
         asked = self._asked
@@ -209,6 +223,11 @@ class Measures:
                 _, found = self.cycle.gradient({name: 1.0}, columns, own, backend=self.backend)
             slope[[by.index(address) for address in own]] = found[0]
         return slope
+
+
+def _designs(problem: Problem, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Numbers of some designs, on a worker of a cluster."""
+    return Measures(problem)._found(columns, len(next(iter(columns.values()))))
 
 
 def _is_metric(name: str) -> bool:

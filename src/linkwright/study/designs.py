@@ -17,6 +17,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary, wanted
 from linkwright.model.mechanism import Mechanism
+from linkwright.study.cluster import current, in_turn
 from linkwright.study.failures import Failure, explained
 from linkwright.study.metric_cycle import numbers_of
 from linkwright.study.sweep_run import Manner, SweepRun
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
     from linkwright.plot import Diagram
 
+#: Designs of a piece that goes to a cluster; fewer stay on this machine.
+SHARED = 4096
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
 
@@ -161,6 +164,11 @@ def sweep(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted(outputs)
+    client = current()
+    if client is not None and len(next(iter(columns.values()))) > SHARED:
+        return _shared(
+            client, mechanism, columns, [each.name.strip() for each in asked], steps, partial, backend
+        )
     over_positions = tuple(each for each in asked if each.kind)
     run = SweepRun(mechanism, columns, over_positions, positions, Manner(partial, threads, backend, progress))
     assembled, values = run.swept()
@@ -184,6 +192,44 @@ def sweep(
         run.traced.nominal.notes,
         run.margins,
         dimensions,
+    )
+
+
+def _shared(
+    client: Any, mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, partial: bool,
+    backend: Backend,
+) -> Sweep:  # fmt: skip
+    """The same sweep in pieces on a cluster."""
+    count = len(next(iter(columns.values())))
+    firsts = range(0, count, SHARED)
+    rest = outputs, steps, partial, backend
+    pieces_of = ({a: np.array(c[k : k + SHARED]) for a, c in columns.items()} for k in firsts)
+    tasks = [(mechanism, each, *rest) for each in pieces_of]
+    found: list[Sweep | None] = [None] * len(tasks)
+    for number, piece in in_turn(client, _piece, tasks):
+        found[number] = piece
+    pieces = [each for each in found if each is not None]
+    head = pieces[0]
+    margins = [each.branch_margin for each in pieces if each.branch_margin is not None]
+    return Sweep(
+        mechanism, columns, head.positions, np.concatenate([each.assembled for each in pieces]),
+        {key: np.concatenate([each.summaries[key] for each in pieces]) for key in head.summaries}, head.quantities,
+        {first + k: why for first, each in zip(firsts, pieces, strict=True) for k, why in each.unloaded.items()},
+        head.notes, np.concatenate(margins) if margins else None,
+        {name: kind for each in pieces for name, kind in each.dimensions.items()},
+    )  # fmt: skip
+
+
+def _piece(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    outputs: list[str],
+    steps: int,
+    partial: bool,
+    backend: Backend,
+) -> Sweep:
+    return sweep(
+        mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
     )
 
 

@@ -48,7 +48,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
-    vary = _ranges(options.vary, session.say)
+    vary = ranges_of(options.vary, session.say)
     mechanism, _ = read_model(options.file, session)
     found = study(
         mechanism,
@@ -65,7 +65,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _ranges(texts: list[str], say: Say) -> dict[str, str]:
+def ranges_of(texts: list[str], say: Say) -> dict[str, str]:
     """Ranges by address from texts ``ADDRESS=RANGE``."""
     found: dict[str, str] = {}
     for text in texts:

@@ -139,4 +139,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "fails": "{count} fails {place}, such as: {example}",
     "fail": "{count} fail {place}, such as: {example}",
     "label_has_none": "{label!r} has none",
+    "needs_distributed": "a cluster needs Dask; install linkwright[cluster]",
+    "no_cluster": 'the scheduler "{address}" does not answer ({reason}); start one with "dask scheduler", or check '
+    "the address",
+    "no_column": 'the sweep has no column "{name}"; it has {names}',
+    "other_sweep": 'the folder "{folder}" holds another sweep; name another folder, or remove it',
 }

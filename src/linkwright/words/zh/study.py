@@ -118,4 +118,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "fails": "{count} 个{place}失败，例如：{example}",
     "fail": "{count} 个{place}失败，例如：{example}",
     "label_has_none": "“{label}”没有",
+    "needs_distributed": "集群需要 Dask；请安装 linkwright[cluster]",
+    "no_cluster": '调度器 "{address}" 没有应答（{reason}）；请用 "dask scheduler" 启动，或检查地址',
+    "no_column": '扫描没有列 "{name}"；有 {names}',
+    "other_sweep": '文件夹 "{folder}" 中是另一次扫描；请另给文件夹，或删除它',
 }

@@ -1,0 +1,265 @@
+"""Sweeps that outgrow memory: designs by number, computed part by part, each part a Parquet file written whole."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.errors import RequestError
+from linkwright.export.base import package
+from linkwright.metrics.summary import wanted
+from linkwright.model.mechanism import Mechanism
+from linkwright.study.cluster import connected, current, in_turn
+from linkwright.study.designs import sweep
+from linkwright.study.ranges import Range, parse_range
+from linkwright.study.vary import checked_addresses
+from linkwright.whole_files import write_whole
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+Sampling = Literal["grid", "sobol"]
+#: Designs of a part; of a whole sweep, at most.
+PART, MOST = 16384, 10**12
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What is swept; designs have numbers, so any part of them can be made anywhere."""
+
+    mechanism: Mechanism
+    ranges: tuple[Range, ...]
+    outputs: tuple[str, ...]
+    sampling: Sampling
+    designs: int
+    seed: int
+    steps: int
+    part: int
+
+    @property
+    def parts(self) -> int:
+        """Number of parts."""
+        return -(-self.designs // self.part)
+
+    def rows(self, number: int) -> int:
+        """Designs of a part."""
+        return min(self.part, self.designs - number * self.part)
+
+    def columns(self, number: int) -> dict[str, Floats]:
+        """Values of the designs of a part by address."""
+        first, count = number * self.part, self.rows(number)
+        if self.sampling == "grid":
+            sizes = tuple(len(each.values) for each in self.ranges)
+            places = np.unravel_index(np.arange(first, first + count), sizes)
+            return {each.address: each.values[at] for each, at in zip(self.ranges, places, strict=True)}
+        from scipy.stats import qmc
+
+        drawn = qmc.Sobol(len(self.ranges), rng=np.random.default_rng(self.seed))
+        if first:
+            drawn.fast_forward(first)
+        unit = drawn.random(self.part)[:count]
+        return {
+            each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(self.ranges)
+        }
+
+    @property
+    def digest(self) -> str:
+        """What finished parts must agree with."""
+        from linkwright import __version__
+
+        known = sorted(self.mechanism.dimensions().items()), sorted(self.mechanism.assembly.items())
+        values = [(each.address, each.values.tobytes()) for each in self.ranges]
+        said = (known, sorted(map(repr, self.mechanism.loads.items())), values, self.outputs, self.sampling,
+                self.designs, self.seed, self.steps, self.part, __version__)  # fmt: skip
+        return hashlib.blake2b(repr(said).encode(), digest_size=16).hexdigest()
+
+
+def part_content(plan: Plan, number: int, threads: int | None = 1) -> bytes:
+    """A part as the bytes of a Parquet file: the same wherever it is made."""
+    found = sweep(
+        plan.mechanism, plan.columns(number), outputs=plan.outputs, steps=plan.steps, threads=threads
+    )
+    arrow, parquet = _arrow()
+    columns = {name: np.ascontiguousarray(column) for name, column in found.columns().items()}
+    stream = io.BytesIO()
+    parquet.write_table(arrow.table(columns), stream, compression="zstd")
+    return stream.getvalue()
+
+
+def _arrow() -> tuple[Any, Any]:
+    return package("pyarrow", "parquet_files"), package("pyarrow.parquet", "parquet_files", "pyarrow")
+
+
+class SweepParts:
+    """A sweep in a folder of Parquet files ``part-000000.parquet`` …; columns as :meth:`Sweep.columns`, SI.
+
+    ``designs``, ``parts``: how many; ``skipped``: parts that were there already.
+    """
+
+    def __init__(self, folder: Path, plan: Plan, skipped: int = 0) -> None:
+        self.folder, self.plan, self.skipped = folder, plan, skipped
+
+    @property
+    def designs(self) -> int:
+        """Number of designs."""
+        return self.plan.designs
+
+    @property
+    def parts(self) -> int:
+        """Number of parts."""
+        return self.plan.parts
+
+    def path(self, number: int) -> Path:
+        """The file of a part."""
+        return self.folder / f"part-{number:06d}.parquet"
+
+    def each(self, names: Iterable[str] | None = None) -> Iterator[dict[str, Floats]]:
+        """The columns part by part, so that memory does not grow with the designs."""
+        _, parquet = _arrow()
+        chosen = None if names is None else list(names)
+        for number in range(self.parts):
+            table = parquet.read_table(self.path(number), columns=chosen)
+            yield {name: table[name].to_numpy() for name in table.column_names}
+
+    def columns(self, names: Iterable[str] | None = None) -> dict[str, Floats]:
+        """All designs at once."""
+        chosen = None if names is None else list(names)
+        found = list(self.each(chosen))
+        return {name: np.concatenate([part[name] for part in found]) for name in found[0]}
+
+    def best(self, name: str, count: int = 10, *, largest: bool = False) -> dict[str, Floats]:
+        """The columns of the designs with the least (``largest``: greatest) values, in order; NaN is left out."""
+        kept: dict[str, Floats] = {}
+        for part in self.each():
+            if name not in part:
+                raise RequestError(Sentence("study.no_column", name=name, names=tuple(part)))
+            merged = {key: np.concatenate([kept[key], each]) for key, each in part.items()} if kept else part
+            sizes = -merged[name] if largest else merged[name]
+            order = np.argsort(sizes, kind="stable")
+            order = order[np.isfinite(merged[name][order])][:count]
+            kept = {key: each[order] for key, each in merged.items()}
+        return kept
+
+    def ranges(self) -> dict[str, tuple[float, float, int]]:
+        """Least and greatest value of every column, and how many designs have one."""
+        found: dict[str, tuple[float, float, int]] = {}
+        for part in self.each():
+            for name, column in part.items():
+                good = column[np.isfinite(column)]
+                low, high, count = found.get(name, (np.inf, -np.inf, 0))
+                if len(good):
+                    low, high = min(low, float(good.min())), max(high, float(good.max()))
+                found[name] = low, high, count + len(good)
+        return found
+
+    def __repr__(self) -> str:
+        return f"SweepParts({str(self.folder)!r}: {self.designs} designs in {self.parts} parts)"
+
+
+def sweep_parts(
+    mechanism: Mechanism,
+    vary: Mapping[str, str | ArrayLike],
+    folder: str | Path,
+    *,
+    outputs: Iterable[str | tuple[str, str]],
+    sampling: Sampling = "grid",
+    samples: int = 65536,
+    seed: int = 0,
+    steps: int = 360,
+    part: int = PART,
+    client: Any = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> SweepParts:
+    """A sweep of any size, part by part into a folder; a part that is there already is not computed again.
+
+    Args:
+        mechanism, outputs, steps: as in :func:`sweep`.
+        vary: by address a range ``1.2..1.3 m:11``, values ``1.2, 1.25 m``, or numbers in SI, as in :func:`study`.
+        folder: where the Parquet files go; made where it does not exist. Files are written whole or not at all, so
+            the same call after an interruption goes on with the parts that are missing.
+        sampling: ``grid``: every combination; ``sobol``: ``samples`` designs, scrambled by ``seed``.
+        part: designs of a part, rounded up to a power of two.
+        client: a Dask client or the address of a scheduler (extra ``cluster``), else ``threads`` of this machine.
+            Parts are the same, to the bit, wherever they are computed; those of workers that die are given out again.
+        progress: called with (parts done, parts).
+
+    Raises:
+        LinkwrightError: unknown names, a folder with another sweep, no pyarrow or distributed, no cluster.
+    """
+    plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
+    found = SweepParts(Path(folder), plan)
+    missing = _missing(found)
+    found.skipped = plan.parts - len(missing)
+    done = found.skipped
+    for number, content in _made(plan, missing, client if client is not None else current(), threads):
+        write_whole(found.path(number), content)
+        done += 1
+        if progress is not None:
+            progress(done, plan.parts)
+    return found
+
+
+def _plan(
+    mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], outputs: Iterable[str | tuple[str, str]],
+    sampling: Sampling, samples: int, seed: int, steps: int, part: int,
+) -> Plan:  # fmt: skip
+    checked_addresses(mechanism, vary)
+    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
+    if not ranges:
+        raise RequestError(Sentence("study.nothing_varies"))
+    if sampling not in ("grid", "sobol"):
+        raise RequestError(Sentence("study.no_sampling", sampling=sampling))
+    count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
+    if not 1 <= count <= MOST:
+        raise RequestError(Sentence("study.bad_samples", samples=count, most=MOST))
+    names = tuple(each.name.strip() for each in wanted(outputs))
+    size = 1 << max(0, (min(part, count) - 1).bit_length()) if part > 0 else PART
+    return Plan(mechanism, ranges, names, sampling, count, seed, steps, size)
+
+
+def _missing(found: SweepParts) -> list[int]:
+    """Parts that are not there yet, in a folder that belongs to the plan."""
+    _, parquet = _arrow()
+    found.folder.mkdir(parents=True, exist_ok=True)
+    note, digest = found.folder / "sweep.json", found.plan.digest
+    if note.exists():
+        try:
+            same = json.loads(note.read_text(encoding="utf-8")).get("plan") == digest
+        except (OSError, ValueError, AttributeError):
+            same = False
+        if not same:
+            raise RequestError(Sentence("study.other_sweep", folder=found.folder))
+    else:
+        said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
+        write_whole(note, json.dumps(said, indent=1).encode())
+
+    def there(number: int) -> bool:
+        try:
+            return bool(parquet.read_metadata(found.path(number)).num_rows == found.plan.rows(number))
+        except (OSError, ValueError):
+            return False
+
+    return [number for number in range(found.parts) if not there(number)]
+
+
+def _made(plan: Plan, missing: list[int], client: Any, threads: int | None) -> Iterator[tuple[int, bytes]]:
+    """Contents of the missing parts with their numbers."""
+    if client is None:
+        for number in missing:
+            yield number, part_content(plan, number, threads)
+        return
+    joined = connected(client)
+    try:
+        for place, content in in_turn(joined, part_content, [(plan, number) for number in missing]):
+            yield missing[place], content
+    finally:
+        if joined is not client:
+            joined.close()

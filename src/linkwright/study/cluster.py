@@ -1,0 +1,104 @@
+"""Work on a Dask cluster: parts of designs, few at a time, computed again where a worker died."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from importlib import import_module
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.words.sentence import Sentence
+
+#: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
+WAITING = 3
+#: How often a part is given out whose workers died.
+AGAIN = 20
+#: Seconds that a scheduler has to answer.
+PATIENCE = 8.0
+
+_current: ContextVar[Any] = ContextVar("cluster", default=None)
+
+
+def connected(cluster: Any) -> Any:
+    """A Dask client: the one given, or one for a scheduler's address such as ``tcp://host:8786``."""
+    dask = _dask()
+    if not isinstance(cluster, str):
+        return cluster
+    try:
+        return dask.Client(cluster, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise LinkwrightError(
+            Sentence("study.no_cluster", address=cluster, reason=str(error)[:200])
+        ) from None
+
+
+def _dask() -> Any:
+    try:
+        return import_module("distributed")
+    except ImportError:
+        raise LinkwrightError(Sentence("study.needs_distributed")) from None
+
+
+@contextmanager
+def on_cluster(cluster: Any) -> Iterator[Any]:
+    """Within it sweeps, the studies and tolerance runs made of them, and optimisations whose designs go one by one,
+    are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the client.
+
+    Results are equal to the bit to those of threads. Raises LinkwrightError without the extra ``cluster``, and for a
+    scheduler that does not answer.
+    """
+    client = connected(cluster)
+    token = _current.set(client)
+    try:
+        yield client
+    finally:
+        _current.reset(token)
+        if client is not cluster:
+            client.close()
+
+
+def current() -> Any:
+    """The client of the surrounding ``on_cluster``; None: threads."""
+    return _current.get()
+
+
+def in_turn(
+    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]
+) -> Iterator[tuple[int, Any]]:
+    """Results of ``work(*task)`` with the tasks' numbers, as they come; a few are on the cluster at a time.
+
+    A task whose workers died is given out again; an error of the work itself is raised.
+    """
+    dask = _dask()
+    left, tried = iter(range(len(tasks))), [0] * len(tasks)
+    numbers: dict[Any, int] = {}
+    room = WAITING * max(1, sum(client.nthreads().values()))
+
+    def given(number: int) -> Any:
+        tried[number] += 1
+        future = client.submit(work, *tasks[number], pure=False)
+        numbers[future] = number
+        return future
+
+    futures = [given(number) for _, number in zip(range(room), left, strict=False)]
+    waiting = dask.as_completed(futures)
+    try:
+        for future in waiting:
+            number = numbers.pop(future)
+            if future.status == "error" and _died(future) and tried[number] < AGAIN:
+                waiting.add(given(number))
+                continue
+            yield number, future.result()
+            future.release()
+            for onward in left:
+                waiting.add(given(onward))
+                break
+    finally:
+        client.cancel(list(numbers))
+
+
+def _died(future: Any) -> bool:
+    """Whether a task failed because its workers died."""
+    return type(future.exception()).__name__ == "KilledWorker"
