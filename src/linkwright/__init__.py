@@ -105,7 +105,7 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 #: Public names by the module that has them.
 PUBLIC = {
