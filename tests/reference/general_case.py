@@ -7,6 +7,7 @@ The same seed gives the same text.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from math import pi
 
 import numpy as np
@@ -30,6 +31,7 @@ class GeneralCase:
     steps: int
 
 
+@cache
 def general_case(seed: int) -> GeneralCase:
     """The model file of a seed, and the number of steps in which its cycle is to be solved."""
     rng = np.random.default_rng([seed, 1_989])

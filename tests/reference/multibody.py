@@ -389,11 +389,16 @@ class Forces:
 
 def _turned(c: Array, s: Array, body: NDArray[np.int_], local: Array) -> Array:
     cb, sb = c[..., body], s[..., body]
-    return np.stack([cb * local[:, 0] - sb * local[:, 1], sb * local[:, 0] + cb * local[:, 1]], axis=-1)
+    out = np.empty((*cb.shape, 2))
+    out[..., 0] = cb * local[:, 0] - sb * local[:, 1]
+    out[..., 1] = sb * local[:, 0] + cb * local[:, 1]
+    return out
 
 
 def _left(v: Array) -> Array:
-    return np.stack([-v[..., 1], v[..., 0]], axis=-1)
+    out = np.empty_like(v)
+    out[..., 0], out[..., 1] = -v[..., 1], v[..., 0]
+    return out
 
 
 def _cross(a: Array, b: Array) -> Array:
