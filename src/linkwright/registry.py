@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Generic, TypeVar, cast
 
+from linkwright.core.installed import loaded, offered_by_packages
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning
@@ -85,12 +86,10 @@ class Registry(Mapping[str, T], Generic[T]):
         """Imports what other installed packages offer; an element registers itself, or is what is named."""
         if self._entry_points is None:
             return
-        from importlib.metadata import entry_points
-
-        for point in entry_points(group=self._entry_points):
-            found = point.load()
-            if point.name not in self._elements and isinstance(found, type):
-                self.register(point.name)(cast("T", found))
+        for name, target in offered_by_packages(self._entry_points).items():
+            found = loaded(target)
+            if name not in self._elements and isinstance(found, type):
+                self.register(name)(cast("T", found))
 
 
 def _home(element: object) -> tuple[str, str]:

@@ -20,7 +20,7 @@ TOLERANCE = 1e-9
 
 @cache
 def cases() -> tuple[tuple[GearedCase, Motion], ...]:
-    """Forty mechanisms that the reference can follow and that are well placed."""
+    """Twenty-five mechanisms that the reference can follow and that are well placed."""
     found = []
     for seed in range(200):
         case = geared_case(seed)
@@ -30,7 +30,7 @@ def cases() -> tuple[tuple[GearedCase, Motion], ...]:
             continue
         if motion.condition().max() < 400 and np.abs(motion.qd).max() < 30:
             found.append((case, motion))
-        if len(found) == 40:
+        if len(found) == 25:
             break
     return tuple(found)
 
@@ -40,7 +40,7 @@ def test_every_piece_comes_up_and_some_groups_need_newtons_method() -> None:
     assert min(kinds[kind] for kind in ("gear", "belt", "rack", "dyad", "loop")) >= 5
 
 
-@pytest.mark.parametrize("index", range(40))
+@pytest.mark.parametrize("index", range(25))
 def test_motion_and_forces_agree_with_the_reference(index: int) -> None:
     case, reference = cases()[index]
     mechanism = lw.loads(case.text)

@@ -63,7 +63,7 @@ class Dyad(Protocol):
         ...
 
 
-DYADS: Registry[type[Dyad]] = Registry("assur_group", "linkwright.groups")
+DYADS: Registry[type[Dyad]] = Registry("assur_group", "linkwright.groups", entry_points="linkwright.groups")
 
 
 def shown_length(value: float) -> str:

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from linkwright.model.reader import Reader
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection, TreeJoint
+    from linkwright.structure.group import Connection, Group, TreeJoint
 
 Poses = Mapping[str, "Pose"]
 States = Mapping[str, "State"]
@@ -232,6 +232,16 @@ class Joint(ABC):
         """The joint as a cut one."""
         raise self.lacks("cut")
 
+    @classmethod
+    def linear(cls, group: Group, cut: Connection) -> bool:
+        """Whether the row of the pair is linear in the unknowns of a group in which it is cut."""
+        return cls.rotations_only
+
+    def slide_direction(self, dimensions: Dimensions) -> Vec:
+        """Unit vector along which point ``at`` of link ``block`` slides from ``through``, in the axes of ``guide``;
+        of kinds with a displacement, which have these four as fields."""
+        raise self.lacks("slide_direction")
+
     def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
         """Constant angle of the child's x axis to the parent's, rad, where the joint does not turn."""
         raise self.lacks("turned")
@@ -284,8 +294,14 @@ class Joint(ABC):
         return LackingError(Sentence("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what))
 
 
+def carried_steadily(group: Group, cut: Connection) -> bool:
+    """Whether nothing that a group turns carries an end of a cut about, but its first link about its own pin."""
+    about = [step for end in (cut.a, cut.b) for step in group.path(end) if step.free and step.turns]
+    return all(step.child == cut.a for step in about)
+
+
 class LackingError(LinkwrightError):
     """A joint kind does not supply what is asked of it."""
 
 
-JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints")
+JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints", entry_points="linkwright.joints")

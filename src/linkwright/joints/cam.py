@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
-from linkwright.joints.base import JOINTS, Cut, Joint
+from linkwright.joints.base import JOINTS, Cut, Joint, carried_steadily
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.laws.program_fields import ProgramField
 from linkwright.model.fields import Field, Quantity, Word
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from linkwright.model.reader import Reader
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection
+    from linkwright.structure.group import Connection, Group
 
 TOUCH = ("roller", "knife", "flat")
 Points = tuple[float, ...]
@@ -239,6 +239,11 @@ class CamJoint(Joint):
             yield grouping.connection(self, self.follower, self.cam, None)
 
     # motion -----------------------------------------------------------------------------------
+    @classmethod
+    def linear(cls, group: Group, cut: Connection) -> bool:
+        """In the follower's coordinate, unless something that the group turns carries it about."""
+        return carried_steadily(group, cut)
+
     def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
         from linkwright.joints.cam_cuts import cut
 

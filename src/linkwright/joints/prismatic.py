@@ -201,6 +201,9 @@ class PrismaticJoint(Joint):
             dimensions(f"{self.name}.offset"),
         )
 
+    def slide_direction(self, dimensions: Dimensions) -> Vec:
+        return dimensions.guide_direction(self)
+
     def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
         along: Scalar = (
             dimensions(f"{self.name}.direction")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, absolute, tan
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Angles, Contact, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Contact, Joint, Poses, States, carried_steadily
 from linkwright.joints.gear import STANDARD
 from linkwright.joints.marks import Mark
 from linkwright.joints.prismatic import PrismaticJoint
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from linkwright.model.reader import Reader
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection
+    from linkwright.structure.group import Connection, Group
 
 
 @JOINTS.register("rack")
@@ -224,6 +224,11 @@ class RackPair(Joint):
             inside=self.side < 0,
             follows=(self.pinion, self.centre),
         )
+
+    @classmethod
+    def linear(cls, group: Group, cut: Connection) -> bool:
+        """Unless something that the group turns carries the rack or the pinion's centre about."""
+        return carried_steadily(group, cut)
 
     def contact(self, mechanism: Mechanism) -> Contact:
         angle, press = self.direction - 0.5 * pi, -self.side * tan_of(self.pressure_angle)

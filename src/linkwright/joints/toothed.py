@@ -21,7 +21,7 @@ from linkwright.engine.vector import Vec
 from linkwright.joints.base import Angles, Joint, Poses, States
 from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.model.reference_fields import LinkName, LinkNames
-from linkwright.units import format as shown
+from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -371,4 +371,4 @@ class _Centres:
 
 def length(value: float) -> str:
     """A length as sentences print it."""
-    return shown(value, "length")
+    return f"{number(value, 7)} m"

@@ -17,7 +17,7 @@ from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
 from linkwright.kinematics.pairs import Coordinate, pair_of
 from linkwright.kinematics.size import mechanism_size
-from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.structure.group import Group, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10
@@ -230,18 +230,8 @@ def dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
 
 
 def in_one_step(group: Group) -> bool:
-    """Whether the higher pairs of a group determine it alone, by rows that are linear in its unknowns.
-
-    A rack's row is, unless something that the group turns carries the rack or the pinion's centre about.
-    """
-    return bool(group.cuts) and all(cut.higher and _steady(group, cut) for cut in group.cuts)
-
-
-def _steady(group: Group, cut: Connection) -> bool:
-    if JOINTS[cut.kind].rotations_only:
-        return True
-    about = [step for end in (cut.a, cut.b) for step in group.path(end) if step.free and step.turns]
-    return all(step.child == cut.a for step in about)
+    """Whether the higher pairs of a group determine it alone, by rows that are linear in its unknowns."""
+    return bool(group.cuts) and all(cut.higher and JOINTS[cut.kind].linear(group, cut) for cut in group.cuts)
 
 
 def chain_unknowns(group: Group, end: str) -> list[TreeJoint]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.trace import MotionTrace
@@ -85,11 +85,10 @@ class MotionOutputs:
 
     def slide(self, joint_name: str) -> tuple[Scalar, Scalar, Scalar]:
         """Displacement of a guide's block with its rates."""
-        joint = self.mechanism.joints[joint_name]
-        assert isinstance(joint, PrismaticJoint)
+        joint: Any = self.mechanism.joints[joint_name]
         dimensions, states = self.motion.dimensions, self.motion.states
         guide, block = states[joint.guide], states[joint.block]
-        n = guide.pose.spin(dimensions.guide_direction(joint))
+        n = guide.pose.spin(joint.slide_direction(dimensions))
         start = guide.arm(dimensions.point(joint.guide, joint.through))
         at = dimensions.point(joint.block, joint.at)
         gap = block.pose.place + block.arm(at) - guide.pose.place

@@ -61,25 +61,28 @@ def _gained(mechanism: Mechanism, structure: Structure, duration: float) -> tupl
         for unknown, turns in build.rotations
     ]
     slides = [row({key: 1.0}) for key in sums if key[0] == "slide"]
-    change = _change(mechanism, unknowns, rotations + slides, duration)
+    change = _change(mechanism, unknowns, rotations, slides, duration)
     if change is None:
         return None
     return np.array(rotations) @ change / (2.0 * np.pi), np.array(slides).reshape(-1, len(columns)) @ change
 
 
 def _change(
-    mechanism: Mechanism, unknowns: list[tuple[str, str]], rows: list[Floats], duration: float
+    mechanism: Mechanism,
+    unknowns: list[tuple[str, str]],
+    rotations: list[Floats],
+    slides: list[Floats],
+    duration: float,
 ) -> Floats | None:
     """What unknowns and drivers gain; of unknowns on which no wheels hang, nothing is said."""
     ends = [driver.law.coordinate(np.array([0.0, duration]))[0] for driver in mechanism.drivers.values()]
     gained = np.array([0.0] * len(unknowns) + [float(end[1] - end[0]) for end in ends])
-    table = np.array(rows)[:, : len(unknowns)]
-    wanted = [
-        i
-        for i in range(len(unknowns))
-        if (np.abs(table[:, i] - np.round(table[:, i])) > WHOLE).any() or unknowns[i][0] == "slide"
-    ]
-    if not wanted:
+    count = len(unknowns)
+    turning = np.array(rotations)[:, :count]
+    sliding = np.array(slides).reshape(-1, len(gained))[:, :count]
+    uneven = np.abs(turning - np.round(turning)).max(axis=0, initial=0.0)
+    wanted = np.flatnonzero(np.maximum(uneven, np.abs(sliding).max(axis=0, initial=0.0)) > WHOLE)
+    if not len(wanted):
         return gained
     from linkwright.kinematics.cycle import at_times
     from linkwright.kinematics.solver import MotionSolver

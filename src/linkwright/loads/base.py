@@ -152,7 +152,7 @@ class Load:
         return found
 
 
-LOADS: Registry[type[Load]] = Registry("load_kind", "linkwright.loads")
+LOADS: Registry[type[Load]] = Registry("load_kind", "linkwright.loads", entry_points="linkwright.loads")
 
 
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:

@@ -213,4 +213,4 @@ class Metric(ABC):
         return MetricValue(self.name, subject, float(value), kind, where, analysis.input_dimension, **more)
 
 
-METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics")
+METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics", entry_points="linkwright.metrics")

@@ -124,8 +124,9 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         course=header.get("course") or {},
         optimize=header.get("optimize") or {},
     )
+    unread = reader.error_count
     check_whole(reader, root, mechanism)
-    if reader.error_count:
+    if unread:
         return mechanism
     drawing, section = Drawing(mechanism), root.get("joints")
     for name, joint in joints.items():

@@ -1,0 +1,134 @@
+"""An installed package with a joint kind, a load, a driver law and a design number of its own: the how-to's, run."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import linkwright
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "en" / "how-to" / "own_elements.md"
+LAW = '''
+
+from collections.abc import Mapping
+import numpy as np
+from linkwright.drivers.base import Law
+
+@dataclass(frozen=True)
+class Settling(Law):
+    """q = way (1 - exp(-t / 1 s))."""
+    key: ClassVar[str] = "settling"
+    way: float
+    rotary: bool = True
+    def coordinate(self, t):
+        left = np.exp(-t)
+        return self.way * (1.0 - left), self.way * left, -self.way * left
+    @classmethod
+    def fields(cls, rotary):
+        return {"settling": Quantity("angle" if rotary else "length", doc="way after all time")}
+    @classmethod
+    def from_values(cls, values, rotary, parameters):
+        return cls(values["settling"], rotary)
+    def text_values(self):
+        return {"settling": self.way}
+'''
+POINTS = """[linkwright.joints]
+pin_in_slot = slots:PinInSlot
+[linkwright.loads]
+wind = slots:Wind
+[linkwright.drivers]
+settling = slots:Settling
+[linkwright.metrics]
+mean_torque = slots:MeanTorque
+"""
+#: A slotted lever driven by a crank's pin, once with the kind of the package, once with a massless block and a guide.
+PROGRAM = r'''
+import sys, numpy as np, linkwright as lw
+from linkwright.cli import main
+from linkwright.joints.base import LackingError
+from linkwright.model.file import dump
+from linkwright.model.schema import json_schema
+MODEL = """
+format: 1
+name: slotted lever
+frame: {points: {O: [0 m, 0 m], Q: [0 m, -0.3 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  lever: {points: [Q, E], length: 0.6 m, mass: 2 kg, inertia: 0.05 kg·m²}
+BLOCK
+joints: {slot: {JOINT, guide: lever, through: Q, REST}}
+DRAWN
+driver: {turn: crank, about: O, speed: 60 rpm}
+loads: {gust: {kind: wind, on: lever, at: E, size: 20 N}}
+"""
+own = MODEL.replace("BLOCK", "").replace("JOINT", "kind: pin_in_slot").replace("REST", "block: crank, at: A")
+own = own.replace("DRAWN", "drawing: {A: [0.1 m, 0 m], E: [0.18973665961010275 m, 0.2692099788303083 m]}")
+own = own.replace("points: [O, A], length", "points: [O, A], length")
+known = MODEL.replace("BLOCK", "  block: {points: [A]}").replace("JOINT", "kind: prismatic, direction: 0 deg")
+known = known.replace("REST", "block: block, at: A").replace("DRAWN", "assembly: {slot: forward}")
+mechanism = lw.loads(own)
+found, expected = (lw.solve_forces(lw.solve_motion(m, steps=24)) for m in (mechanism, lw.loads(known)))
+for name in ("crank", "lever"):
+    for each in ("direction", "angular_velocity", "angular_acceleration"):
+        a, b = (getattr(f.motion.link(name), each) for f in (found, expected))
+        assert np.abs(a - b).max() < 1e-9 * max(1.0, np.abs(b).max()), (name, each)
+assert np.abs(found.input_torque - expected.input_torque).max() < 1e-9
+assert np.abs(found.reaction("Q", on="lever") - expected.reaction("Q", on="lever")).max() < 1e-8
+assert found.balance_residual.max() < 1e-9
+structure = lw.structure(mechanism)
+assert (structure.mobility, [g.signature for g in structure.groups]) == (1, ["R", "RS"])
+assert "pin_in_slot" in str(json_schema()["properties"]["joints"])
+assert lw.loads(dump(mechanism)).joints == mechanism.joints
+try:
+    lw.loads(own.replace("pin_in_slot", "pin_in_slott"))
+    raise SystemExit("an unknown kind was taken")
+except lw.ModelError as error:
+    assert "pin_in_slot" in str(error), error
+try:
+    lw.loads(own.replace("at: A}}", "at: AA}}"))
+    raise SystemExit("an unknown point was taken")
+except lw.ModelError as error:
+    assert "joints.slot.at" in str(error), error
+assert lw.metrics(found).value("mean_torque") == found.input_torque.mean()
+sweep = lw.sweep(mechanism, {"lever.mass": np.array([2.0, 3.0])}, outputs=[("input_torque", "max")], steps=24)
+assert sweep["input_torque", "max"][0] == np.max(found.input_torque) or abs(
+    sweep["input_torque", "max"][0] - np.max(found.input_torque)) < 1e-9
+law = lw.loads(known.replace("speed: 60 rpm}", "settling: 90 deg}\ncycle: {duration: 1 s}"))
+assert abs(lw.solve_motion(law, steps=4).input[-1] - np.radians(90) * (1 - np.exp(-1.0))) < 1e-14
+open("own.yaml", "w").write(own)
+assert main(["check", "own.yaml"]) == 0
+assert main(["draw", "own.yaml", "--output", "own.svg"]) == 0 and "lever" in open("own.svg").read()
+assert main(["solve", "own.yaml", "--steps", "8"]) == 0
+assert main(["export", "own.yaml", "--output", "own.csv"]) == 0
+try:
+    mechanism.joints["slot"].sums(mechanism)
+    raise SystemExit("sums")
+except LackingError as error:
+    assert '"pin_in_slot" does not supply "sums"' in str(error)
+print("all is well")
+'''
+
+
+def test_an_installed_package_of_elements(tmp_path: Path) -> None:
+    (code,) = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    (tmp_path / "slots.py").write_text(code + LAW, "utf-8")
+    info = tmp_path / "slots-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: slots\nVersion: 1.0\n", "utf-8")
+    (info / "entry_points.txt").write_text(POINTS, "utf-8")
+    source = str(Path(linkwright.__file__).parents[1])
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([source, str(tmp_path)])}
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=environment,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "all is well" in done.stdout

@@ -1,0 +1,104 @@
+"""What is refused of gears, racks and belts: the place, the reason and the remedy of each."""
+
+from __future__ import annotations
+
+import pytest
+
+import linkwright as lw
+
+HEAD = """format: 1
+frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm]}}
+links:
+  a: {points: {O: [0 mm, 0 mm]}}
+  b: {points: {Q: [0 mm, 0 mm]}}
+  c: {points: {R: [0 mm, 0 mm]}}
+  loose: {points: {O: [0 mm, 0 mm], X: [10 mm, 0 mm]}}
+  bar: {points: {X: [0 mm, 0 mm], Y: [10 mm, 0 mm]}}
+  rack: {points: {T: [0 mm, 0 mm], U: [10 mm, 0 mm]}}
+driver: {turn: a, about: O, speed: 1 rad/s}
+joints:
+"""
+GUIDE = "  way: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: T}\n"
+CASES = {
+    "centre distance": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], module: 3 mm}",
+        ("joints.m.module", "0.06 m apart", "external pair needs 0.09 m", "change the distance"),
+    ),
+    "internal distance": (
+        "  m: {kind: gear, links: [a, b], radii: [20 mm, 60 mm], mesh: internal}",
+        ("joints.m.radii", "internal pair needs 0.04 m"),
+    ),
+    "teeth and ratio": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], ratio: -2}",
+        ("joints.m.ratio", "the ratio -2 does not fit teeth", "-0.5", "leave the ratio out"),
+    ),
+    "half a tooth": (
+        "  m: {kind: gear, links: [a, b], teeth: [20.5, 40]}",
+        ("joints.m.teeth", "20.5 is no number of teeth"),
+    ),
+    "no size": (
+        "  m: {kind: gear, links: [a, b]}",
+        ("joints.m", "nothing says how large", "give one of teeth"),
+    ),
+    "gear without pin": (
+        "  m: {kind: gear, links: [a, rack], ratio: -1}",
+        ("joints.m.links", '"rack" has no pin', "its centre"),
+    ),
+    "no common carrier": (
+        "  m: {kind: gear, links: [b, bar], ratio: -1}",
+        ("joints.m.links", "no link carries the pins of both wheels", "give one link"),
+    ),
+    "belt without turning": (
+        "  m: {kind: belt, links: [a, rack], radii: [10 mm, 10 mm]}",
+        ("joints.m.links", '"rack" does not turn about a pin', "its centre"),
+    ),
+    "pulleys touch": (
+        "  m: {kind: belt, links: [a, b], radii: [30 mm, 40 mm]}",
+        ("joints.m", "the radii add up to 0.07 m", "further apart"),
+    ),
+    "rack without guide": (
+        "  m: {kind: rack, pinion: a, rack: rack, through: T, radius: 20 mm}",
+        ("joints.m.rack", "no guide leads from the rack 'rack'", "add a prismatic joint"),
+    ),
+    "rack too far": (
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, radius: 25 mm}",
+        ("joints.m.radius", "0.02 m away from the pitch line", "0.025 m", "change the radius"),
+    ),
+    "rack askew": (
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, radius: 20 mm, direction: 10 deg}",
+        ("joints.m.direction", "not parallel", "leave the direction out"),
+    ),
+    "unknown kind": (
+        "  m: {kind: gaer, links: [a, b], ratio: -1}",
+        ("joints.m.kind", "gear"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_finding(name: str) -> None:
+    joint, words = CASES[name]
+    with pytest.raises(lw.ModelError) as caught:
+        lw.loads(HEAD + joint + "\n", "wheels.yaml")
+    said = str(caught.value)
+    for word in ("wheels.yaml:", *words):
+        assert word in said, said
+
+
+def test_wheels_that_block_each_other_are_named_with_their_loop() -> None:
+    text = HEAD.split("  loose", maxsplit=1)[0] + "driver: {turn: a, about: O, speed: 1 rad/s}\njoints:\n"
+    text += "".join(
+        f"  {x}{y}: {{kind: gear, links: [{x}, {y}], ratio: -1}}\n" for x, y in ("ab", "bc", "ca")
+    )
+    with pytest.raises(lw.LinkwrightError, match=r"mobility 0.*'ab'.*block each other.*'frame'.*'ca'"):
+        lw.structure(lw.loads(text))
+
+
+def test_a_kind_that_lacks_something_says_so_when_it_is_needed() -> None:
+    from linkwright.joints.base import Joint, LackingError
+
+    class Half(Joint):
+        kind = "half"
+
+    with pytest.raises(LackingError, match='"half" does not supply "fields"'):
+        Half.fields()

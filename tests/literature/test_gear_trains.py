@@ -1,0 +1,112 @@
+"""Gears, racks, belts and chains against formulas of the textbooks, reckoned by hand here."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+RPM = np.pi / 30.0
+ALPHA = np.radians(20.0)
+
+
+def solved(name: str, steps: int = 24) -> lw.Forces:
+    return lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=steps))
+
+
+def test_external_pair() -> None:
+    """M = 40 N·m on r = 40 mm: F_t = 1000 N, F_r = F_t tan 20°, both in the bearings, reversed; motor M/2."""
+    forces = solved("external_gear_pair")
+    assert forces.motion.link("wheel").angular_velocity == pytest.approx(-300 * RPM, rel=1e-12)
+    expected = (-1000 * np.tan(ALPHA), -1000.0)
+    assert forces.reaction("mesh", on="pinion") == pytest.approx(np.tile(expected, (24, 1)), rel=1e-11)
+    assert forces.reaction("O", on="pinion") == pytest.approx(-np.tile(expected, (24, 1)), rel=1e-11)
+    assert forces.input_torque == pytest.approx(20.0, rel=1e-11)
+
+
+def test_internal_pair() -> None:
+    """The ring turns with the pinion; the teeth press the pinion towards the ring's centre."""
+    forces = solved("internal_gear_pair")
+    assert forces.motion.link("ring").angular_velocity == pytest.approx(200 * RPM, rel=1e-12)
+    expected = (-1000 * np.tan(ALPHA), -1000.0)
+    assert forces.reaction("mesh", on="pinion") == pytest.approx(np.tile(expected, (24, 1)), rel=1e-11)
+
+
+def test_planetary_train_by_willis() -> None:
+    """n_c = (z_s n_s + z_r n_r) / (z_s + z_r), M_s : M_r : M_c = z_s : z_r : -(z_s + z_r)."""
+    forces = solved("planetary_two_inputs")
+    assert forces.motion.link("carrier").angular_velocity == pytest.approx(450 * RPM, rel=1e-12)
+    assert forces.motion.link("planet_1").angular_velocity == pytest.approx(-300 * RPM, rel=1e-12)
+    assert forces.driver_effort("sun_motor") == pytest.approx(20.0, rel=1e-10)
+    assert forces.driver_effort("ring_motor") == pytest.approx(60.0, rel=1e-10)
+    found = lw.structure(forces.mechanism)
+    assert (found.grubler, found.mobility, found.passive) == (0, 2, ("ring_2", "ring_3"))
+    (train,) = found.trains
+    assert train.ratios == pytest.approx(
+        {"sun": 1, "planet_1": -1, "planet_2": -1, "planet_3": -1, "ring": -1 / 3}
+    )
+
+
+def test_differential() -> None:
+    """n_1 + n_2 = 2 n_c, and both suns share the torque of the carrier evenly."""
+    forces = solved("gear_differential")
+    assert forces.motion.link("sun_2").angular_velocity == pytest.approx(60 * RPM, rel=1e-12)
+    assert forces.driver_effort("left") == pytest.approx(-50.0, rel=1e-10)
+    assert forces.driver_effort("shaft") == pytest.approx(100.0, rel=1e-10)
+
+
+def test_rack_goes_as_far_as_its_sector_swings() -> None:
+    motion = solved("rack_and_rocker", 90).motion
+    rocker, slide = motion.link("rocker").angle, motion.joint("slide").displacement
+    assert np.diff(slide) == pytest.approx(0.1 * np.diff(rocker), abs=1e-14)
+
+
+def test_upper_rack_moves_twice_as_far_as_the_pinion() -> None:
+    motion = solved("pinion_between_racks", 90).motion
+    centre, rack = motion.point("C").position[:, 0], motion.joint("slide").displacement
+    assert np.diff(rack) == pytest.approx(2.0 * np.diff(centre), abs=1e-13)
+    assert np.ptp(rack) == pytest.approx(4 * 0.08, rel=1e-3)  # twice the stroke of the crank
+
+
+def test_chain_pulls_along_its_taut_strand() -> None:
+    """|F| = M / r of the motor's sprocket, r = z p / 2π, and the couple about the motor's centre balances it."""
+    forces = solved("chain_drive", 60)
+    radius = 17 * 0.0127 / (2 * np.pi)
+    pull = np.hypot(*forces.reaction("chain", on="motor").T)
+    weightless = forces.motion.link("motor").angular_acceleration
+    assert np.abs(weightless).max() < 1e-9
+    assert pull == pytest.approx(np.abs(forces.input_torque) / radius, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "turns"),
+    [("geared_fivebar", 1), ("geared_fivebar_double", 1), ("geared_fivebar_third", 3), ("chain_drive", 3)],
+)
+def test_cycle_is_as_many_turns_as_it_takes(name: str, turns: int) -> None:
+    mechanism = lw.load(f"gallery:{name}")
+    motion = lw.solve_motion(mechanism, steps=24, endpoint=True)
+    law = next(iter(mechanism.drivers.values())).law
+    assert motion.positions.period == pytest.approx(turns * law.natural_duration())
+    assert any("turns" in str(note) for note in motion.notes) == (turns > 1)
+    for link in mechanism.links:
+        direction = motion.link(link).direction
+        assert direction[0] == pytest.approx(direction[-1], abs=1e-12)
+
+
+def test_coupler_curve_of_equal_gears_is_symmetric() -> None:
+    """Ratio -1, equal cranks and bars, phase 180°: the pin stays on the middle line between the centres."""
+    text = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [2 m, 0 m]}}
+links:
+  a: {points: [O1, A], length: 0.4 m}
+  b: {points: [O2, B], length: 0.4 m}
+  c: {points: [A, C], length: 1.5 m}
+  d: {points: [B, C], length: 1.5 m}
+joints: {mesh: {kind: gear, links: [a, b], ratio: -1, phase: 180 deg}}
+assembly: {C: left}
+driver: {turn: a, about: O1, speed: 1 rad/s}
+"""
+    motion = lw.solve_motion(lw.loads(text), steps=36)
+    assert motion.point("C").position[:, 0] == pytest.approx(1.0, abs=1e-13)
