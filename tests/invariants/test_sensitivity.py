@@ -175,6 +175,9 @@ LOADS = {
     "y: [0 N, 90 N, 20 N, 300 N]}",
     "ramp while it moves": "ramp: [10 N, 200 N], phase: {moving: rocker, direction: increasing}",
     "ramp between limits": "ramp: [10 N, 200 N], phase: {of: rocker, from: max, to: min}",
+    "ramp over a part of a stroke": "ramp: [10 N, 200 N], phase: {of: rocker, from: max, to: min, first: 0.4}",
+    "link that turns through": 'magnitude: "100 N + 10 N*crank/(1 rad)*sin(rocker)"',
+    "expression that divides": 'magnitude: "100 N/(2 + rocker/(1 rad))"',
     "constant in a phase": "magnitude: 150 N, phase: {of: rocker, from: max, to: min}",
 }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.engine.trace import Scalar, angle, cos, sin
+from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.outputs import MotionOutputs
@@ -14,6 +14,10 @@ from linkwright.model.signal_fields import Output
 def limit_name(output: Output, kind: str) -> str:
     """Name of the parameter that holds the input of an output's limit."""
     return f"limit:{output}:{kind}"
+
+
+#: Before the name of a load whose magnitude is traced, but for its phase, which is known per position.
+ACTS = "acts"
 
 
 def constant_name(load: str, field: str) -> str:
@@ -66,14 +70,17 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 class TracedSite:
     """One load's view; see :class:`linkwright.loads.site.Site`.
 
-    ``along_input``: the magnitude is traced over the input (see ``loads.along_input``); else one that varies is an
-    input of the program per position.
+    ``along_input``: the magnitude is traced over the input (see ``loads.along_input``), with ``phase_known`` all but
+    its phase; else one that varies is an input of the program per position.
     """
 
-    def __init__(self, motion: MotionTrace, load: Load, *, along_input: bool = False) -> None:
+    def __init__(
+        self, motion: MotionTrace, load: Load, *, along_input: bool = False, phase_known: bool = False
+    ) -> None:
         self.motion = motion
         self.load = load
         self.along_input = along_input
+        self.phase_known = phase_known
 
     def place(self, link: str, point: str) -> Vec:
         state = self.motion.states[link]
@@ -135,6 +142,13 @@ class TracedSite:
     def angle_between(self, a: str, b: str) -> Scalar:
         """Angle of link b against link a."""
         return angle_between(self.motion, a, b)
+
+    def known_phase(self) -> tuple[Mask, Scalar] | None:
+        """Whether the load acts, and the share of its phase, from inputs per position."""
+        if not self.phase_known:
+            return None
+        acts, share = (self.motion.trace.field_input(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
+        return acts > 0.5, share
 
     def constant(self, field: str) -> Scalar:
         """A number of the load that is no dimension."""

@@ -19,7 +19,7 @@ from linkwright.joints.pose import Pose
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.pairs import pair_of
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.site import TracedSite
+from linkwright.kinetostatics.site import ACTS, TracedSite
 from linkwright.loads.site import Wrench
 from linkwright.structure.group import Connection, TreeJoint
 
@@ -104,7 +104,9 @@ def trace_forces(
     """
     forces = ForceTrace(motion)
     for name, load in motion.mechanism.loads.items():
-        forces.wrenches[name] = list(load.wrenches(TracedSite(motion, load, along_input=name in along_input)))
+        partly = f"{ACTS}:{name}" in along_input
+        site = TracedSite(motion, load, along_input=partly or name in along_input, phase_known=partly)
+        forces.wrenches[name] = list(load.wrenches(site))
     forces.wrenches |= extra or {}
     demands = {name: Demand() for name in ("frame", *motion.mechanism.links)}
     for name in motion.mechanism.links:

@@ -44,6 +44,10 @@ class Course(Protocol):
         """A number of the load that is no dimension."""
         ...
 
+    def known_phase(self) -> tuple[Mask, Scalar] | None:
+        """Whether the load acts and the share of its phase that is passed, where these are known per position."""
+        ...
+
     def limit(self, output: Output, kind: str) -> Scalar:
         """The input, rad, at which an output has its only ``max`` or ``min``."""
         ...
@@ -143,6 +147,9 @@ def _interpolated(table: Table, course: Course) -> Scalar:
 
 def _phase(load: Load, course: Course) -> tuple[Mask, Scalar]:
     """Whether the load acts, and the share of its phase that is passed."""
+    known = course.known_phase()
+    if known is not None:
+        return known
     phase = getattr(load, "phase", None)
     match phase:
         case InputPhase():

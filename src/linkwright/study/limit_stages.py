@@ -5,7 +5,7 @@ The extremes over the positions bracket the limits; safeguarded Newton steps wit
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
@@ -19,9 +19,15 @@ from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
 from linkwright.loads.phases import NEAR
 from linkwright.model.signal_fields import Output, SwingPhase
-from linkwright.study.load_slopes import RATES
 from linkwright.study.traced import VALID, Traced
 
+#: Names of an output's rate and second derivative among the motion's outputs.
+RATES: Mapping[str, Callable[[str], tuple[str, str]]] = {
+    "angle": lambda owner: (f"w:{owner}", f"g:{owner}"),
+    "displacement": lambda owner: (f"sv:{owner}", f"sa:{owner}"),
+    "x": lambda owner: (f"v:{owner}.x", f"a:{owner}.x"),
+    "y": lambda owner: (f"v:{owner}.y", f"a:{owner}.y"),
+}
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
 #: Steps to the edge of a part of a stroke, which may be far from the middle of it.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,21 +111,33 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     loads = [mechanism.loads[name] for name in sorted(names)]
     if not all(followed(load, mechanism) for load in loads):
         return None
-    phases = [
-        phase for each in loads if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
-    ]
-    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
     middles = _middles(traced, loads)
     if middles is None:
         return None
-    numbers = {constant_name(each.name, key): value for each in loads for key, value in of_load(each).items()}
-    tables = {f"load:{each.name}": each.table for each in loads if getattr(each, "table", None) is not None}  # type: ignore[attr-defined]
-    limits = tuple(dict.fromkeys(phase.output for phase in phases))
-    fallible = tuple(
-        each.name for each in loads if f"load:{each.name}" in tables or of_load(each) or _divides(each)
+    known = numbers_of_loads(loads)
+    return replace(known, constants={**known.constants, **middles})
+
+
+def numbers_of_loads(loads: Iterable[Load]) -> AlongInput:
+    """What the magnitudes of loads take, but for the angles near which angles stay."""
+    given = tuple(loads)
+    phases = [
+        phase for each in given if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
+    ]
+    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
+    numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
+    over = {
+        f"load:{each.name}": table for each in given if (table := getattr(each, "table", None)) is not None
+    }
+    fallible = [each.name for each in given if f"load:{each.name}" in over or of_load(each) or _divides(each)]
+    return AlongInput(
+        frozenset(each.name for each in given),
+        tuple(dict.fromkeys(phase.output for phase in phases)),
+        tuple(dict.fromkeys(parts)),
+        numbers,
+        {name: Table.linear(table.x, table.y) for name, table in over.items()},
+        tuple(fallible),
     )
-    made = {name: Table.linear(table.x, table.y) for name, table in tables.items()}
-    return AlongInput(names, limits, tuple(dict.fromkeys(parts)), {**numbers, **middles}, made, fallible)
 
 
 def _divides(load: Load) -> bool:

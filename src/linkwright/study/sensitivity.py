@@ -18,6 +18,7 @@ from linkwright.kinematics.explain import refusal
 from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary
 from linkwright.model.mechanism import Mechanism
+from linkwright.study.known_loads import known_loads
 from linkwright.study.objective import of_metrics
 from linkwright.study.slopes import Slopes
 from linkwright.study.traced import Traced
@@ -212,8 +213,14 @@ class _Derivation:
     ) -> None:
         self.traced, self.by, self.asked = traced, by, asked
         names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
+        loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
+        if loads.names:
+            self.traced = traced = Traced(
+                traced.mechanism, by, traced.positions, turning=True,
+                flipping=bool(traced.solver.manner.flipping), along_input=loads.names,
+            )  # fmt: skip
         self.quantities = traced.quantities(names)
-        self.work = Slopes(traced, self.quantities, by, backend)
+        self.work = Slopes(traced, self.quantities, by, backend, loads)
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:

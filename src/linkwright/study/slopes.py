@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.named import Quantity
-from linkwright.kinetostatics.run import run_forces
-from linkwright.study.load_slopes import LoadSlopes
+from linkwright.kinetostatics.site import middle_name
+from linkwright.study.known_loads import KnownLoads
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
 
@@ -28,102 +26,89 @@ class Slopes:
     """Values and derivatives of quantities over the positions of a mechanism as it is.
 
     What groups without closed form carry is given as known numbers, from which the program does one more Newton
-    step: its derivative is exact. Inputs from loads enter by the chain rule.
+    step: its derivative is exact. Limit positions between which loads act enter by the chain rule.
     """
 
     def __init__(
-        self, traced: Traced, quantities: Mapping[str, Quantity], by: tuple[str, ...], backend: Backend
+        self,
+        traced: Traced,
+        quantities: Mapping[str, Quantity],
+        by: tuple[str, ...],
+        backend: Backend,
+        loads: KnownLoads,
     ) -> None:
-        self.traced = traced
-        self.quantities = quantities
-        self.by = by
-        self.backend = backend
-        self.program = states_as_fields(traced.program(quantities))
-        self.fields = tuple(name for name in self.program.fields if name not in traced.nominal.states)
-        self.own = tuple(by for by in by if by in self.program.parameters)
+        self.traced, self.quantities, self.by = traced, quantities, by
+        self.backend, self.loads = backend, loads
+        self.program = _known_as_fields(traced.program(quantities))
+        self.own = tuple(each for each in by if each in self.program.parameters)
+        self.moving = tuple(each for each in loads.slopes if each in self.program.parameters)
         self._rows: dict[str, Floats] = {}
 
     @cached_property
     def inputs(self) -> dict[str, Floats]:
         """All inputs per position apart from the drivers'."""
-        states = dict(self.traced.nominal.states)
-        return {**states, **{name: self.forces.fields[name] for name in self.fields}}
+        return {**self.traced.nominal.states, **self.loads.fields}
 
     @cached_property
-    def forces(self) -> Forces:
-        """Forces of the mechanism as it is."""
-        return run_forces(self.traced.nominal, False)
-
-    @cached_property
-    def load_slopes(self) -> dict[str, dict[str, Floats]]:
-        """Derivatives of every input from a load, by dimension."""
-        if not self.fields:
-            return {}
-        slopes = LoadSlopes(self.traced, self.forces, self.by)
-        return {name: slopes.of(name) for name in self.fields}
+    def numbers(self) -> dict[str, float]:
+        """All that the program takes of the mechanism."""
+        return {**self.traced.solver.nominal.parameters, **self.loads.numbers}
 
     def values(self, name: str) -> Floats:
         """The carrier of a quantity, (n,)."""
-        return self._forward(name)[0]
+        return np.asarray(self._forward(name)[0])
 
     def forward(self, name: str) -> Floats:
         """Derivatives (dimensions, n) of a quantity."""
-        values, slopes = self._forward(name)
+        found = self._forward(name)
+        values, slopes = found[0], found[1:]
         return np.where(np.isnan(slopes) & (values == 0.0), 0.0, slopes * self.quantities[name].slope(values))
 
     def reverse(self, name: str, weights: Floats) -> Floats:
         """Gradient (dimensions,) of the sum of ``weights`` times the quantity."""
-        quantity = self.quantities[name]
-        seeds = weights * quantity.slope(self.values(name))
+        seeds = weights * self.quantities[name].slope(self.values(name))
         program = self.program.only([name, VALID])
+        by = [each for each in (*self.own, *self.moving) if each in program.parameters]
         found = np.zeros(len(self.by))
-        own = [by for by in self.by if by in program.parameters]
-        if own:
-            found[[self.by.index(by) for by in own]] = self._reversed(program, name, own, seeds)
-        for place, by in enumerate(self.by):
-            for each, slopes in self.load_slopes.items():
-                if each in program.fields and slopes[by].any():
-                    found[place] += float(seeds @ (self._by_field(name, each) * slopes[by]))
-        return found
-
-    def _reversed(self, program: Program, name: str, own: list[str], seeds: Floats) -> Floats:
-        gradient = reverse(program, [name], own, VALID)
-        nominal = self.traced.solver.nominal.parameters
-        table = np.array([[nominal[each] for each in gradient.parameters]])
+        if not by:
+            return found
+        gradient = reverse(program, [name], by, VALID)
+        table = np.array([[self.numbers[each] for each in gradient.parameters]])
         known = {each: self.inputs[each] for each in program.fields}
         fields = {each: row[None, :] for each, row in {**known, f"seed:{name}": seeds}.items()}
-        return np.array(gradient.evaluate(table, self.traced.arrays, fields, backend=self.backend)[1][0])
+        slopes = gradient.evaluate(
+            table, self.traced.arrays, fields, tables=self.loads.tables, backend=self.backend
+        )[1][0]
+        for each, slope in zip(by, slopes, strict=True):
+            found += slope * self._by(each)
+        return found
 
-    def _forward(self, name: str) -> tuple[Floats, Floats]:
-        """Carrier (n,) and its derivatives (dimensions, n)."""
+    def _by(self, parameter: str) -> Floats:
+        """Derivatives (dimensions,) of a parameter of the program."""
+        if parameter in self.loads.slopes:
+            return self.loads.slopes[parameter]
+        return np.array([1.0 if each == parameter else 0.0 for each in self.by])
+
+    def _forward(self, name: str) -> Floats:
+        """Carrier (n,) and its derivatives (dimensions, n) below it."""
         if name not in self._rows:
             program = self.program.only([name])
-            own = [by for by in self.own if by in program.parameters]
-            fields = [each for each in self.fields if each in program.fields]
-            used = [each for each in fields if any(row.any() for row in self.load_slopes[each].values())]
-            rows = self._run(forward(program, [*own, *used]))
-            slopes = {by: rows.get(f"{name}|{by}", np.zeros_like(rows[name])) for by in self.by}
-            for each in used:
-                for by in self.by:
-                    slopes[by] = slopes[by] + rows[f"{name}|{each}"] * self.load_slopes[each][by]
-            self._rows |= {f"{name}|{each}": rows[f"{name}|{each}"] for each in used}
-            self._rows[name] = np.stack([rows[name], *slopes.values()])
-        found = self._rows[name]
-        return found[0], found[1:]
-
-    def _by_field(self, name: str, each: str) -> Floats:
-        """Derivative of a quantity's carrier by an input per position."""
-        self._forward(name)
-        return self._rows[f"{name}|{each}"]
+            by = [each for each in (*self.own, *self.moving) if each in program.parameters]
+            rows = self._run(forward(program, by))
+            slopes = np.zeros((len(self.by), len(rows[name])))
+            for each in by:
+                if f"{name}|{each}" in rows:
+                    slopes += self._by(each)[:, None] * rows[f"{name}|{each}"]
+            self._rows[name] = np.vstack([rows[name], slopes])
+        return self._rows[name]
 
     def _run(self, program: Program) -> dict[str, Floats]:
-        numbers, arrays = self.traced.numbers(program), self.traced.arrays
+        numbers = np.array([self.numbers[each] for each in program.parameters])
         inputs = {name: self.inputs[name] for name in program.fields}
-        return dict(zip(program.output_names, self._evaluated(program, numbers, arrays, inputs), strict=True))
+        return dict(zip(program.output_names, self._evaluated(program, numbers, inputs), strict=True))
 
-    def _evaluated(
-        self, program: Program, numbers: Floats, arrays: Mapping[str, Floats], inputs: Mapping[str, Floats]
-    ) -> Floats:
+    def _evaluated(self, program: Program, numbers: Floats, inputs: Mapping[str, Floats]) -> Floats:
+        arrays, count, tables = self.traced.arrays, self.traced.positions.count, self.loads.tables
         if self.backend == "llvm":
             from linkwright.engine.llvm_backend import compile_program
 
@@ -131,7 +116,17 @@ class Slopes:
             if compiled is None:
                 raise LinkwrightError(Sentence("study.no_llvmlite"))
             rows = {name: row[None, :] for name, row in inputs.items()}
-            return np.array(
-                compiled.store(numbers[None, :], arrays, rows, length=self.traced.positions.count)[0]
-            )
-        return NumpyProgram(program).run(numbers, arrays, inputs, length=self.traced.positions.count)
+            return np.array(compiled.store(numbers[None, :], arrays, rows, length=count, tables=tables)[0])
+        return NumpyProgram(program).run(numbers, arrays, inputs, length=count, tables=tables)
+
+
+def _known_as_fields(program: Program) -> Program:
+    """The program with states, and the angles near which angles stay, taken per position."""
+    known = middle_name("", "").partition(":")[0]
+    nodes = tuple(
+        node._replace(op="field", varies=True)
+        if node.op == "state" or (node.op == "parameter" and node.name.startswith(f"{known}:"))
+        else node
+        for node in program.nodes
+    )
+    return Program(nodes, program.outputs)

@@ -6,8 +6,6 @@ WORDS = {
     "part_free": "free",
     "part_too_long": "too much of the stroke is named ({part}: {amounts}): the output '{output}' moves through "
     "{stroke}; give less",
-    "no_slope_of_part": "loads.{name}: no derivative is known for a ramp over a part of a stroke; "
-    "vary the dimension in a study instead",
     "table_range": "the driver's table covers {first:g} s to {last:g} s, but the motion asks for {begin:g} s "
     "to {end:g} s; shorten the cycle or extend the table",
     "no_kind": "the load has no kind",

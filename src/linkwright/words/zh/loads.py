@@ -5,7 +5,6 @@ WORDS = {
     "part_last": "末段",
     "part_free": "两端空程",
     "part_too_long": "所取的行程部分过长（{part} {amounts}）：输出“{output}”的行程为 {stroke}；请减小",
-    "no_slope_of_part": "loads.{name}：对行程某一部分上的斜坡载荷没有导数；请改用 study 改变尺寸",
     "table_range": "驱动的表格覆盖 {first:g} s 到 {last:g} s，而运动需要 {begin:g} s 到 {end:g} s；"
     "请缩短循环或补全表格",
     "no_kind": "载荷没有写类型 kind",

@@ -53,6 +53,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_value_for": "{label} 的 {name} 没有“{subject}”的值；{hint}",
     "not_asked": "没有要求“{summary}”；已有 {summaries}",
     "friction_slope": "运动副中的摩擦由反力迭代求得，没有导数；请去掉模型中的摩擦，或在 study 中改变尺寸",
+    "ramp_slope": "loads.{name}：极限位置之间的斜坡载荷，只有在原动件匀速转一整周、其间仅有两个极限位置"
+    "且各杆组有闭式解时才有导数；请改在 study 中改变尺寸",
     "cycle_load_slope": "loads.{name}：{kind} 类载荷由整个循环求得，没有导数；请改在 study 中改变尺寸",
     "not_followed": "该方案不能与其他方案一起逐个位置地连续求解；请增加步数",
     "no_closed_form": "“{name}”：没有闭式解的杆组，而只有它们给出与奇异位置的接近程度；请另选输出",

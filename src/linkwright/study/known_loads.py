@@ -1,0 +1,137 @@
+"""What the loads of one machine take while they are differentiated: limit positions with their derivatives, the rest
+known per position.
+
+A limit position moves with the dimensions by the implicit function theorem; at a fixed position a load that acts goes
+on acting.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import cycle_gradient
+from linkwright.engine.table import Tables
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.run import run_forces
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import ACTS, middle_name
+from linkwright.loads.along_input import outputs_of
+from linkwright.loads.base import Load
+from linkwright.loads.phases import activity
+from linkwright.loads.torsion_spring import TorsionSpring
+from linkwright.model.mechanism import Mechanism
+from linkwright.model.signal_fields import InputPhase
+from linkwright.study.limit_stages import constants
+from linkwright.study.loaded_cycle import AlongInput, numbers_of_loads, one_turn
+from linkwright.study.traced import Traced
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class KnownLoads:
+    """``names``: loads as ``Traced`` takes them; ``numbers`` by name, ``slopes`` (dimensions,) of those that move,
+    ``fields`` (n,) by name, and ``tables``."""
+
+    names: frozenset[str] = frozenset()
+    numbers: Mapping[str, float] = field(default_factory=dict)
+    slopes: Mapping[str, Floats] = field(default_factory=dict)
+    fields: Mapping[str, Floats] = field(default_factory=dict)
+    tables: Tables = field(default_factory=dict)
+
+
+def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> KnownLoads:
+    """What the loads behind a program's inputs per position take at the mechanism as it is.
+
+    Raises:
+        LinkwrightError: friction, which is an iteration; loads that have no value somewhere, or no derivative.
+    """
+    given = [name for name in fields if name not in plain.nominal.states]
+    if any(name.startswith("friction:") for name in given):
+        raise LinkwrightError(Sentence("study.friction_slope"))
+    if not given:
+        return KnownLoads()
+    run_forces(plain.nominal, False)
+    loads = [plain.mechanism.loads[name.removeprefix("load:")] for name in given]
+    for load in loads:
+        if type(load).from_cycle is not Load.from_cycle and type(load).traced is Load.traced:
+            raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
+    signals = MotionSignals(plain.nominal)
+    known = _middles(plain.mechanism, loads, signals)
+    along = numbers_of_loads(loads)
+    moving = _moving(plain, loads, along, by)
+    names = set(along.names)
+    if moving is None:
+        for load in loads:
+            if getattr(load, "phase", None) is not None:
+                names = names - {load.name} | {f"{ACTS}:{load.name}"}
+                known |= _phase(load, signals)
+        moving = {}, {}
+    return KnownLoads(frozenset(names), {**along.constants, **moving[0]}, moving[1], known, along.tables)
+
+
+def _moving(
+    plain: Traced, loads: Iterable[Load], along: AlongInput, by: tuple[str, ...]
+) -> tuple[dict[str, float], dict[str, Floats]] | None:
+    """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
+    if all(getattr(load, "phase", None) is None for load in loads):
+        return {}, {}
+    if not one_turn(plain, ()) or plain.solver.motion.next_states or plain.solver.manner.flipping:
+        return None
+    cycle = CycleProgram(tuple(along.stages(plain)))
+    middles = _middle_numbers(plain, along)
+    known = {**plain.solver.nominal.parameters, **constants(plain), **along.constants, **middles}
+    table = np.array([[known[name] for name in cycle.dimensions]])
+    arrays = plain.positions.arrays
+    found = cycle.evaluate(table, arrays, tables=along.tables, backend="numpy") if along.outputs else {}
+    if any(found[f"doubt:{output}"][0] != 0.0 for output in along.outputs):
+        return None
+    numbers, slopes = {}, {}
+    own = [name for name in by if name in cycle.dimensions]
+    for name in found:
+        if name.startswith(("limit:", "value:")):
+            numbers[name] = float(found[name][0])
+            slopes[name] = np.zeros(len(by))
+            if own:
+                gradient = cycle_gradient(cycle, name, own)
+                row = gradient.evaluate(table, arrays, tables=along.tables, backend="numpy")[1][0]
+                slopes[name][[by.index(each) for each in own]] = row
+    return numbers, slopes
+
+
+def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
+    """Angles near which the limits of angles lie."""
+    found = {}
+    for output in along.valued:
+        if output.kind == "angle":
+            angle = plain.nominal.link(output.owner).angle
+            found[middle_name("frame", output.owner)] = 0.5 * float(np.nanmin(angle) + np.nanmax(angle))
+    return found
+
+
+def _middles(mechanism: Mechanism, loads: Iterable[Load], signals: MotionSignals) -> dict[str, Floats]:
+    """The angles that loads take, at every position."""
+    found: dict[str, Floats] = {}
+    for load in loads:
+        for output in outputs_of(load, mechanism):
+            if output.kind == "angle":
+                found[middle_name("frame", output.owner)] = signals.output(output)[0]
+        if isinstance(load, TorsionSpring):
+            found[middle_name(*load.links)] = signals.angle_between(*load.links, load.free_angle)
+    return found
+
+
+def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
+    """Where a load acts, and the share of its phase; raises for a ramp whose ends are limit positions that move."""
+    phase, ramp = getattr(load, "phase", None), getattr(load, "ramp", None)
+    if ramp is not None and not isinstance(phase, InputPhase):
+        raise LinkwrightError(Sentence("study.ramp_slope", name=load.name))
+    active = activity(phase, signals, ramp=ramp is not None)
+    share = np.zeros(len(active.where)) if active.share is None else active.share
+    return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": share}
