@@ -35,3 +35,35 @@ def test_a_law_that_goes_and_comes_back_between_two_positions_is_looked_through(
     ).replace("cycle: {from: -40 deg, to: 40 deg}", "cycle: {duration: 1 s}")
     motion = lw.solve_motion(lw.loads(swing), steps=2, failures="mark")
     assert motion.ok.tolist() == [True, False, False]
+
+
+INVERTED = """
+format: 1
+frame: {points: {P: [0 m, 0 m]}}
+links:
+  slide: {points: [Q]}
+  rocker: {points: {P: [0 m, 0 m], S: [0 m, OFFSET m]}}
+  bar: {points: [Q]}
+joints:
+  way: {kind: prismatic, guide: frame, through: P, direction: 0 deg, block: slide, at: Q}
+  inner: {kind: prismatic, guide: bar, through: Q, direction: 0 deg, block: rocker, at: S}
+drawing: {Q: [-0.4 m, 0 m], S: [0 m, OFFSET m]}
+driver: {slide: way, speed: 1 m/s, start: -0.4 m}
+cycle: {from: -0.4 m, to: 0.37 m}
+"""
+
+
+@pytest.mark.parametrize("steps", [4, 17, 60])
+@pytest.mark.parametrize("offset", ["0.0005", "0.00002"])
+def test_pins_that_pass_each_other_closer_than_the_guides_offset_cannot(steps: int, offset: str) -> None:
+    """The outer pins of an RPR meet at s = 0; nearer than the offset across the guide it cannot be assembled."""
+    motion = lw.solve_motion(lw.loads(INVERTED.replace("OFFSET", offset)), steps=steps, failures="mark")
+    assert motion.ok.tolist() == (motion.input < 0).tolist()
+    (note,) = motion.notes
+    assert "cannot be assembled in a short stretch at driver = " in note
+
+
+def test_pins_that_meet_where_the_guide_has_no_offset_pass() -> None:
+    motion = lw.solve_motion(lw.loads(INVERTED.replace("OFFSET", "0")), steps=17, failures="mark")
+    assert motion.ok.all()
+    assert any("meet at driver = " in note for note in motion.notes)

@@ -325,10 +325,18 @@ class _Search:
             near = rows[name] < NEAR * largest
             for low, high in self._valleys(rows[name], NEAR * largest) if near.any() else ():
                 place, least = self._lowest(name, low, high)
-                beside = self._evaluate((quality,), np.array([place - 1e-3, place + 1e-3]))[0]
-                if least <= MEETING * largest and (beside > TOUCH).all():
-                    found.append(self._passage(group, place, float(beside.min()), "meeting"))
+                at, *beside = self._evaluate((quality,), place + np.array([0.0, -1e-3, 1e-3]))[0]
+                if at < -TOUCH and self._alone(place, rows[quality], found):
+                    found.append(self._passage(group, place, float(at), "gap"))
+                elif least <= MEETING * largest and min(beside) > TOUCH:
+                    found.append(self._passage(group, place, float(min(beside)), "meeting"))
         return sorted(found, key=lambda p: p.place)
+
+    def _alone(self, place: float, quality: Floats, found: Sequence[Passage]) -> bool:
+        """Whether a gap lies between two positions that can be assembled, and is not found yet."""
+        ends = np.array([np.floor(place), np.ceil(place)], dtype=int) % len(quality)
+        known = any(p.barred and abs(p.place - place) < 1.0 for p in found)
+        return bool((quality[ends] > -TOUCH).all()) and not known
 
     def _valleys(self, row: Floats, near: float) -> list[tuple[float, float]]:
         """Stretches around a position with a small, locally smallest value."""
