@@ -138,3 +138,17 @@ def test_designs_whose_guides_become_parallel_fail() -> None:
         swing, {"inner.direction": np.array([0.0, 0.05, 0.2])}, outputs=[("A.velocity", "max")], steps=40
     )
     assert found.ok.tolist() == [True, True, False]
+
+
+def test_designs_whose_pins_pass_each_other_too_near_fail() -> None:
+    from tests.failures.test_gaps import INVERTED
+
+    mechanism = lw.loads(INVERTED.replace("OFFSET", "0.0005"))
+    offsets = {"rocker.S.y": np.array([0.0005, 0.00002])}
+    found = lw.sweep(mechanism, offsets, outputs=[("inner.displacement", "max")], steps=17)
+    alone = [
+        lw.solve_motion(mechanism.with_dimensions({"rocker.S.y": x}), steps=17, failures="mark").ok.sum()
+        for x in offsets["rocker.S.y"]
+    ]
+    assert found.assembled.tolist() == alone and not found.ok.any()
+    assert "cannot be assembled in a short stretch" in found.failures()[0].example

@@ -16,7 +16,7 @@ from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import modal_groups
-from linkwright.kinematics.change_points import NEAR, TOUCH
+from linkwright.kinematics.change_points import MEETING, NEAR, TOUCH
 from linkwright.kinematics.cycle import Positions
 from linkwright.study.traced import Traced
 
@@ -27,6 +27,12 @@ Numbers = NDArray[np.intp]
 BLOCK = 4096
 #: How much the quality of a group rises, at most, over the square of the way from its zero, 1/rad².
 STEEP = 25.0
+
+
+def _anywhere(program: Program) -> Program:
+    """The same program with inputs of its own for every design."""
+    nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in program.nodes)
+    return Program(nodes, program.outputs)
 
 
 def near_enough(positions: Positions) -> float:
@@ -50,9 +56,14 @@ class Touching:
         program = Program.of(traced.solver.motion.trace, qualities)
         sines = {name: each.facts["sine"] for name, each in placed.items() if "sine" in each.facts}
         self.sines = NumpyProgram(Program.of(traced.solver.motion.trace, sines)) if sines else None
-        nodes = tuple(node._replace(op="field") if node.op == "position" else node for node in program.nodes)
+        near = {name: each.facts["distance²"] for name, each in placed.items() if "distance²" in each.facts}
+        pins = Program.of(
+            traced.solver.motion.trace, {**near, **{f"quality {k}": placed[k].quality for k in near}}
+        )
+        self.pins = NumpyProgram(pins) if near else None
+        self.pins_anywhere = NumpyProgram(_anywhere(pins)) if near else None
         self.along = NumpyProgram(program)
-        self.anywhere = NumpyProgram(Program(nodes, program.outputs))
+        self.anywhere = NumpyProgram(_anywhere(program))
 
     def designs(self, columns: Mapping[str, Floats]) -> Numbers:
         """Numbers of the designs that touch a change point, or may not pass, between two positions."""
@@ -64,7 +75,36 @@ class Touching:
         return np.concatenate(found) if found else np.empty(0, dtype=np.intp)
 
     def _block(self, columns: Mapping[str, Floats]) -> Numbers:
-        return np.union1d(self._low(columns), self._parallel(columns))
+        return np.unique(
+            np.concatenate([self._low(columns), self._parallel(columns), self._meeting(columns)])
+        )
+
+    def _meeting(self, columns: Mapping[str, Floats]) -> Numbers:
+        """Designs in which the outer pins of a group meet between two positions, or pass too near to each other."""
+        positions = self.traced.positions
+        if self.pins is None or self.pins_anywhere is None:
+            return np.empty(0, dtype=np.intp)
+        anywhere, groups = self.pins_anywhere, len(self.pins.program.outputs) // 2
+        table = self.traced.table(self.pins.program, columns)
+        square = self.pins.run_designs(table, positions.arrays, length=positions.count)[:, :groups]
+        edges = square[:, :, [-1, 0]] if positions.closed else np.full((*square.shape[:2], 2), np.inf)
+        around = np.concatenate([edges[:, :, :1], square, edges[:, :, 1:]], axis=2)
+        largest = square.max(axis=2, keepdims=True)
+        dips = (square <= around[:, :, :-2]) & (square < around[:, :, 2:]) & (square < NEAR * largest)
+        design, group, place = np.nonzero(dips)
+        if not len(design):
+            return design
+        own = self.traced.table(anywhere.program, columns)[design]
+        rows = np.arange(len(place))
+
+        def at(share: Floats) -> Floats:
+            return anywhere.run_designs(own, {}, self._inputs(place, share), length=share.shape[1])
+
+        share, least = lowest(
+            lambda s: np.asarray(at(s)[rows, group]), np.zeros(len(place)), np.ones(len(place))
+        )
+        quality = at(share[:, None])[rows, groups + group, 0]
+        return np.unique(design[(quality < -TOUCH) | (least <= MEETING * largest[design, group, 0])])
 
     def _parallel(self, columns: Mapping[str, Floats]) -> Numbers:
         """Designs in which guides become parallel between two positions."""
