@@ -160,3 +160,18 @@ def test_the_command_writes_says_what_is_missing_and_refuses(
     assert main(["report", "gallery:crank_rocker", "--sections", "strucutre"]) == 2
     assert "structure" in capsys.readouterr().err
     assert main(["report", "gallery:crank_rocker", "--to", "odt"]) == 2
+
+
+def test_check_finds_settings_that_make_no_sense(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = lw.dump(lw.load("gallery:crank_rocker"))
+    path = tmp_path / "model.yaml"
+    path.write_text(f"{model}\nreport: {{positoins: 3}}\ncourse: {{ask: [rocker.angel]}}\n", encoding="utf-8")
+    assert main(["check", str(path)]) == 1
+    said = capsys.readouterr().out
+    assert 'did you mean "positions"?' in said and 'did you mean "rocker.angle"?' in said
+
+
+def test_errata_of_the_file_stand_in_the_report() -> None:
+    found = report("gallery:swing_conveyor", sections=["errata"])
+    (table,) = [b for b in found.document.blocks if isinstance(b, Table)]
+    assert any("-0.269782°" in plain(cell) for row in table.rows for cell in row)

@@ -38,9 +38,10 @@ def group_picture(case: Case, chosen: Group) -> str:
 
 
 def to_one_scale(pictures: Sequence[str]) -> tuple[tuple[str, float], ...]:
-    """Pictures with the shares of the page's width that show them all to one scale, the widest nearly half of it."""
+    """Pictures with the shares of the page's width that show them all to one scale, two or more in a row."""
+    most = 0.48 if len(pictures) <= 4 else 0.31 if len(pictures) <= 9 else 0.23
     widths = [natural_size(svg)[0] for svg in pictures]
-    return tuple((svg, 0.48 * width / max(widths)) for svg, width in zip(pictures, widths, strict=True))
+    return tuple((svg, most * width / max(widths)) for svg, width in zip(pictures, widths, strict=True))
 
 
 def _belongs(scene: Scene, part: Part, chosen: Group) -> bool:

@@ -47,7 +47,7 @@ _EXPECTED = ("html export is under active", "was ignored during HTML export", "e
 _HEAD = """\
 #set document(title: {title}, author: ())
 #set page(paper: "a4", margin: (x: 20mm, top: 24mm, bottom: 22mm), numbering: "1", header: context {{
-  if here().page() > 1 {{ text(8.5pt, fill: luma(90))[#{title}; #h(1fr) Linkwright] }} }})
+  if here().page() > 1 {{ text(8.5pt, fill: luma(90))[#{running}; #h(1fr) Linkwright] }} }})
 #set text(font: {fonts}, size: 10.5pt, lang: {language})
 #set par(justify: true, leading: 0.62em, spacing: 0.95em)
 #set heading(numbering: none)
@@ -169,6 +169,7 @@ class _Writer:
         document, families = self.document, fonts(self.document.language)
         head = _HEAD.format(
             title=quoted(document.title),
+            running=quoted(shortened(document.title)),
             fonts=_listed(families),
             mathematics=_listed((MATHEMATICS, *families)),
             language=quoted(document.language),
@@ -313,6 +314,11 @@ def placed(svg: str, share: float, tallest: float) -> tuple[float, float]:
     wide, high = natural_size(svg)
     tall = share * TEXT * high / wide
     return (share, tall) if tall <= tallest else (share * tallest / tall, tallest)
+
+
+def shortened(title: str) -> str:
+    """A title for the head of the pages."""
+    return title if len(title) <= 80 else f"{title[:78]} …"
 
 
 def _words(text: str) -> str:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from linkwright.cli.session import Session
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.words import Say
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -71,7 +75,25 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
 
         found = [*found, Finding("error", name, "", refusal(motion).sentence, code="position")]
     notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
-    return [*found, *notes], fact
+    return [*found, *_of_settings(name, mechanism), *notes], fact
+
+
+def _of_settings(name: str, mechanism: Mechanism) -> list[Finding]:
+    """What is wrong with the sections that only some commands read, report and course."""
+    from linkwright.course.task import task
+    from linkwright.report.settings import settings
+
+    found = []
+    for key, given, read in (
+        ("report", mechanism.report, lambda: settings(mechanism.report)),
+        ("course", mechanism.course, lambda: task(mechanism)),
+    ):
+        try:
+            if given:
+                read()
+        except LinkwrightError as error:
+            found.append(Finding("error", name, key, error.sentence, code=key))
+    return found
 
 
 def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:
