@@ -141,3 +141,11 @@ def test_sizes_and_motors() -> None:
         motor(1.0, 1.0, margin=0.9)
     with pytest.raises(LinkwrightError, match="mean speed"):
         flywheel_inertia(1.0, 0.0, 0.1)
+
+
+def test_a_motion_without_a_reached_position_says_so() -> None:
+    short = lw.load("gallery:crank_rocker").with_dimensions({"coupler.length": 0.2})
+    table = metrics(lw.solve_motion(short, failures="mark"))
+    assert table.names == ("grashof",)
+    assert "none of the positions" in table.warnings[0] and "none of the positions" in table.text()
+    assert "不能装配" in table.warnings_in("zh")[0]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.joints.prismatic import PrismaticJoint
@@ -32,7 +33,7 @@ class Counterweight:
 
 
 @dataclass(frozen=True)
-class Balancing:
+class Balancing(Frozen):
     """A mechanism with counterweights, and the forces without and with them."""
 
     mechanism: Mechanism

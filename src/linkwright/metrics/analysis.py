@@ -264,7 +264,7 @@ class Analysis:
             if found.smooth:
                 return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
         step = float(abs(time[1] - time[0]))
-        peaks = _peaks(sign * values, self.closed)[: 1 if self.resolver.costly else 4]
+        peaks = _peaks(sign * values, self.closed)[:4]
         low, high = time[peaks] - step, time[peaks] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
@@ -281,7 +281,7 @@ class Analysis:
             if found.smooth:
                 return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
         sign = 1.0 if kind == "max" else -1.0
-        count = 91 if self.resolver.costly else 361
+        count = 361
         time = np.linspace(start, end, count)
         values = sign * signal(self.resolver.at(time, "motion"))
         if not np.isfinite(values).any():

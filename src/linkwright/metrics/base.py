@@ -181,7 +181,9 @@ class Metric(ABC):
         return ()
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        """The values, from what several numbers share."""
+        """The values, from what several numbers share; none where no position is reached."""
+        if not analysis.motion.ok.any():
+            return
         numbers = tuple(self.numbers(analysis))
         analysis.ask(part for number in numbers for part in number.parts)
         for number in numbers:

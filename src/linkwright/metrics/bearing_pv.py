@@ -38,7 +38,7 @@ class BearingPv(Metric):
             yield Number(subject, (f"heat {joint.name} on {link} peak",))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for found, (joint, link) in zip(super().values(analysis), _bearings(analysis), strict=True):
+        for found, (joint, link) in zip(super().values(analysis), _bearings(analysis), strict=False):
             heat = analysis.signal(f"heat {joint.name} on {link}")
             mean = shown(analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces))), "power")
             said: dict[str, object] = {"mean": mean, "radius": shown(joint.pin_radius or 0.0, "length")}

@@ -40,7 +40,10 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
             skipped.append(name)
         else:
             raise RequestError(_refusal(name, analysis))
-    return MetricsTable(analysis.motion.mechanism.name, rows, skipped)
+    title, reached = analysis.motion.mechanism.name, analysis.motion.ok.any()
+    return MetricsTable(
+        title, rows, skipped, () if reached else (Sentence("metrics.none_reached", name=title),)
+    )
 
 
 def _usual() -> list[str]:

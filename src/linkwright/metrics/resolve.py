@@ -47,7 +47,6 @@ class Resolver:
         self._motion = motion
         self._forces = forces
         self._between = _between(motion)
-        self.costly = bool(motion.states)
 
     @property
     def possible(self) -> bool:

@@ -36,7 +36,7 @@ class Singularity(Metric):
             yield Number(group.name, (f"conditioning {group.name} min",))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for found, group in zip(super().values(analysis), closable(analysis.motion.structure), strict=True):
+        for found, group in zip(super().values(analysis), closable(analysis.motion.structure), strict=False):
             if found.value >= NEAR ** len(group.cuts):
                 yield found
                 continue

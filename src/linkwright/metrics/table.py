@@ -11,7 +11,7 @@ from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.registry import offered
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
@@ -25,11 +25,15 @@ class MetricsTable(Sequence[MetricValue]):
 
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
     ``table.value("stroke")``: the governing value (the worst of its subjects where a direction is better, else the
-    only or first one). ``skipped``: names that were not asked for by name and do not apply.
+    only or first one). ``skipped``: names that were not asked for by name and do not apply; ``notes``: sentences
+    about the whole result.
     """
 
-    def __init__(self, title: str, rows: Sequence[MetricValue], skipped: Sequence[str] = ()) -> None:
+    def __init__(
+        self, title: str, rows: Sequence[MetricValue], skipped: Sequence[str] = (), notes: Sequence[str] = ()
+    ) -> None:
         self.title = title
+        self.notes = tuple(notes)
         self.rows = tuple(rows)
         self.skipped = tuple(skipped)
 
@@ -45,7 +49,8 @@ class MetricsTable(Sequence[MetricValue]):
 
     def warnings_in(self, language: str) -> tuple[str, ...]:
         """The same in a language."""
-        return tuple(f"{row.subject}: {w.text(language)}" for row in self.rows for w in row.warnings)
+        notes = (in_language(note, language) for note in self.notes)
+        return (*notes, *(f"{row.subject}: {w.text(language)}" for row in self.rows for w in row.warnings))
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.frozen import Frozen
 from linkwright.core.html import html_table
 from linkwright.errors import RequestError, with_remedy
 from linkwright.metrics.quantities import si_unit
@@ -78,7 +79,7 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Comparison:
+class Comparison(Frozen):
     """Alternatives side by side.
 
     ``rows``: criteria with values; ``ranking``: best first; ``curves``: data to overlay. ``text(language)`` is the
