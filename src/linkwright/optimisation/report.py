@@ -49,7 +49,7 @@ def _comparison(found: Optimum, choice: Choice, tell: Say) -> list[str]:
         rows.append([variable.address, *shown, _change(was, now), bounds])
     for text, now in choice.numbers.items():
         kind = found.kinds[text]
-        symbol, factor = _unit(kind)
+        symbol, factor = shown_unit(kind)
         was = found.start[text]
         shown = [_shown(value, factor, symbol) for value in (was, now)]
         rows.append([text, *shown, _change(was, now), _limits(found, text, factor, tell)])
@@ -66,7 +66,7 @@ def _limits(found: Optimum, text: str, factor: float, tell: Say) -> str:
     return ", ".join(said)
 
 
-def _unit(kind: units.Dimension) -> tuple[str, float]:
+def shown_unit(kind: units.Dimension) -> tuple[str, float]:
     """Symbol and factor of a shown value; angles in degrees."""
     if kind == units.DIMENSIONS["angle"]:
         return "deg", math.pi / 180
@@ -91,7 +91,7 @@ def _front(found: Optimum) -> list[str]:
     for number, choice in list(enumerate(found.choices, 1))[::step]:
         cells = []
         for text in texts:
-            symbol, factor = _unit(found.kinds[text])
+            symbol, factor = shown_unit(found.kinds[text])
             cells.append(_shown(choice.numbers[text], factor, symbol))
         for variable in found.problem.variables:
             factor = units.unit(variable.unit)[0] if variable.unit else 1.0
@@ -104,7 +104,7 @@ def missing(found: Optimum) -> list[str]:
     """The demands that the first design misses, with what is demanded and what it has."""
     said = []
     for text in found.best.missed:
-        symbol, factor = _unit(found.kinds[text])
+        symbol, factor = shown_unit(found.kinds[text])
         wanted, has = _between(found, text, factor), _shown(found.best.numbers[text], factor, symbol)
         said.append(f"{text} {wanted}{' ' if symbol else ''}{symbol} ({has})")
     return said

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.optimisation.optimum import Optimum
-from linkwright.optimisation.report import _unit
+from linkwright.optimisation.report import shown_unit
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.picture import COLOURS, INK, style
 from linkwright.words import say
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+#: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
+NEAR = 0.1
 
 
 @RESULT_DIAGRAMS.register("optimisation")
@@ -43,23 +46,28 @@ class OptimumDiagram(ResultKind):
         first = result.problem.goals[0].text
         columns = []
         for name in (first, text):
-            symbol, factor = _unit(result.kinds[name])
+            symbol, factor = shown_unit(result.kinds[name])
             values = np.array([each.numbers[name] for each in result.choices]) / factor
             label = f"{name}, {symbol}" if symbol else name
             columns.append((values, result.start[name] / factor, label))
         (x, x0, x_label), (y, y0, y_label) = columns
         axes.plot(x, y, "o-", ms=4.5, color=COLOURS[0], lw=1, label=say("optimize.legend.front", language))
         if np.isfinite([x0, y0]).all():
+            wide, high = max(np.ptp([*x, x0]), 1e-300), max(np.ptp([*y, y0]), 1e-300)
+            near = len(x) == 1 or (np.ptp(x) > NEAR * wide and np.ptp(y) > NEAR * high)
+            key = "optimize.legend.start" if near else "optimize.legend.outside"
+            label = say(key, language, x=f"{x0:.5g}", y=f"{y0:.5g}")
             axes.plot(
-                [x0], [y0], "s", ms=7, mfc="none", color=INK, label=say("optimize.legend.start", language)
+                [x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=label
             )
+        axes.margins(0.06)
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
         axes.legend()
 
     def _progress(self, axes: Any, result: Optimum, language: str) -> None:
         goal = result.problem.goals[0]
-        symbol, factor = _unit(result.kinds[goal.text])
+        symbol, factor = shown_unit(result.kinds[goal.text])
         history = goal.sign * np.array([np.nan if np.isinf(v) else v for v in result.history]) / factor
         generations = np.arange(1, len(history) + 1)
         label = say("optimize.legend.search", language)

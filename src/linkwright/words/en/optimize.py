@@ -48,6 +48,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "picture": "Optimisation of {name}",
     "legend.front": "front",
     "legend.start": "start",
+    "legend.outside": "start ({x}, {y}) lies outside",
     "legend.search": "best of the search",
     "legend.polished": "after the last steps",
     "axis.generation": "generation",

@@ -44,6 +44,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "picture": "{name} 的优化",
     "legend.front": "前沿",
     "legend.start": "原设计",
+    "legend.outside": "原设计（{x}，{y}）在图外",
     "legend.search": "搜索中最好者",
     "legend.polished": "最后几步之后",
     "axis.generation": "代",
