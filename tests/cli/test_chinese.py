@@ -29,7 +29,9 @@ def test_titles_of_calculations_are_chinese_and_english_ones_those_of_the_files(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     english, chinese = (words.catalogue("calculation_titles", language) for language in ("en", "zh"))
-    assert {name: lw.parts.load(f"gallery:{name}").name for name in english} == dict(english)
+    own = {name: f"gallery:{name}" for name in english if name in gallery.calculations()}
+    assert {name: lw.parts.load(source).name for name, source in own.items()}.items() <= dict(english).items()
+    assert set(english) - set(own) <= set(gallery.tasks())
     assert all(re.search("[一-鿿]", title) for title in chinese.values())
     assert chinese["propped_cantilever"] in shown(capsys, "gallery", "list")
     assert chinese["propped_cantilever"] in shown(capsys, "beam", "gallery:propped_cantilever")

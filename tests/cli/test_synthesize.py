@@ -89,3 +89,14 @@ def test_a_file_with_a_task_alone_is_checked(
     assert main(["check", str(path)]) == code
     shown = capsys.readouterr().out
     assert all(word in shown for word in said), shown
+
+
+def test_the_task_of_the_gallery_is_checked_listed_and_solved(capsys: pytest.CaptureFixture[str]) -> None:
+    """The least sum of squares of the published case, 2.7108919e-7 m²."""
+    name = "path_of_five_points"
+    assert main(["check", f"gallery:{name}"]) == 0
+    assert main(["gallery", "list", "path"]) == 0 and main(["gallery", "show", name]) == 0
+    assert name in capsys.readouterr().out
+    assert main(["synthesize", f"gallery:{name}", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["candidates"][0]["error"] == pytest.approx(2.7108919e-7, rel=1e-7)

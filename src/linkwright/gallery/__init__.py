@@ -1,9 +1,9 @@
-"""Files that ship with the package, each with purpose and source: models of mechanisms, and calculations."""
+"""Files that ship with the package, each with purpose and source: models, calculations, tasks."""
 
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-__all__ = ["calculations", "file", "names"]
+__all__ = ["calculations", "file", "names", "tasks"]
 
 _SUFFIX = ".yaml"
 
@@ -18,16 +18,23 @@ def calculations() -> tuple[str, ...]:
     return _within(files(__name__) / "parts")
 
 
+def tasks() -> tuple[str, ...]:
+    """Names of all tasks of synthesis in alphabetical order, without the file suffix."""
+    return _within(files(__name__) / "tasks")
+
+
 def file(name: str) -> Traversable:
     """The gallery file called ``name``.
 
     Raises:
-        KeyError: there is no file of that name; ``names()`` and ``calculations()`` list those that exist.
+        KeyError: there is no file of that name; ``names()``, ``calculations()`` and ``tasks()`` list them.
     """
     if name in names():
         return files(__name__) / f"{name}{_SUFFIX}"
     if name in calculations():
         return files(__name__) / "parts" / f"{name}{_SUFFIX}"
+    if name in tasks():
+        return files(__name__) / "tasks" / f"{name}{_SUFFIX}"
     raise KeyError(name)
 
 

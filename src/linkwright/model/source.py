@@ -99,6 +99,8 @@ def _near_file(path: Path) -> str:
 
 def _read_gallery(name: str) -> tuple[str, str]:
     path = _FOLDER / f"{name}.yaml"
+    if not path.is_file() and re.fullmatch(r"\w+", name) and (_FOLDER / "tasks" / path.name).is_file():
+        path = _FOLDER / "tasks" / path.name
     names = [] if re.fullmatch(r"\w+", name) and path.is_file() else gallery_names()
     if names and name not in names:
         near = nearest(name, names)

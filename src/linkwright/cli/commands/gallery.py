@@ -40,7 +40,8 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     parts = [
         _heading(name) for name in gallery.calculations() if options.name is None or options.name in name
     ]
-    entries = [*models, *parts]
+    tasks = [_heading(name) for name in gallery.tasks() if options.name is None or options.name in name]
+    entries = [*models, *parts, *tasks]
     if session.json:
         from linkwright.cli.data import json_text
 
@@ -52,6 +53,8 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     for entry in entries:
         if parts and entry is parts[0]:
             session.show(f"\n{session.say('gallery.calculations')}")
+        if tasks and entry is tasks[0]:
+            session.show(f"\n{session.say('gallery.tasks')}")
         name, title = entry["name"], gallery_title(entry["name"], entry["title"], session.language)
         session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()
@@ -90,7 +93,7 @@ def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
     if options.name is None:
         raise UsageError(say("gallery.which", action=options.action))
     name = options.name.removeprefix("gallery:").removesuffix(".yaml")
-    known = (*gallery.names(), *gallery.calculations())
+    known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
     if name not in known:
         offer = nearest_of(name, known)
         hint = (

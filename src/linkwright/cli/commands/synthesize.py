@@ -48,12 +48,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
+    from linkwright.model.source import GALLERY
     from linkwright.synthesis.names import TASK_NAMES
     from linkwright.synthesis.tasks import synthesize_file, synthesize_text
 
     if options.task not in TASK_NAMES and not options.demands:
         near = Path(options.task)
-        if not near.suffix and not near.exists():
+        if not near.suffix and not near.exists() and not options.task.startswith(GALLERY):
             from linkwright.synthesis.tasks import synthesize
 
             return synthesize(options.task)

@@ -31,5 +31,6 @@ WORDS = {
     "thrown_ball": "Thrown ball with air drag",
     "tuned_absorber": "Machine with unbalance and the best damped absorber",
     "two_bar_truss": "Two-bar truss of least weight",
+    "path_of_five_points": "Four-bar through five timed points",
     "two_masses": "Two masses on three springs",
 }

@@ -15,6 +15,7 @@ linkwright gallery copy jaw_crusher_sixbar .     a file of your own to change"""
     "name_help": "name of a model; for list: a part of names",
     "folder_help": "folder for the copy (default: the current one)",
     "hint": "linkwright gallery show NAME prints a file; linkwright solve gallery:NAME solves it.",
+    "tasks": "Tasks of synthesis (linkwright synthesize gallery:NAME):",
     "calculations": "Calculations of machine parts (linkwright beam, statics, vibration, …):",
     "which": "gallery {action}: which one? give a name; linkwright gallery list shows all",
     "unknown": 'the gallery has no model "{name}"',

@@ -31,5 +31,6 @@ WORDS = {
     "thrown_ball": "有空气阻力的抛球",
     "tuned_absorber": "有不平衡的机器与最佳动力吸振器",
     "two_bar_truss": "重量最小的两杆桁架",
+    "path_of_five_points": "通过五个定时点的四杆机构",
     "two_masses": "三根弹簧上的两个质量",
 }
