@@ -12,7 +12,6 @@ import numpy as np
 from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved, reaction_pairs, steady
 from linkwright.errors import LinkwrightError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -160,7 +159,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         name = key if len(forces.mechanism.drivers) > 1 else say("solve.driver")
         if not np.isfinite(values).any():
             continue
-        unit = "N·m" if isinstance(forces.mechanism.joints[driver.joint], RevoluteJoint) else "N"
+        unit = "N·m" if forces.mechanism.joints[driver.joint].coordinate == "turn" else "N"
         number = Column("", "", "", unit, values, solved.force_scale).text
         if len(values) == 1:
             rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))

@@ -13,7 +13,6 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -114,7 +113,7 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tupl
         if not mechanism.drivers:
             raise UsageError(f"--at: {say('solve.no_input')}")
         rotary = {
-            name: isinstance(mechanism.joints[driver.joint], RevoluteJoint)
+            name: mechanism.joints[driver.joint].coordinate == "turn"
             for name, driver in mechanism.drivers.items()
         }
         given = inputs(options.at, rotary, say)

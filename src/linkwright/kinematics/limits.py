@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from linkwright.core.search import ends, zeros
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
@@ -81,7 +80,7 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
     found = resolve_output(text, links, joints)
     if found is not None:
         return found
-    guides = [name for name, joint in mechanism.joints.items() if isinstance(joint, PrismaticJoint)]
+    guides = [name for name, joint in mechanism.joints.items() if joint.coordinate == "slide"]
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     hint = offered(text, [*links, *guides, *points])
     raise RequestError(Sentence("motion.no_output", text=text, hint=hint))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
@@ -39,7 +38,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
     if not found:
         everything = [p for link in [mechanism.frame, *mechanism.links.values()] for p in link.points]
         raise _unknown("point", name, everything)
-    if len(found) > 1 and not isinstance(mechanism.joints.get(name), RevoluteJoint):
+    if len(found) > 1 and not mechanism.pin_links(name):
         choices = tuple(f"{link}.{name}" for link in found)
         raise RequestError(Sentence("motion.several_points", name=name, choices=choices))
     return found[0], name
@@ -47,10 +46,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
 
 def canonical(mechanism: Mechanism, link: str, point: str) -> str:
     """The one key of a point: the pin's name for a pin, else ``link.point``."""
-    joint = mechanism.joints.get(point)
-    if isinstance(joint, RevoluteJoint) and link in joint.links:
-        return point
-    return f"{link}.{point}"
+    return point if link in mechanism.pin_links(point) else f"{link}.{point}"
 
 
 def _unknown(noun: str, name: str, known: list[str]) -> LinkwrightError:

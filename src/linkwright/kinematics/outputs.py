@@ -7,7 +7,6 @@ from typing import Any
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.trace import MotionTrace
 
@@ -68,12 +67,12 @@ class MotionOutputs:
 
     def _cheapest(self, link: str, point: str) -> str:
         """For a pin, the link that turns about a point at rest, if there is one."""
-        joint = self.mechanism.joints.get(point)
-        if not isinstance(joint, RevoluteJoint) or link not in joint.links:
+        links = self.mechanism.pin_links(point)
+        if link not in links:
             return link
-        if "frame" in joint.links:
+        if "frame" in links:
             return "frame"
-        for name in joint.links:
+        for name in links:
             if (
                 self.motion.states
                 and self.motion.states.get(name)
@@ -81,7 +80,7 @@ class MotionOutputs:
             ):
                 return name
         order = list(self.motion.states)
-        return min(joint.links, key=order.index) if set(joint.links) <= set(order) else link
+        return min(links, key=order.index) if set(links) <= set(order) else link
 
     def slide(self, joint_name: str) -> tuple[Scalar, Scalar, Scalar]:
         """Displacement of a guide's block with its rates."""
@@ -112,7 +111,6 @@ class MotionOutputs:
         for name, link in self.mechanism.links.items():
             for point in link.points:
                 key = canonical(self.mechanism, name, point)
-                joint = self.mechanism.joints.get(key)
-                if not (isinstance(joint, RevoluteJoint) and "frame" in joint.links):
+                if "frame" not in self.mechanism.pin_links(key):
                     keys[key] = None
         return keys

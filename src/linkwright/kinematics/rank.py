@@ -208,10 +208,10 @@ class ConstraintSystem:
     def driver_row(self, name: str, x: Numbers) -> Row:
         """A driver's coordinate (rad, or m over the size) with its derivatives."""
         driver = self.mechanism.drivers[name]
-        joint = self.mechanism.joints[driver.joint]
+        joint: Any = self.mechanism.joints[driver.joint]
         poses = {"frame": Place(0.0, 0.0, 0.0)}
         poses |= {link: Place(*x[i : i + 3]) for link, i in self._first.items()}
-        if isinstance(joint, PrismaticJoint):
+        if joint.coordinate == "slide":
             return self.along(joint, poses, across=False)
         a, b = driver.relative_to, driver.link
         return Row(joint.name, "driver", poses[b].angle - poses[a].angle, {a: (0, 0, -1.0), b: (0, 0, 1.0)})

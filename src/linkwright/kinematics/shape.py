@@ -7,7 +7,6 @@ import math
 from collections.abc import Hashable, Mapping
 from typing import Any
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.expressions import Expression
 from linkwright.model.mechanism import Link, Mechanism
@@ -51,9 +50,9 @@ def _link(link: Link) -> Hashable:
     return link.name, link.geometry, tuple(link.points), same, link.mass_centre is None
 
 
-def _ahead(mechanism: Mechanism, joint: object) -> bool | None:
+def _ahead(mechanism: Mechanism, joint: Any) -> bool | None:
     """Of a guide along two points: whether the second has the larger abscissa on its link."""
-    if not isinstance(joint, PrismaticJoint) or joint.direction_points is None:
+    if getattr(joint, "direction_points", None) is None:
         return None
     start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
     return end > start

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.model.mechanism import Mechanism
 
 
@@ -20,7 +19,7 @@ def mechanism_size(mechanism: Mechanism) -> float:
     reach += [abs(c) for point in mechanism.drawing.values() for c in point]
     reach += [abs(getattr(joint, "offset", 0.0)) for joint in mechanism.joints.values()]
     for driver in mechanism.drivers.values():
-        if isinstance(mechanism.joints[driver.joint], PrismaticJoint):
+        if mechanism.joints[driver.joint].coordinate == "slide":
             reach.append(abs(float(driver.law.coordinate(np.zeros(1))[0][0])))
     largest = max([*reach, 0.0])
     return 2.0 ** math.frexp(largest)[1] if largest > 0.0 else 1.0

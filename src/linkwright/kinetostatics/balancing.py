@@ -12,7 +12,6 @@ import numpy as np
 from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.mechanism import Link, Mechanism
 from linkwright.words.sentence import Sentence
@@ -128,7 +127,7 @@ def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[s
         if "frame" in joint.joined and len(joint.joined) == 2
     }
     floating = [name for name in mechanism.links if name not in grounded]
-    sliders = [name for name, joint in grounded.items() if isinstance(joint, PrismaticJoint)]
+    sliders = [name for name, joint in grounded.items() if joint.coordinate == "slide"]
     if len(mechanism.links) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
         raise LinkwrightError(Sentence("forces.not_balanced", name=mechanism.name))
     coupler = mechanism.links[floating[0]]
@@ -173,7 +172,7 @@ def _slider_crank(
 
 def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
     for joint in mechanism.joints.values():
-        if a in joint.joined and b in joint.joined and not isinstance(joint, PrismaticJoint):
+        if a in joint.joined and b in joint.joined and joint.coordinate != "slide":
             return joint.name
     raise LinkwrightError(Sentence("forces.no_pin_shared", a=a, b=b, name=mechanism.name))
 

@@ -20,7 +20,7 @@ def closable(structure: Structure) -> tuple[Group, ...]:
     return tuple(
         group
         for group in structure.groups
-        if group.unknowns and group.cuts and all(cut.kind == "revolute" for cut in group.cuts)
+        if group.unknowns and group.cuts and all(cut.turns for cut in group.cuts)
     )
 
 
@@ -65,6 +65,6 @@ def _columns(outputs: MotionOutputs, group: Group) -> list[list[Scalar]]:
 
 def _way(outputs: MotionOutputs, step: TreeJoint, place: Vec) -> Vec:
     """Velocity of the cut for a unit rate of one joint."""
-    if step.kind == "revolute":
+    if step.turns:
         return (place - outputs.point(step.joint)[0]).perp
     return guide_state(outputs.motion, step.joint)[0]

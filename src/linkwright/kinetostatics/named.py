@@ -290,7 +290,7 @@ class Named:
             raise self._unknown(name)
         rate = self.motion.outputs.value(f"{'sv' if slides else 'w'}:{rest[0]}")
         driver = self.mechanism.drivers[next(iter(self.mechanism.drivers))]
-        turns = isinstance(self.mechanism.joints[driver.joint], RevoluteJoint)
+        turns = self.mechanism.joints[driver.joint].coordinate == "turn"
         dimension = RATIO["length" if slides else "angle", "angle" if turns else "length"]
         return Quantity(name, dimension, rate / self.motion.motion.drivers[driver.name].rate)
 

@@ -199,6 +199,11 @@ class Mechanism(Frozen):
             expressions=kept,
         )
 
+    def pin_links(self, name: str) -> tuple[str, ...]:
+        """The links on the pin of that name; none where there is no such pin."""
+        joint = self.joints.get(name)
+        return joint.joined if joint is not None and joint.coordinate == "turn" else ()
+
     def structure(self) -> Any:
         """Mobility and Assur groups of the mechanism (see ``linkwright.structure``)."""
         from linkwright.structure import structure

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
-from linkwright.joints.toothed import WheelPair
 from linkwright.model.mechanism import Mechanism
 
 #: Denominators up to this are shown as fractions.
@@ -39,7 +39,7 @@ class GearTrain:
 
 def gear_trains(mechanism: Mechanism) -> tuple[GearTrain, ...]:
     """The trains of a mechanism's gears, belts, chains and rolling wheels, by carrier in the order of the file."""
-    pairs = [joint for joint in mechanism.joints.values() if isinstance(joint, WheelPair)]
+    pairs: list[Any] = [joint for joint in mechanism.joints.values() if joint.rotations_only]
     found: list[GearTrain] = []
     used: set[str] = set()
     for pair in pairs:
@@ -50,7 +50,7 @@ def gear_trains(mechanism: Mechanism) -> tuple[GearTrain, ...]:
     return tuple(found)
 
 
-def _from(start: WheelPair, pairs: list[WheelPair]) -> GearTrain:
+def _from(start: Any, pairs: list[Any]) -> GearTrain:
     """The train that a pair belongs to."""
     ratios, names, blocked = {start.links[0]: 1.0}, list[str](), list[str]()
     waiting = list(pairs)

@@ -102,7 +102,7 @@ class Book:
         found = set(self.resting)
         for _ in self.mechanism.links:
             for driver in self.mechanism.drivers.values():
-                turning = isinstance(self.mechanism.joints[driver.joint], RevoluteJoint)
+                turning = self.mechanism.joints[driver.joint].coordinate == "turn"
                 ends = {driver.link, driver.relative_to}
                 if turning and isinstance(driver.law, ConstantSpeed) and found & ends:
                     found |= ends

@@ -79,10 +79,10 @@ def walk(book: Book, group: Group, end: str, tip: Spot, point: str) -> Chain:
     chain = Chain(base, [], [], [], [])
     here, link, slides = base, steps[0].parent, []
     for step in steps:
-        if step.kind == "prismatic":
+        if step.slides:
             sign = 1 if step.child == step.connection.b else -1
             slides.append((step, book.slide(step.joint), sign))
-        elif step.kind == "revolute":
+        elif step.turns:
             pin = book.spot(step.parent, step.joint)
             _close(chain, Piece(link, here, pin, slides))
             here, link, slides = pin, step.child, []
@@ -206,7 +206,7 @@ def closures(book: Book, group: Group) -> list[Closure]:
     """All cuts of a group."""
     found = []
     for cut in group.cuts:
-        if cut.kind == "revolute":
+        if cut.turns:
             tip, names = book.spot(cut.a, cut.joint), (cut.joint, cut.joint)
             across = None
         else:
@@ -236,7 +236,7 @@ def unknown_names(book: Book, group: Group, order: int) -> list[Term]:
     """Symbols of the unknown rates (``order`` 1) or second derivatives (2)."""
     found = []
     for step in group.unknowns:
-        if step.kind == "prismatic":
+        if step.slides:
             slide = book.slide(step.joint)
             found.append(slide.rate if order == 1 else slide.second)
         else:

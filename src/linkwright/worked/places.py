@@ -69,7 +69,7 @@ class Places:
         """The angle of a link that a guide, a weld or a driver turns, from that of its parent."""
         book = self.book
         parent = book.turn(joint.parent)
-        if joint.kind != "revolute":
+        if not joint.turns:
             self.angle(step, joint.child, parent + book.turned(joint))
         elif joint.driver is not None:
             q = book.drive(joint.driver)[0]
@@ -105,7 +105,7 @@ class Places:
     def place(self, step: Step, group: Group) -> None:
         """Positions of a group's links and of all their points."""
         for joint in group.tree:
-            if joint.kind == "prismatic" and joint.driver is not None:
+            if joint.slides and joint.driver is not None:
                 self.displacement(step, self.book.slide(joint.joint), self.book.drive(joint.driver)[0])
         shape = dyad_shape(group) if group.unknowns else None
         if shape is not None and self._plain(group, shape[1]):
@@ -114,7 +114,7 @@ class Places:
             self._newton(step, group)
         for joint in group.tree:
             self.follow(step, joint)
-            if joint.kind == "prismatic":
+            if joint.slides:
                 self.guide(step, joint.joint)
 
     def _plain(self, group: Group, ends: tuple[str, str]) -> bool:
@@ -221,7 +221,7 @@ class Places:
             return tip.place, Trail()
         for joint in steps:
             self.follow(step, joint)
-            if joint.kind == "prismatic":
+            if joint.slides:
                 self.guide(step, joint.joint)
         start = attach(steps[0], steps[0].parent, self.book)
         base = self.book.spot(steps[0].parent, start)
@@ -294,7 +294,7 @@ class Places:
         """The unknowns that Newton's method found; the closure is checked once all points are placed."""
         step.say(self.book.say("worked.newton", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
         for joint in group.unknowns:
-            if joint.kind == "prismatic":
+            if joint.slides:
                 step.give(self.book.slide(joint.joint).s, "m", f"{joint.joint}.displacement [m]")
             else:
                 self.angles.add(joint.child)

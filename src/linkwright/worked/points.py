@@ -37,7 +37,7 @@ def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
         at = next((p for p, spot in named_points(book, link) if spot.key in places.known or spot.fixed), None)
         if at is None:
             at = own
-            if joint.kind == "prismatic":
+            if joint.slides:
                 places.point(step, start, _slid(book, joint, held))
             else:
                 places.point(step, start, held.place)
@@ -62,7 +62,7 @@ def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
 def cut_displacements(book: Book, places: Places, step: Step, group: Group) -> None:
     """Displacements of the guides at which a group was cut."""
     for cut in group.cuts:
-        if cut.kind == "prismatic":
+        if cut.slides:
             slide = places.guide(step, cut.joint)
             held, block = _guide_ends(book, cut.joint)
             places.displacement(step, slide, slide.along.dot(block.place - held.place))
@@ -87,7 +87,7 @@ def check_closure(book: Book, step: Step, group: Group) -> None:
             spot = book.spot(end, name)
             ends.append(spot.place if arm is None or (spot.fixed and end == "frame") else base.place + arm)
         gap = ends[0] - ends[1]
-        if cut.kind == "revolute":
+        if cut.turns:
             rows = (("x", gap.x), ("y", gap.y))
         else:
             slide, joint = book.slide(cut.joint), book.mechanism.joints[cut.joint]
@@ -128,7 +128,7 @@ class Movers:
         known = self.accelerations if second else self.velocities
         for joint in group.tree:
             _, held, own, start = _start(book, joint)
-            if joint.kind == "prismatic":
+            if joint.slides:
                 formula = self._slid(joint, held, start, second=second)
             else:
                 formula = held.acceleration if second else held.velocity
@@ -149,7 +149,7 @@ class Movers:
         """Rates of driven guides, and of the guides at which the group was cut."""
         book = self.book
         for cut in group.cuts:
-            if cut.kind != "prismatic":
+            if not cut.slides:
                 continue
             slide = book.slide(cut.joint)
             held, block = _guide_ends(book, cut.joint)
@@ -160,7 +160,7 @@ class Movers:
     def driven_guides(self, step: Step, group: Group, *, second: bool) -> None:
         """Rates of driven guides, which everything else in the group follows."""
         for joint in group.tree:
-            if joint.kind == "prismatic" and joint.driver is not None:
+            if joint.slides and joint.driver is not None:
                 given = self.book.drive(joint.driver)[2 if second else 1]
                 self._guide(step, self.book.slide(joint.joint), given, second=second)
 

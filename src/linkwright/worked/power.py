@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.worked.book import Book, tex
 from linkwright.worked.known import KnownForces
@@ -32,7 +31,7 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
     terms = []
     for name, driver in book.mechanism.drivers.items():
         rate = book.drive(name)[1]
-        letter = "F" if isinstance(book.mechanism.joints[driver.joint], PrismaticJoint) else "M"
+        letter = "F" if book.mechanism.joints[driver.joint].coordinate == "slide" else "M"
         value = float(forces.driver_effort(name)[book.index])
         terms.append((symbol(f"{letter}_{name}", f"{letter}_{{{tex(name)}}}", value), rate))
     if len(terms) == 1 and abs(terms[0][1].amount) > NOTHING and not sum_of.is_zero:

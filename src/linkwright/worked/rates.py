@@ -27,7 +27,7 @@ def name_matrix(step: Step, group: Group, cuts: list[Closure]) -> System:
         named = []
         for j, entry in enumerate(row, 1):
             term = symbol(f"J{i}{j}", f"J_{{{i}{j}}}", entry.value)
-            unit = "m" if group.unknowns[j - 1].kind == "revolute" else ""
+            unit = "m" if group.unknowns[j - 1].turns else ""
             named.append(ZERO if entry.is_zero else step.find(term, entry, unit))
         entries.append(named)
     if len(entries) != 2:
@@ -35,7 +35,7 @@ def name_matrix(step: Step, group: Group, cuts: list[Closure]) -> System:
     (a, b), (c, d) = entries
     value = a * d - b * c
     det = symbol("det J", r"\det J", value.value)
-    turning = sum(each.kind == "revolute" for each in group.unknowns)
+    turning = sum(each.turns for each in group.unknowns)
     return System(entries, step.find(det, value, ("", "m", "m²")[turning]))
 
 
@@ -170,7 +170,7 @@ class RateWriter:
     def _labels(self, group: Group, *, second: bool) -> tuple[list[str], list[str]]:
         units, columns = [], []
         for joint in group.unknowns:
-            if joint.kind == "prismatic":
+            if joint.slides:
                 units.append("m/s²" if second else "m/s")
                 columns.append(f"{joint.joint}.{'acceleration' if second else 'velocity'} [{units[-1]}]")
             else:
@@ -186,14 +186,14 @@ class RateWriter:
         book = self.book
         for joint in group.tree:
             key = f"{joint.child}{second}"
-            free = {each.child for each in group.unknowns if each.kind == "revolute"}
+            free = {each.child for each in group.unknowns if each.turns}
             waits = any(each.child in free for each in group.path(joint.child))
             if key in self.written or joint.child in free or (before and waits):
                 continue
             self.written.add(key)
             rate = book.alpha if second else book.omega
             formula = rate(joint.parent)
-            if joint.kind == "revolute" and joint.driver is not None:
+            if joint.turns and joint.driver is not None:
                 own = joint.child == book.mechanism.drivers[joint.driver].link
                 given = book.drive(joint.driver)[2 if second else 1]
                 formula = formula + given if own else formula - given

@@ -90,7 +90,7 @@ class Reactions:
         place = 0
         for closure in cuts:
             cut = closure.cut
-            if cut.kind == "revolute":
+            if cut.turns:
                 force, on = Pair(unknowns[place], unknowns[place + 1]), cut.a
                 place += 2
                 if on not in group.links:
@@ -145,7 +145,7 @@ class Reactions:
         columns: list[str] = []
         for cut in group.cuts:
             place = len(unknowns)
-            if cut.kind == "prismatic":
+            if cut.slides:
                 unknowns.append(symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", float(values[place])))
                 columns.append("")
                 continue
@@ -159,7 +159,7 @@ class Reactions:
     def _demand(self, step: Step, group: Group, joint: TreeJoint, number: int) -> Term:
         """Right side of one equation: minus what the known forces do on an unknown coordinate."""
         book = self.book
-        if joint.kind == "prismatic":
+        if joint.slides:
             slide = book.slide(joint.joint)
             moved = list(subtree(group, joint))
             step.say(book.say("worked.along", links=self._names_of(moved), joint=joint.joint))
@@ -173,7 +173,7 @@ class Reactions:
             step.say(book.say("worked.moments", links=self._names_of(own), point=pivot.label))
             parts = [each.moment(pivot.place) for link in own for each in self.acting(link)]
             for hung in group.tree:
-                if hung.free and hung.kind == "revolute" and hung.parent in own and hung is not joint:
+                if hung.free and hung.turns and hung.parent in own and hung is not joint:
                     at = book.spot(hung.parent, hung.joint)
                     parts.append((at.place - pivot.place).cross(self._resultant(list(subtree(group, hung)))))
             formula, unit = -total(parts), "N·m"
@@ -216,7 +216,7 @@ class Reactions:
 
     def _push(self, step: Step, joint: TreeJoint, needed: Pair) -> Pair:
         """Force of a driver along a guide, on the child."""
-        if joint.driver is None or joint.kind != "prismatic":
+        if joint.driver is None or not joint.slides:
             return NOWHERE
         slide = self.book.slide(joint.joint)
         block = joint.child == joint.connection.b
@@ -229,7 +229,7 @@ class Reactions:
     def _turning(self, step: Step, joint: TreeJoint, acting: list[Known]) -> tuple[Pair, Term]:
         """Moments about the joint: the driver's torque, or the couple of a guide or a weld."""
         book = self.book
-        if joint.kind == "revolute":
+        if joint.turns:
             place = book.spot(joint.parent, joint.joint).place
             if joint.driver is None:
                 return place, ZERO
@@ -321,7 +321,7 @@ def segment(group: Group, joint: TreeJoint) -> Iterator[str]:
     own = {joint.child}
     yield joint.child
     for step in group.tree:
-        if step.parent in own and not (step.free and step.kind == "revolute"):
+        if step.parent in own and not (step.free and step.turns):
             own.add(step.child)
             yield step.child
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.angles import geared
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
@@ -146,7 +145,7 @@ class _Kinematics:
         book, say = self.book, self.book.say
         step = Step("1", say("worked.input"))
         for name, driver in book.mechanism.drivers.items():
-            turning = isinstance(book.mechanism.joints[driver.joint], RevoluteJoint)
+            turning = book.mechanism.joints[driver.joint].coordinate == "turn"
             key = "worked.input_turn" if turning else "worked.input_slide"
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
             step.say(say(key, head=head, link=driver.link, relative=driver.relative_to, joint=driver.joint))

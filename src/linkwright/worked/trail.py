@@ -36,7 +36,7 @@ def trail(book: Book, steps: Sequence[TreeJoint], link: str, point: str, end: st
     for step in steps:
         held = attach(step, step.parent, book)
         found.reach = found.reach + turned(_arm(book, link, point, held), angle)
-        if step.kind == "prismatic":
+        if step.slides:
             _slide(book, step, angle, found, local=local)
         angle = _next(book, step, angle) if local else book.turn(step.child)
         link, point = step.child, attach(step, step.child, book)
@@ -81,7 +81,7 @@ def merged(a: Term, b: Term) -> Term:
 
 
 def _next(book: Book, step: TreeJoint, angle: Term) -> Term:
-    if step.driver is not None and step.kind == "revolute":
+    if step.driver is not None and step.turns:
         q = book.drive(step.driver)[0]
         return angle + q if step.child == book.mechanism.drivers[step.driver].link else angle - q
     return merged(angle, book.turned(step))

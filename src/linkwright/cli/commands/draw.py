@@ -90,12 +90,11 @@ def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float
     if text is None:
         return None
     from linkwright.cli.positions import inputs
-    from linkwright.joints.revolute import RevoluteJoint
 
     if not mechanism.drivers:
         raise UsageError(f"--at: {say('solve.no_input')}")
     joints = mechanism.joints
-    rotary = {name: isinstance(joints[d.joint], RevoluteJoint) for name, d in mechanism.drivers.items()}
+    rotary = {name: joints[d.joint].coordinate == "turn" for name, d in mechanism.drivers.items()}
     given = inputs(text, rotary, say)
     if any(len(values) > 1 for values in given.values()):
         raise UsageError(say("draw.one_position", option="--at", text=text))

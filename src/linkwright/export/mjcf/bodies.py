@@ -51,7 +51,7 @@ class Bodies:
         self.riders: dict[str, list[Connection]] = {}
         for group in self.structure.groups:
             for cut in group.cuts:
-                if cut.kind == "prismatic":
+                if cut.slides:
                     self.riders.setdefault(cut.a, []).append(cut)
         masses = [link.mass for link in self.mechanism.links.values()]
         self.least_mass = LEAST * (max(masses, default=0.0) or 1.0)
@@ -103,7 +103,7 @@ class Bodies:
     def _joint(self, body: ET.Element, step: TreeJoint) -> None:
         if step.kind == "weld":
             return
-        pin = step.kind == "revolute"
+        pin = step.turns
         link = self.mechanism.links[step.child]
         if pin:
             place, axis = link.points[step.joint], (0.0, 0.0, self._sense(step))
@@ -156,7 +156,7 @@ class Bodies:
     def _coordinate(self, step: TreeJoint) -> Coordinate:
         names = [each.name for each in self.coordinates]
         name = step.joint if step.joint not in names else f"{step.joint}.{step.child}"
-        if step.kind == "prismatic":
+        if step.slides:
             slide = self.motion.joint(step.joint)
             return Coordinate(name, slide.displacement[self.index], slide.velocity[self.index], step.driver)
         moved, base = (self.motion.link(link) for link in self._pair(step))

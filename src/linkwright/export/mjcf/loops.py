@@ -15,11 +15,11 @@ def loops(results: Results, bodies: Bodies) -> ET.Element:
     for group in results.structure.groups:
         for cut in group.cuts:
             name = f"{cut.joint}.{cut.b}"
-            if cut.kind == "revolute":
+            if cut.turns:
                 ET.SubElement(
                     equality, "connect", name=name, site1=f"{cut.a}.{cut.joint}", site2=f"{cut.b}.{cut.joint}"
                 )
-            elif cut.kind == "prismatic":
+            elif cut.slides:
                 ET.SubElement(equality, "weld", name=name, body1=f"{cut.joint}.rider", body2=cut.b)
             elif cut.higher:
                 ET.SubElement(equality, "tendon", name=name, tendon1=cut.joint, polycoef="0 0 0 0 0")

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.axes import wrapped
@@ -113,7 +112,7 @@ def _drivers(forces: Forces, link: str, index: int) -> list[LinkForce]:
     for name, driver in forces.mechanism.drivers.items():
         if link not in (driver.link, driver.relative_to):
             continue
-        if isinstance(forces.mechanism.joints[driver.joint], PrismaticJoint):
+        if forces.mechanism.joints[driver.joint].coordinate == "slide":
             sign = 1.0 if link == driver.link else -1.0
             along = forces.guide_direction(driver.joint)[index]
             found.append(LinkForce(name, "driver", sign * forces.driver_effort(name)[index] * along))

@@ -26,7 +26,7 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
     """
     if name in mechanism.links:
         for joint in mechanism.joints.values():
-            if isinstance(joint, PrismaticJoint) and set(joint.joined) == {"frame", name}:
+            if joint.coordinate == "slide" and set(joint.joined) == {"frame", name}:
                 return Output("displacement", joint.name, name)
         return Output("angle", name, name)
     link, _, point = name.rpartition(".")
@@ -79,7 +79,7 @@ def traced_points(mechanism: Mechanism) -> list[str]:
     pins = [
         name
         for name, joint in mechanism.joints.items()
-        if isinstance(joint, RevoluteJoint) and "frame" not in joint.joined
+        if joint.coordinate == "turn" and "frame" not in joint.joined
     ]
     return (
         pins

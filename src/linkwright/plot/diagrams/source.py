@@ -11,7 +11,6 @@ import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -107,7 +106,7 @@ class Source:
         drivers = self.mechanism.drivers
         if not drivers or not all(isinstance(each.law, ConstantSpeed) for each in drivers.values()):
             return "time"
-        turning = isinstance(self.mechanism.joints[next(iter(drivers.values())).joint], RevoluteJoint)
+        turning = self.mechanism.joints[next(iter(drivers.values())).joint].coordinate == "turn"
         return "angle" if turning else "length"
 
     def at(self, place: float | None) -> Motion:

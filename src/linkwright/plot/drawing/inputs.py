@@ -8,7 +8,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.drivers.base import Driver
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.plot.drawing.guides import block_direction, direction, ground_side, is_cylinder, travel
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
 from linkwright.plot.drawing.view import Placement
@@ -21,7 +20,7 @@ RADIUS = 21.0
 def input_arrows(machine: Machine, index: int) -> Iterator[Part]:
     """An arrow for every driver, for the position ``index``."""
     for driver in machine.motion.mechanism.drivers.values():
-        if isinstance(machine.motion.mechanism.joints[driver.joint], PrismaticJoint):
+        if machine.motion.mechanism.joints[driver.joint].coordinate == "slide":
             yield _slide(machine, driver, index)
         else:
             yield _turn(machine, driver, index)

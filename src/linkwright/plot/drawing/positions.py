@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
@@ -107,7 +106,7 @@ def _last_to_and_fro(motion: Motion) -> str:
             for name, joint in joints.items():
                 if name in driven or not {"frame", link} <= set(joint.joined):
                     continue
-                if isinstance(joint, PrismaticJoint):
+                if joint.coordinate == "slide":
                     return name
                 angle = motion.link(link).angle
                 if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
