@@ -89,7 +89,11 @@ def _computes(right: str) -> bool:
 def test_gallery_lists_every_model_with_its_title(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["gallery", "list", "--json"]) == 0
     entries = json.loads(capsys.readouterr().out)
-    assert [entry["name"] for entry in entries] == [*gallery.names(), *gallery.calculations()]
+    assert [entry["name"] for entry in entries] == [
+        *gallery.names(),
+        *gallery.calculations(),
+        *gallery.tasks(),
+    ]
     assert all(entry["title"] and entry["purpose"] for entry in entries)
     assert main(["gallery", "list", "crusher"]) == 0
     assert "jaw_crusher_sixbar " in capsys.readouterr().out
