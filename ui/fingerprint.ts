@@ -5,7 +5,7 @@ import { readdirSync, readFileSync } from "node:fs";
 export function fingerprint(folder: string): string {
   const hash = createHash("sha256");
   const names = readdirSync(`${folder}/src`).sort().map((name) => `src/${name}`);
-  for (const name of [...names, "package-lock.json", "vite.config.ts", "vite.engine.config.ts"]) {
+  for (const name of [...names, "package-lock.json", "vite.config.ts", "vite.engine.config.ts", "vite.studio.config.ts"]) {
     hash.update(name + "\n");
     hash.update(readFileSync(`${folder}/${name}`));
   }

@@ -17,7 +17,7 @@ export default defineConfig({
     cssCodeSplit: false,
     modulePreload: false,
     rollupOptions: {
-      input: "src/app.tsx",
+      input: "src/page.tsx",
       output: { format: "iife", entryFileNames: "page.js", assetFileNames: "page.[ext]" },
     },
   },

@@ -17,7 +17,13 @@ def test_built_files_fit_their_sources() -> None:
     """The hash that the build wrote; after a change of the sources: ``npm run build`` in ``ui``."""
     made = hashlib.sha256()
     names = [f"src/{path.name}" for path in sorted((UI / "src").iterdir(), key=lambda path: path.name)]
-    for name in [*names, "package-lock.json", "vite.config.ts", "vite.engine.config.ts"]:
+    for name in [
+        *names,
+        "package-lock.json",
+        "vite.config.ts",
+        "vite.engine.config.ts",
+        "vite.studio.config.ts",
+    ]:
         made.update(f"{name}\n".encode())
         made.update((UI / name).read_bytes())
     written = (files("linkwright") / "page" / "built" / "sources.sha256").read_text().strip()

@@ -1,10 +1,10 @@
 // The page: machines side by side, each with its drawing, design numbers, dimensions and curves.
 import { signal } from "@preact/signals";
-import { type ComponentChildren, render } from "preact";
+import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Chart, Hodograph } from "./chart";
 import type { Dimension, PageData } from "./data";
-import { code, isForce, type Values, type Wall } from "./model";
+import { isForce, type Values, type Wall } from "./model";
 import { Session } from "./session";
 import { View } from "./view";
 import { digits, quantity, unitFor, Words } from "./words";
@@ -15,13 +15,22 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const MOST_CURVES = 8;
 const SHOWN = ["names", "velocities", "accelerations", "forces", "centres"] as const;
 
-class Page {
+export interface History {
+  undo(): void;
+  redo(): void;
+  undoable: boolean;
+  redoable: boolean;
+}
+
+export class Page {
   readonly words: Words;
   readonly language = signal<"en" | "zh">("en");
   readonly phase = signal(0);
   readonly playing = signal(false);
   readonly pace = signal(1);
   readonly note = signal("");
+  /** Steps back and forth beyond those of the machines, where texts are changed as well. */
+  history: History | null = null;
   private last = 0;
   private waiting: (() => void) | null = null;
 
@@ -236,7 +245,7 @@ function attach(page: Page, session: Session, view: View): void {
 
 // panels ---------------------------------------------------------------------------------
 
-function Transport({ page }: { page: Page }) {
+export function Transport({ page }: { page: Page }) {
   const session = page.sessions[0], { count } = session.data.positions;
   if (count < 2) return <p class="hint">{page.say("static")}</p>;
   const i = page.index(session), { x, kind } = session.model.axis;
@@ -442,7 +451,7 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
     const size = before.reduce((most, x) => Math.max(most, Math.abs(x)), 0), unit = unitFor(signal.kind, size);
     const ends = [0, model.n - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
     const kept = variants.map((each, k) => ({ style: `variant trace-${(k + 1) % 4}`, values: each.design.rows[id] }));
-    const old = model.changed ? [{ style: "original", values: before }] : [];
+    const old = model.differs ? [{ style: "original", values: before }] : [];
     chart.current!.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends);
     chart.current!.label(page.say("curve", { name: signal.name[language] }));
   }, [version, id, language, variants]);
@@ -505,6 +514,7 @@ function Curves({ page, session }: { page: Page; session: Session }) {
 function Tools({ page, session }: { page: Page; session: Session }) {
   void session.version.value;
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
+  const history: History = page.history ?? session;
   const download = () => {
     const { text, missing } = session.text();
     const url = URL.createObjectURL(new Blob([text], { type: "text/yaml" }));
@@ -516,9 +526,9 @@ function Tools({ page, session }: { page: Page; session: Session }) {
   };
   return (
     <div class="tools">
-      {button("undo", () => session.undo(), session.undoable)}
-      {button("redo", () => session.redo(), session.redoable)}
-      {button("reset", () => session.take({ ...session.data.values }), session.model.changed)}
+      {button("undo", () => history.undo(), history.undoable)}
+      {button("redo", () => history.redo(), history.redoable)}
+      {button("reset", () => session.take({ ...session.model.values, ...session.model.original.values }), session.model.differs)}
       {button("keep", () => session.keep())}
       {session.variants.value.map((each) => {
         const name = page.say("kept", { number: String(each.number) });
@@ -546,7 +556,7 @@ function notes(page: Page, session: Session): string[] {
   return found;
 }
 
-function Card({ page, session }: { page: Page; session: Session }) {
+export function Card({ page, session }: { page: Page; session: Session }) {
   void session.version.value;
   return (
     <article class="card">
@@ -572,7 +582,7 @@ function Card({ page, session }: { page: Page; session: Session }) {
   );
 }
 
-function App({ page }: { page: Page }) {
+export function App({ page }: { page: Page }) {
   const language = page.language.value;
   useEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
@@ -610,32 +620,19 @@ function App({ page }: { page: Page }) {
   );
 }
 
-function keys(page: Page): void {
+export function keys(page: Page): void {
   document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
-    if (event.code === "Space" && !["BUTTON", "INPUT", "SELECT", "SUMMARY"].includes(at.tagName)) {
+    if (event.code === "Space" && !["BUTTON", "INPUT", "SELECT", "SUMMARY", "TEXTAREA"].includes(at.tagName)) {
       event.preventDefault();
       page.play(!page.playing.value);
     }
     const which = event.key.toLowerCase();
-    if ((event.ctrlKey || event.metaKey) && (which === "z" || which === "y") && at.getAttribute("type") !== "number") {
+    if ((event.ctrlKey || event.metaKey) && (which === "z" || which === "y") && !(at instanceof HTMLTextAreaElement) && at.getAttribute("type") !== "number") {
       event.preventDefault();
-      const session = page.sessions.find((each) => each.view?.svg.contains(at)) ?? page.sessions[0];
-      if (which === "y" || event.shiftKey) session.redo();
-      else session.undo();
+      const history = page.history ?? page.sessions.find((each) => each.view?.svg.contains(at)) ?? page.sessions[0];
+      if (which === "y" || event.shiftKey) history.redo();
+      else history.undo();
     }
   });
 }
-
-async function open(): Promise<void> {
-  const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
-  const sessions = await Promise.all(data.models.map(async (each, k) => new Session(each, await code(each, k), k)));
-  const page = new Page(data, sessions);
-  render(<App page={page} />, document.getElementById("page")!);
-  page.follow(location.hash);
-  window.addEventListener("hashchange", () => page.follow(location.hash));
-  keys(page);
-  Object.assign(globalThis, { linkwright: page });
-}
-
-void open();

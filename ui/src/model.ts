@@ -33,7 +33,7 @@ const HALVINGS = 12;
 export class Model {
   readonly main: Call;
   readonly n: number;
-  readonly original: Design;
+  original: Design;
   readonly signals: Record<string, Signal>;
   readonly inputs: Float64Array;
   /** What curves run over: the input where it goes one way, else the time. */
@@ -82,6 +82,11 @@ export class Model {
 
   get changed(): boolean {
     return this.data.dimensions.some(({ address }) => this.values[address] !== this.data.values[address]);
+  }
+
+  /** Whether it is another design than the first one. */
+  get differs(): boolean {
+    return this.data.dimensions.some(({ address }) => this.values[address] !== this.original.values[address]);
   }
 
   /** Whether forces can be shown: what is held is that of the original. */

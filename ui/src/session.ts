@@ -22,6 +22,8 @@ export class Session {
   readonly swept = signal<string | null>(null);
   readonly hodograph = signal<string>("");
   view: View | null = null;
+  /** Called when a change has ended. */
+  ended: (() => void) | null = null;
   private past: Values[] = [];
   private future: Values[] = [];
   private counted = 0;
@@ -53,6 +55,21 @@ export class Session {
     if (this.view?.outside) this.view.fit();
     this.sweep(this.swept.value);
     this.touched();
+    this.ended?.();
+  }
+
+  /** Goes on where another session of the same machine was: what is shown, kept and compared with. */
+  inherit(old: Session): void {
+    const known = (id: string) => id in this.model.signals;
+    if (this.data.numbers.every(({ id }) => id in old.model.original.numbers) && Object.keys(this.model.signals).every((id) => id in old.model.original.rows)) {
+      this.model.original = old.model.original;
+      this.variants.value = old.variants.value;
+      this.counted = old.counted;
+    }
+    if (old.curves.value.every(known)) this.curves.value = old.curves.value;
+    const points = new Set(this.data.points.map(({ key }) => key));
+    Object.assign(this.shown, old.shown, { paths: new Set([...old.shown.paths].filter((key) => points.has(key))) });
+    for (const address of old.model.locked) if (address in this.model.values) this.model.locked.add(address);
   }
 
   get undoable(): boolean {
@@ -89,6 +106,7 @@ export class Session {
     this.view?.fit();
     this.sweep(this.swept.value);
     this.touched();
+    this.ended?.();
   }
 
   keep(): void {

@@ -1,0 +1,43 @@
+"""``linkwright studio``: draw, change and solve a machine in the browser, its file beside it."""
+
+from __future__ import annotations
+
+import argparse
+
+from linkwright.cli.parser import whole_number
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    parser.add_argument("file", metavar="FILE", nargs="?", help=say("studio.file_help"))
+    parser.add_argument("--port", type=whole_number, default=0, metavar="N", help=say("studio.port_help"))
+    parser.add_argument("--no-browser", action="store_true", help=say("studio.browser_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Serves the folder that it is started in until it is interrupted."""
+    import webbrowser
+    from pathlib import Path
+
+    from linkwright.cli.errors import UsageError
+    from linkwright.server.web import Studio
+
+    folder = Path.cwd()
+    name = None
+    if options.file is not None:
+        path = (folder / options.file).resolve()
+        if not path.is_relative_to(folder.resolve()):
+            raise UsageError(session.say("studio.outside", name=options.file))
+        name = path.relative_to(folder.resolve()).as_posix()
+    try:
+        studio = Studio(folder, name, port=options.port, language=session.language)
+    except OSError as problem:
+        raise UsageError(session.say("studio.no_port", port=options.port, reason=problem.strerror)) from None
+    with studio:
+        session.show(session.say("studio.serving", url=studio.url))
+        if not options.no_browser:
+            webbrowser.open(studio.url)
+        studio.serve_forever()
+    return 0

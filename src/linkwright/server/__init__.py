@@ -1,0 +1,1 @@
+"""The studio's local server: what the living page needs Python for."""

@@ -1,0 +1,114 @@
+"""Model files below one folder, with drafts that survive a killed process and versions that tell windows apart."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+from pathlib import Path
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.model.source import decode
+from linkwright.whole_files import write_whole
+from linkwright.words.sentence import Sentence
+
+Plain = dict[str, Any]
+_ENDINGS = (".yaml", ".yml", ".json")
+_DRAFTS = ".linkwright"
+#: Bytes of a text that is taken.
+LARGEST = 1_000_000
+
+
+class Files:
+    """Reads and writes model files of a folder; every change is kept as a draft until it is saved."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.resolve()
+        self._serial: dict[str, tuple[int, str]] = {}
+        self._lock = threading.Lock()
+
+    def path(self, name: str) -> Path:
+        """The path of a file below the folder; raises LinkwrightError for any other."""
+        path = (self.folder / name).resolve()
+        if not path.is_relative_to(self.folder) or path.suffix.lower() not in _ENDINGS or "\0" in name:
+            raise LinkwrightError(Sentence("studio.outside", name=name))
+        if any(part.startswith(".") for part in path.relative_to(self.folder).parts):
+            raise LinkwrightError(Sentence("studio.outside", name=name))
+        return path
+
+    def names(self) -> list[str]:
+        """Model files of the folder and those below, at most 500."""
+        found = []
+        for path in sorted(self.folder.rglob("*")):
+            inner = path.relative_to(self.folder)
+            hidden = any(part.startswith(".") for part in inner.parts)
+            if not hidden and path.suffix.lower() in _ENDINGS and path.is_file():
+                found.append(inner.as_posix())
+            if len(found) == 500:
+                break
+        return found
+
+    def open(self, name: str) -> Plain:
+        """A file's text; a draft that is newer than what was saved comes first and is said (``recovered``)."""
+        path = self.path(name)
+        text = decode(path.read_bytes(), name) if path.is_file() else ""
+        version = _version(text)
+        draft = self._draft(name)
+        recovered = draft is not None and draft["text"] != text
+        serial, _ = self._serial.get(name, (0, ""))
+        shown = draft["text"] if draft is not None and recovered else text
+        return {"name": name, "text": shown, "version": version, "serial": serial, "recovered": recovered}
+
+    def keep(self, name: str, text: str, window: str, serial: int) -> Plain:
+        """Keeps a draft; where another window has kept one since ``serial``, its text instead (``other``)."""
+        _small(text)
+        self.path(name)
+        with self._lock:
+            known, writer = self._serial.get(name, (0, ""))
+            if known != serial and writer != window:
+                draft = self._draft(name)
+                return {"serial": known, "other": draft["text"] if draft else None}
+            self._serial[name] = (known + 1, window)
+            folder = self.folder / _DRAFTS
+            folder.mkdir(exist_ok=True)
+            write_whole(self._draft_path(name), json.dumps({"name": name, "text": text}).encode())
+        return {"serial": known + 1, "other": None}
+
+    def state(self, name: str, window: str) -> Plain:
+        """Whether another window has changed the draft, and the version of the file on the disk."""
+        path = self.path(name)
+        text = decode(path.read_bytes(), name) if path.is_file() else ""
+        serial, writer = self._serial.get(name, (0, ""))
+        return {"serial": serial, "other": writer not in ("", window), "version": _version(text)}
+
+    def save(self, name: str, text: str, version: str) -> Plain:
+        """Writes the file, if it is still the one that was opened (``version``); the draft is done with."""
+        _small(text)
+        path = self.path(name)
+        old = decode(path.read_bytes(), name) if path.is_file() else ""
+        if _version(old) != version:
+            return {"saved": False, "version": _version(old)}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, text.encode())
+        self._draft_path(name).unlink(missing_ok=True)
+        return {"saved": True, "version": _version(text)}
+
+    def _draft_path(self, name: str) -> Path:
+        return self.folder / _DRAFTS / f"{hashlib.sha256(name.encode()).hexdigest()[:24]}.json"
+
+    def _draft(self, name: str) -> Plain | None:
+        try:
+            found: Plain = json.loads(self._draft_path(name).read_bytes())
+        except (OSError, ValueError):
+            return None
+        return found if found.get("name") == name and isinstance(found.get("text"), str) else None
+
+
+def _version(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+def _small(text: str) -> None:
+    if len(text.encode()) > LARGEST:
+        raise LinkwrightError(Sentence("studio.large", most=LARGEST))

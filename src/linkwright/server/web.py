@@ -1,0 +1,151 @@
+"""The studio's web server: this machine only, a secret in the address, no other origin.
+
+Every request must name this server in ``Host`` (a foreign name that leads here is refused), come from no other
+origin, and carry the secret: the page in its address, the requests in a header of their own, which a foreign page
+cannot send.
+"""
+
+from __future__ import annotations
+
+import hmac
+import json
+import secrets
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from linkwright.errors import LinkwrightError
+from linkwright.server.files import LARGEST, Files
+from linkwright.server.work import Work
+from linkwright.words import LANGUAGES, catalogue
+
+_POLICY = (
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; "
+    "img-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
+)
+_BUILT = {"/studio.js": "text/javascript", "/studio.css": "text/css"}
+_AREAS = ("page", "outcome", "studio")
+_HEADER = "X-Linkwright-Token"
+
+
+class Studio(ThreadingHTTPServer):
+    """The server for the model files below ``folder``; ``file`` is opened first. ``url`` leads to it."""
+
+    daemon_threads = True
+
+    def __init__(self, folder: Path, file: str | None = None, *, port: int = 0, language: str = "en") -> None:
+        super().__init__(("127.0.0.1", port), _Handler)
+        self.token = secrets.token_urlsafe(24)
+        self.file = file
+        self.language = language
+        self.work = Work(Files(folder))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """How ``Host`` may name this server."""
+        return tuple(f"{host}:{self.server_port}" for host in ("127.0.0.1", "localhost"))
+
+    @property
+    def url(self) -> str:
+        """The address with the secret in it."""
+        return f"http://127.0.0.1:{self.server_port}/?token={self.token}"
+
+    def allows(self, token: str) -> bool:
+        """Whether a secret is the server's."""
+        return hmac.compare_digest(token.encode(), self.token.encode())
+
+
+class _Handler(BaseHTTPRequestHandler):
+    server: Studio
+    protocol_version = "HTTP/1.1"
+    server_version, sys_version = "linkwright", ""
+
+    def do_GET(self) -> None:
+        """The page, by the secret in its address; its script and style."""
+        address = urlsplit(self.path)
+        if not self._trusted():
+            return
+        if address.path in _BUILT:
+            built = files("linkwright") / "page" / "built" / address.path[1:]
+            self._send(200, built.read_bytes(), _BUILT[address.path])
+        elif address.path == "/" and self.server.allows(parse_qs(address.query).get("token", [""])[0]):
+            self._send(200, self._page(), "text/html")
+        else:
+            self._send({"/": 403, "/favicon.ico": 204}.get(address.path, 404), b"", "text/plain")
+
+    def do_POST(self) -> None:
+        """One request of the page."""
+        if not self._trusted():
+            return
+        length = self.headers.get("Content-Length", "")
+        if not length.isdigit() or int(length) > 2 * LARGEST:
+            self.close_connection = True
+            self._send(413, b"", "text/plain")
+            return
+        body = self.rfile.read(int(length))
+        answer = self.server.work.answers.get(self.path.removeprefix("/api/"))
+        if not self.server.allows(self.headers.get(_HEADER, "")):
+            self._send(403, b"", "text/plain")
+        elif answer is None or self.headers.get("Content-Type") != "application/json":
+            self._send(404, b"", "text/plain")
+        else:
+            self._answer(answer, body)
+
+    def _answer(self, answer: Any, body: bytes) -> None:
+        try:
+            asked = json.loads(body)
+            status, found = 200, answer(asked)
+        except LinkwrightError as error:
+            language = asked.get("language", "en") if isinstance(asked, dict) else "en"
+            status, found = 422, {"error": error.say(language if language in LANGUAGES else "en")}
+        except (KeyError, TypeError, ValueError, AttributeError):
+            status, found = 400, {"error": ""}
+        text = json.dumps(found, ensure_ascii=False, allow_nan=False)
+        self._send(status, text.encode(), "application/json")
+
+    def _trusted(self) -> bool:
+        """Whether host and origin are this server; else the request is refused."""
+        origin = self.headers.get("Origin")
+        own = [f"http://{name}" for name in self.server.names]
+        if self.headers.get("Host") in self.server.names and (origin is None or origin in own):
+            return True
+        self.close_connection = True
+        self._send(403, b"", "text/plain")
+        return False
+
+    def _page(self) -> bytes:
+        words = {
+            each: {f"{area}.{key}": text for area in _AREAS for key, text in catalogue(area, each).items()}
+            for each in LANGUAGES
+        }
+        data: dict[str, Any] = {
+            "language": self.server.language,
+            "words": words,
+            "file": self.server.file,
+            "models": [],
+        }
+        content = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
+        return (
+            '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>Linkwright</title>\n'
+            '<link rel="stylesheet" href="/studio.css">\n</head>\n<body>\n<div id="page"></div>\n'
+            f'<script type="application/json" id="data">{content}</script>\n'
+            '<script src="/studio.js"></script>\n</body>\n</html>\n'
+        ).encode()
+
+    def _send(self, status: int, body: bytes, kind: str) -> None:
+        self.send_response(status)
+        headers = {
+            "Content-Type": f"{kind}; charset=utf-8", "Content-Length": str(len(body)), "Cache-Control": "no-store",
+            "Content-Security-Policy": _POLICY, "Referrer-Policy": "no-referrer", "X-Frame-Options": "DENY",
+            "X-Content-Type-Options": "nosniff", "Cross-Origin-Resource-Policy": "same-origin",
+        }  # fmt: skip
+        for name, value in headers.items():
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Nothing is written to the terminal."""

@@ -1,0 +1,85 @@
+"""What the studio asks of Python: models solved for the page, findings at their lines, changes of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from linkwright.errors import Finding, LinkwrightError
+from linkwright.model.file import gallery_names, read_text
+from linkwright.model.source import read_source
+from linkwright.server.edits import edited, picture, with_values
+from linkwright.server.files import Files
+from linkwright.words.sentence import in_language
+
+Plain = dict[str, Any]
+NEW = "format: 1\nname: New mechanism\n"
+
+
+class Work:
+    """The answers to the page's requests, by name; each takes and gives plain data."""
+
+    def __init__(self, files: Files) -> None:
+        self.files = files
+        self.answers: Mapping[str, Callable[[Plain], Plain]] = {
+            "files": lambda asked: {"files": files.names(), "gallery": gallery_names()},
+            "open": self._open,
+            "keep": lambda a: files.keep(
+                _text(a, "name"), _text(a, "text"), _text(a, "window"), int(a["serial"])
+            ),
+            "state": lambda a: files.state(_text(a, "name"), _text(a, "window")),
+            "save": lambda a: files.save(_text(a, "name"), _text(a, "text"), _text(a, "version")),
+            "solve": self._solve,
+            "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
+            "set": lambda a: {
+                "text": with_values(_text(a, "text"), {k: float(v) for k, v in a["values"].items()})
+            },
+        }
+
+    def _open(self, asked: Plain) -> Plain:
+        if asked.get("gallery"):
+            return {"text": read_source(f"gallery:{_text(asked, 'gallery')}")[0]}
+        if not asked.get("name"):
+            return {"text": NEW}
+        return self.files.open(_text(asked, "name"))
+
+    def _solve(self, asked: Plain) -> Plain:
+        """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
+        text, language = _text(asked, "text"), str(asked.get("language", "en"))
+        mechanism, findings = read_text(text, "model")
+        found: Plain = {
+            "findings": [_finding(each, language) for each in findings],
+            "model": None,
+            "sentence": "",
+        }
+        try:
+            found["picture"] = picture(text)
+            if mechanism is not None:
+                from linkwright.kinematics.solve import solve_motion
+                from linkwright.page.content import page_data
+                from linkwright.structure import structure
+
+                found["mobility"] = structure(mechanism).mobility
+                data, _ = page_data([(solve_motion(mechanism, steps=360), text)], language)
+                found["model"] = data["models"][0]
+        except LinkwrightError as error:
+            found["sentence"] = error.say(language)
+        return found
+
+
+def _finding(found: Finding, language: str) -> Plain:
+    place = found.where.split(":")
+    return {
+        "severity": found.severity,
+        "line": int(place[1]) if len(place) > 1 and place[1].isdigit() else 0,
+        "key": found.key,
+        "message": in_language(found.message, language),
+        "remedy": in_language(found.remedy, language) if found.remedy else "",
+    }
+
+
+def _text(asked: Plain, key: str) -> str:
+    value = asked[key]
+    if not isinstance(value, str):
+        raise TypeError(key)
+    return value

@@ -1,0 +1,276 @@
+"""The studio: who may ask, its folder only, drawn from nothing, text and drawing in step, nothing lost."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from tests.ui.browser import browser, needs_chromium
+
+import linkwright as lw
+from linkwright.server.edits import edited, with_values
+from linkwright.server.web import Studio
+from linkwright.server.work import NEW
+
+
+@contextmanager
+def serving(folder: Path, file: str | None = None) -> Iterator[Studio]:
+    """A studio of a folder, answering in a thread."""
+    with Studio(folder, file) as studio:
+        thread = threading.Thread(target=studio.serve_forever, kwargs={"poll_interval": 0.02}, daemon=True)
+        thread.start()
+        try:
+            yield studio
+        finally:
+            studio.shutdown()
+            thread.join()
+
+
+def asked(studio: Studio, name: str, body: Any, **headers: str) -> tuple[int, Any]:
+    """Status and answer of one request as the page makes it, with other headers where given."""
+    connection = http.client.HTTPConnection("127.0.0.1", studio.server_port, timeout=20)
+    own = {"Content-Type": "application/json", "X-Linkwright-Token": studio.token}
+    content = body if isinstance(body, bytes) else json.dumps(body).encode()
+    given = {key.replace("_", "-"): value for key, value in headers.items()}
+    connection.request("POST", f"/api/{name}", content, {**own, **given})
+    answer = connection.getresponse()
+    text = answer.read()
+    connection.close()
+    return answer.status, json.loads(text) if text else None
+
+
+def test_only_this_page_may_ask(tmp_path: Path) -> None:
+    """No secret, a foreign name for this server (DNS rebinding), a foreign origin, a form: all refused."""
+    with serving(tmp_path) as studio:
+        assert asked(studio, "files", {})[0] == 200
+        assert asked(studio, "files", {}, X_Linkwright_Token="")[0] == 403
+        assert asked(studio, "files", {}, X_Linkwright_Token="guess")[0] == 403
+        assert asked(studio, "files", {}, Host="evil.example")[0] == 403
+        assert asked(studio, "files", {}, Host=f"evil.example:{studio.server_port}")[0] == 403
+        assert asked(studio, "files", {}, Origin="https://evil.example")[0] == 403
+        assert asked(studio, "files", {}, Origin="null")[0] == 403
+        assert asked(studio, "files", {}, Content_Type="text/plain")[0] == 404
+        connection = http.client.HTTPConnection("127.0.0.1", studio.server_port)
+        for path, status in (
+            ("/", 403),
+            ("/?token=guess", 403),
+            ("/../pyproject.toml", 404),
+            ("/engine.mjs", 404),
+        ):
+            connection.request("GET", path)
+            answer = connection.getresponse()
+            answer.read()
+            assert answer.status == status, path
+        connection.request("GET", "/?token=" + studio.token)
+        answer = connection.getresponse()
+        answer.read()
+        policy = answer.headers["Content-Security-Policy"]
+        assert answer.status == 200
+        assert "default-src 'none'" in policy
+        assert "unsafe-inline" not in policy
+        assert "Access-Control-Allow-Origin" not in answer.headers
+        connection.close()
+    assert studio.server_address[0] == "127.0.0.1"
+
+
+def test_files_below_the_folder_only(tmp_path: Path) -> None:
+    inside, outside = tmp_path / "inside", tmp_path / "outside.yaml"
+    inside.mkdir()
+    outside.write_text("secret")
+    (inside / "away.yaml").symlink_to(outside)
+    (inside / ".hidden.yaml").write_text("x")
+    with serving(inside) as studio:
+        for name in (
+            "../outside.yaml",
+            str(outside),
+            "away.yaml",
+            ".hidden.yaml",
+            "a.py",
+            "a\0.yaml",
+            "../../etc/passwd",
+        ):
+            status, found = asked(studio, "open", {"name": name})
+            assert status in (400, 422), name
+            assert "secret" not in json.dumps(found)
+            assert asked(studio, "save", {"name": name, "text": "x", "version": ""})[0] in (400, 422), name
+        assert asked(studio, "keep", b"", Content_Length="3000000")[0] == 413
+        assert asked(studio, "keep", b"[]")[0] == 400
+        assert asked(studio, "solve", {"text": 3})[0] == 400
+        assert asked(studio, "open", {"name": 3})[0] == 400
+    assert outside.read_text() == "secret"
+
+
+DRAWN: tuple[dict[str, Any], ...] = (
+    {"do": "point", "name": "O1", "at": [0.0, 0.0], "fixed": True},
+    {"do": "point", "name": "O2", "at": [0.2, 0.0], "fixed": True},
+    {"do": "point", "name": "A", "at": [0.03, 0.04]},
+    {"do": "link", "name": "crank", "points": ["O1", "A"]},
+    {"do": "point", "name": "B", "at": [0.16, 0.12]},
+    {"do": "link", "name": "coupler", "points": ["A", "B"]},
+    {"do": "link", "name": "rocker", "points": ["B", "O2"]},
+    {"do": "driver", "link": "crank", "about": "O1"},
+    {"do": "mass", "link": "rocker", "mass": "2 kg"},
+    {"do": "load", "link": "rocker", "at": "B", "force": "100 N"},
+)
+
+
+def drawn() -> str:
+    text = NEW
+    for action in DRAWN:
+        text = edited(text, action)
+    return text
+
+
+def test_drawing_writes_what_a_person_would() -> None:
+    text = drawn()
+    assert "  points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm]}\n" in text
+    assert "  rocker: {points: [B, O2], mass: 2 kg}\n" in text
+    mechanism = lw.loads(text)
+    assert mechanism.dimension("crank.A.x") == pytest.approx(0.05)
+    assert lw.structure(mechanism).mobility == 1
+    moved = lw.loads(with_values(text, {"crank.A.x": 0.045}))
+    assert moved.dimension("crank.A.x") == pytest.approx(0.045, rel=1e-8)
+    assert moved.dimension("coupler.B.x") == pytest.approx(mechanism.dimension("coupler.B.x"), rel=1e-8)
+    bare = edited(text, {"do": "remove", "what": "link", "name": "crank"})
+    assert "crank" not in bare
+    assert "rocker" in bare
+    guided = edited(text, {"do": "link", "name": "slider1", "points": ["B"]})
+    guided = edited(guided, {"do": "guide", "link": "slider1", "at": "B", "angle": 0})
+    assert "kind: prismatic, guide: frame, through: G1, direction: 0 deg, block: slider1, at: B" in guided
+
+
+def test_comments_stay_where_they_are() -> None:
+    text = (
+        drawn()
+        .replace("mass: 2 kg}\n", "mass: 2 kg}  # of steel\n")
+        .replace("links:\n", "links:  # three of them\n")
+    )
+    again = edited(text, {"do": "mass", "link": "rocker", "mass": "3 kg"})
+    assert again == text.replace("2 kg", "3 kg")
+
+
+@needs_chromium
+def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
+    """Clicks on the paper, a machine with its torque curve, the file saved; text and drawing in step; undo."""
+    with serving(tmp_path) as studio, browser() as chromium:
+        tab = chromium.new_page(viewport={"width": 1360, "height": 900})
+        errors: list[str] = []
+        tab.on("pageerror", lambda error: errors.append(str(error)))
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        tab.wait_for_selector("svg.drafting")
+        box = tab.locator("svg.drafting").bounding_box()
+
+        def click(x: float, y: float) -> None:
+            tab.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+
+        def choose(name: str) -> None:
+            tab.get_by_role("toolbar").get_by_role("button", name=name, exact=True).click()
+
+        choose("Fixed point")
+        click(0.25, 0.7)
+        click(0.65, 0.7)
+        choose("Link")
+        for way in (((0.25, 0.7), (0.32, 0.58)), ((0.32, 0.58), (0.58, 0.25)), ((0.58, 0.25), (0.65, 0.7))):
+            for place in way:
+                click(*place)
+            tab.keyboard.press("Enter")
+        choose("Drive")
+        click(0.285, 0.64)
+        choose("Mass")
+        click(0.615, 0.475)
+        tab.get_by_label("Model file").and_(tab.locator("textarea")).wait_for()
+        tab.locator(".status", has_text="mobility 1").wait_for()
+        tab.get_by_role("button", name="Run", exact=True).click()
+        tab.wait_for_selector(".plot")
+        assert "input torque" in tab.locator(".plot select >> nth=3").locator("option:checked").inner_text()
+        tab.get_by_label("File name").fill("drawn.yaml")
+        tab.get_by_role("button", name="Save", exact=True).click()
+        tab.locator(".said", has_text="Saved.").wait_for()
+        text = (tmp_path / "drawn.yaml").read_text()
+        assert lw.solve_forces(lw.solve_motion(lw.loads(text))).input_torque.any()
+        before = tab.locator("textarea").input_value()
+        handle = tab.locator('.handle[data-key="A"]').bounding_box()
+        tab.mouse.move(handle["x"] + 13, handle["y"] + 13)
+        tab.mouse.down()
+        tab.mouse.move(handle["x"] + 20, handle["y"] + 4, steps=3)
+        tab.mouse.up()
+        tab.locator(".said", has_text="Not saved").or_(tab.locator(".said", has_text="Saved.")).wait_for()
+        for _ in range(50):
+            if tab.locator("textarea").input_value() != before:
+                break
+            tab.wait_for_timeout(100)
+        assert tab.locator("textarea").input_value() != before
+        tab.get_by_role("button", name="Undo").first.click()
+        assert tab.locator("textarea").input_value() == before
+        assert errors == []
+
+
+@needs_chromium
+def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(tmp_path: Path) -> None:
+    text = lw.read_document("gallery:crank_rocker").text
+    (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
+    with serving(tmp_path, "a.yaml") as studio, browser() as chromium:
+        first, second = (chromium.new_page(viewport={"width": 1360, "height": 900}) for _ in range(2))
+        first.set_default_timeout(20_000)
+        second.set_default_timeout(20_000)
+        first.goto(studio.url)
+        first.wait_for_selector(".handle")
+        line = next(k for k, each in enumerate(text.splitlines(), 1) if "length: 3.5 m" in each)
+        first.locator("textarea").fill(text.replace("length: 3.5 m", "length: 3.5 mm m"))
+        first.wait_for_selector(".findings .error")
+        assert f"line {line}" in first.locator(".findings .error").first.inner_text()
+        first.locator("textarea").fill(text.replace("length: 3.5 m", "length: 3.4 m") + "# shorter\n")
+        first.wait_for_selector(".handle")
+        second.goto(studio.url)
+        second.wait_for_selector(".handle")
+        assert "# shorter" in second.locator("textarea").input_value()
+        assert "here again" in second.locator(".said").inner_text()
+        first.locator("textarea").fill(text.replace("length: 3.5 m", "length: 3.3 m"))
+        second.get_by_role("button", name="Take its text").wait_for()
+        second.get_by_role("button", name="Take its text").click()
+        assert "3.3 m" in second.locator("textarea").input_value()
+
+
+def test_a_killed_server_loses_nothing(tmp_path: Path) -> None:
+    """kill -9 after a change that was not saved: the next start has it."""
+    (tmp_path / "a.yaml").write_text("format: 1\n")
+    command = [sys.executable, "-m", "linkwright", "studio", "a.yaml", "--no-browser"]
+    process = subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"}
+    )
+    assert process.stdout is not None
+    address = next(word for word in process.stdout.readline().split() if word.startswith("http"))
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.netloc)
+    headers = {"Content-Type": "application/json", "X-Linkwright-Token": parse_qs(parts.query)["token"][0]}
+    change = {"name": "a.yaml", "text": "format: 1\nname: kept\n", "window": "w", "serial": 0}
+    connection.request("POST", "/api/keep", json.dumps(change), headers)
+    assert connection.getresponse().status == 200
+    connection.close()
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+    with serving(tmp_path) as studio:
+        status, found = asked(studio, "open", {"name": "a.yaml"})
+        assert (status, found["recovered"], found["text"]) == (200, True, "format: 1\nname: kept\n")
+        assert (tmp_path / "a.yaml").read_text() == "format: 1\n"
+        saved = asked(studio, "save", {"name": "a.yaml", "text": found["text"], "version": found["version"]})[
+            1
+        ]
+        assert saved["saved"]
+        (tmp_path / "a.yaml").write_text("format: 1\nname: from outside\n")
+        again = asked(studio, "save", {"name": "a.yaml", "text": "x: 1", "version": saved["version"]})[1]
+        assert not again["saved"]
+        assert "from outside" in (tmp_path / "a.yaml").read_text()

@@ -1,0 +1,19 @@
+// The living page by itself.
+import { render } from "preact";
+import { App, keys, Page } from "./app";
+import type { PageData } from "./data";
+import { code } from "./model";
+import { Session } from "./session";
+
+async function open(): Promise<void> {
+  const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
+  const sessions = await Promise.all(data.models.map(async (each, k) => new Session(each, await code(each, k), k)));
+  const page = new Page(data, sessions);
+  render(<App page={page} />, document.getElementById("page")!);
+  page.follow(location.hash);
+  window.addEventListener("hashchange", () => page.follow(location.hash));
+  keys(page);
+  Object.assign(globalThis, { linkwright: page });
+}
+
+void open();

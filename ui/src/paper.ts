@@ -1,0 +1,266 @@
+// Drawing paper: what of a text can be drawn before it is a machine, and the tools that draw on it.
+import { element } from "./view";
+
+export interface Picture {
+  points: Record<string, [number, number]>;
+  fixed: string[];
+  links: Record<string, string[]>;
+  driver: string | null;
+  guided: string[];
+}
+
+export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "mass" | "load" | "remove";
+export type Action = Record<string, unknown> & { do: string };
+
+const SNAP = 12;
+const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
+const LETTERS = "ABCDEFGHIJKLMNPQRSTUVW";
+
+type Vec = [number, number];
+
+export class Paper {
+  readonly svg: SVGElement;
+  tool: Tool = "fixed";
+  value = "";
+  private picture: Picture = { points: {}, fixed: [], links: {}, driver: null, guided: [] };
+  private chosen: string[] = [];
+  private dragged: string | null = null;
+  private scale = 1000;
+  private shift: Vec = [0, 0];
+  private size: Vec = [600, 420];
+  private readonly back: SVGElement;
+  private readonly front: SVGElement;
+
+  /** `act` carries out actions one after the other. */
+  constructor(host: HTMLElement, readonly act: (actions: Action[]) => void) {
+    this.svg = element("svg", { class: "machine drafting", role: "application", tabindex: 0 }, host);
+    this.back = element("path", { class: "grid fine" }, this.svg);
+    this.front = element("g", {}, this.svg);
+    this.svg.addEventListener("pointerdown", (event) => this.down(event));
+    this.svg.addEventListener("pointermove", (event) => this.moved(event));
+    this.svg.addEventListener("pointerup", (event) => this.up(event));
+    this.svg.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") this.finish();
+      if (event.key === "Escape") this.choose([]);
+    });
+  }
+
+  resize(width: number, height: number): void {
+    if (width < 1 || height < 1) return;
+    this.size = [width, height];
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.fit();
+    this.draw();
+  }
+
+  set(picture: Picture): void {
+    const first = !Object.keys(this.picture.points).length;
+    this.picture = picture;
+    this.chosen = this.chosen.filter((name) => name in picture.points);
+    if (first || this.outside()) this.fit();
+    this.draw();
+  }
+
+  choose(names: string[]): void {
+    this.chosen = names;
+    this.draw();
+  }
+
+  private outside(): boolean {
+    return Object.values(this.picture.points).some((at) => {
+      const [x, y] = this.screen(at);
+      return x < 0 || y < 0 || x > this.size[0] || y > this.size[1];
+    });
+  }
+
+  private fit(): void {
+    const all = Object.values(this.picture.points), [w, h] = this.size;
+    const xs = all.map(([x]) => x), ys = all.map(([, y]) => y);
+    const box = all.length > 1 ? [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)] : [-0.1, 0.3, -0.1, 0.2];
+    const wide = Math.max(box[1] - box[0], 0.02), tall = Math.max(box[3] - box[2], 0.02);
+    this.scale = Math.min(w / (1.7 * wide), h / (1.7 * tall));
+    this.shift = [w / 2 - (this.scale * (box[0] + box[1])) / 2, h / 2 + (this.scale * (box[2] + box[3])) / 2];
+  }
+
+  /** Width of the grid, m. */
+  get grid(): number {
+    return STEPS.find((step) => step * this.scale >= 14) ?? 1;
+  }
+
+  screen([x, y]: Vec): Vec {
+    return [this.shift[0] + this.scale * x, this.shift[1] - this.scale * y];
+  }
+
+  private world([x, y]: Vec): Vec {
+    const snap = (value: number) => Math.round(value / this.grid) * this.grid;
+    return [snap((x - this.shift[0]) / this.scale), snap((this.shift[1] - y) / this.scale)];
+  }
+
+  private local(event: PointerEvent): Vec {
+    const box = this.svg.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  private near(at: Vec): string | null {
+    let best = SNAP, found: string | null = null;
+    const [u, v] = this.world(at);
+    for (const name in this.picture.points) {
+      const [a, b] = this.picture.points[name];
+      if (Math.hypot(a - u, b - v) < 1e-9) return name;
+      const [x, y] = this.screen(this.picture.points[name]), d = Math.hypot(x - at[0], y - at[1]);
+      if (d < best) [best, found] = [d, name];
+    }
+    return found;
+  }
+
+  /** The link nearest to a place of the screen. */
+  private link(at: Vec): string | null {
+    let best = SNAP, found: string | null = null;
+    for (const name in this.picture.links) {
+      const corners = this.picture.links[name].filter((point) => point in this.picture.points).map((point) => this.screen(this.picture.points[point]));
+      for (let k = 0; k < corners.length; k++) {
+        const d = distance(at, corners[k], corners[(k + 1) % corners.length]);
+        if (d < best) [best, found] = [d, name];
+      }
+    }
+    return found;
+  }
+
+  private linkOf(point: string): string | undefined {
+    return Object.keys(this.picture.links).find((name) => this.picture.links[name].includes(point));
+  }
+
+  private fresh(letters: boolean): string {
+    const known = new Set(Object.keys(this.picture.points));
+    if (letters) for (const each of LETTERS) if (!known.has(each)) return each;
+    for (let k = 1; ; k++) if (!known.has(`${letters ? "P" : "O"}${k}`)) return `${letters ? "P" : "O"}${k}`;
+  }
+
+  private down(event: PointerEvent): void {
+    const at = this.local(event), near = this.near(at);
+    this.svg.focus();
+    this.svg.setPointerCapture(event.pointerId);
+    switch (this.tool) {
+      case "select": this.dragged = near; return;
+      case "fixed": {
+        if (!near) this.add(this.fresh(false), this.world(at), true);
+        return;
+      }
+      case "link": return this.linkPoint(at, near);
+      case "driver": return this.drive(this.link(at));
+      case "mass": {
+        const link = this.link(at);
+        if (link) this.act([{ do: "mass", link, mass: this.value }]);
+        return;
+      }
+      case "load": {
+        const on = near && this.linkOf(near);
+        if (on) this.act([{ do: "load", link: on, at: near, force: this.value }]);
+        return;
+      }
+      case "guide": return this.slide(at, near);
+      case "remove": {
+        const link = near && !this.linkOf(near) ? null : this.link(at);
+        if (link) this.act([{ do: "remove", what: "link", name: link }]);
+        else if (near) this.act([{ do: "remove", what: "point", name: near }]);
+      }
+    }
+  }
+
+  private add(name: string, at: Vec, fixed: boolean): void {
+    this.picture.points[name] = at;
+    if (fixed) this.picture.fixed.push(name);
+    this.act([{ do: "point", name, at, fixed }]);
+    this.draw();
+  }
+
+  private linkPoint(at: Vec, near: string | null): void {
+    if (near && near === this.chosen[this.chosen.length - 1]) return this.finish();
+    const name = near ?? this.fresh(true);
+    if (!near) this.add(name, this.world(at), false);
+    this.choose([...this.chosen, name]);
+  }
+
+  private finish(): void {
+    if (this.tool === "link" && this.chosen.length > 1) {
+      const base = this.chosen.some((point) => this.picture.fixed.includes(point)) ? "arm" : "bar";
+      let k = 1;
+      while (`${base}${k}` in this.picture.links) k++;
+      this.picture.links[`${base}${k}`] = [...this.chosen];
+      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen }]);
+    }
+    this.choose([]);
+  }
+
+  private drive(link: string | null): void {
+    const about = link && this.picture.links[link].find((point) => this.picture.fixed.includes(point));
+    if (about) this.act([{ do: "driver", link, about }]);
+  }
+
+  private slide(at: Vec, near: string | null): void {
+    if (!this.chosen.length) {
+      if (near) this.choose([near]);
+      return;
+    }
+    const [point] = this.chosen, [x, y] = this.screen(this.picture.points[point]);
+    const angle = (Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI, step = fifteenth(angle);
+    let k = 1;
+    while (`slider${k}` in this.picture.links) k++;
+    this.picture.links[`slider${k}`] = [point];
+    this.act([
+      { do: "link", name: `slider${k}`, points: [point] },
+      { do: "guide", link: `slider${k}`, at: point, angle: step },
+    ]);
+    this.choose([]);
+  }
+
+  private moved(event: PointerEvent): void {
+    if (!this.dragged) return;
+    this.picture.points[this.dragged] = this.world(this.local(event));
+    this.draw();
+  }
+
+  private up(_event: PointerEvent): void {
+    if (!this.dragged) return;
+    const name = this.dragged;
+    this.dragged = null;
+    this.act([{ do: "point", name, at: this.picture.points[name], fixed: this.picture.fixed.includes(name) }]);
+  }
+
+  draw(): void {
+    const [w, h] = this.size, step = this.grid * this.scale;
+    let d = "";
+    for (let x = this.shift[0] % step; x < w; x += step) d += `M${x.toFixed(1)} 0V${h}`;
+    for (let y = this.shift[1] % step; y < h; y += step) d += `M0 ${y.toFixed(1)}H${w}`;
+    this.back.setAttribute("d", d);
+    this.front.replaceChildren();
+    const { points, links, fixed, driver, guided } = this.picture;
+    for (const name in links) {
+      const corners = links[name].filter((point) => point in points).map((point) => this.screen(points[point]));
+      const text = corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+      element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
+    }
+    for (const name in points) {
+      const [x, y] = this.screen(points[name]);
+      if (fixed.includes(name)) element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
+      if (guided.includes(name)) element("rect", { class: "lw-block", x: x - 14, y: y - 9, width: 28, height: 18 }, this.front);
+      element("circle", { class: `lw-pin${this.chosen.includes(name) ? " chosen" : ""}`, cx: x, cy: y, r: 5, "data-point": name }, this.front);
+      element("text", { class: "lw-name", x: x + 9, y: y - 8 }, this.front).textContent = name;
+    }
+    if (this.chosen.length > 1) {
+      const way = this.chosen.filter((name) => name in points).map((name) => this.screen(points[name]));
+      element("path", { class: "curve now", d: way.map(([x, y], k) => `${k ? "L" : "M"}${x} ${y}`).join("") }, this.front);
+    }
+  }
+}
+
+/** The nearest multiple of 15 degrees. */
+function fifteenth(angle: number): number {
+  return Math.round(angle / 15) * 15;
+}
+
+function distance(p: Vec, a: Vec, b: Vec): number {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]], square = dx * dx + dy * dy || 1;
+  const share = Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square));
+  return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
+}
