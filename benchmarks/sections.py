@@ -164,6 +164,28 @@ def objectives(size: Size) -> Section:
     return Section("Objectives through the public API", header, rows, goals, notes)
 
 
+def numbers(size: Size) -> Section:
+    """Design numbers of one machine and of many."""
+    from benchmarks import numbers as design_numbers
+
+    work = design_numbers.NumbersWork(size.gradients, size.steps)
+    rounds = in_turns(work.candidates(), size.rounds, size.slice_s)
+    header, rows = timings(rounds, HAND, "ms")
+    bounds = {
+        design_numbers.METRICS_OF: 50.0,
+        design_numbers.RUNNING: 40.0,
+        design_numbers.COMPARED: 150.0,
+    }
+    goals = [
+        Goal(f"{name} ÷ NumPy cycle of the six-bar by hand, time", rounds.ratio(name, HAND), bound, False)
+        for name, bound in bounds.items()
+    ]
+    ratio = rounds.ratio(design_numbers.PREPARED, design_numbers.UNLOADED)
+    goals.append(Goal("prepared crusher: with its load ÷ without, time", ratio, 1.5, False))
+    note = f"largest difference of numbers of many designs from one alone {work.disagreement():.1e}"
+    return Section("Design numbers of the six-bar crusher with its load", header, rows, goals, [note])
+
+
 def growing(size: Size) -> Section:
     """Every step from the model to the numbers, for chains of more and more dyads."""
     from benchmarks import growth
@@ -241,6 +263,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "w4-sixbar": lambda size: sweeps("sixbar", size),
     "gradient": gradients,
     "objective": objectives,
+    "numbers": numbers,
     "growth": growing,
     "cold": cold_start,
     "accuracy": accuracy,

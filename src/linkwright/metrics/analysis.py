@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.piecewise import POINTS, Piecewise, nodes
+from linkwright.core.piecewise import POINTS, Piecewise, largest, nodes
 from linkwright.core.search import lowest
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
@@ -56,6 +56,7 @@ class Analysis:
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._words: dict[str, None] = {}
+        self._met: tuple[tuple[str, ...], dict[tuple[str, Kind], Extreme]] = (), {}
         self._parts: dict[str, Extreme] = {}
 
     @classmethod
@@ -138,7 +139,8 @@ class Analysis:
             rows = solved.rows
             if name not in rows.index and name not in rows.extra:
                 kept.setdefault(name)
-                missing = [each for each in kept if each not in rows.extra]
+                together = isinstance(solved, Forces) or self.forces is None
+                missing = [each for each in kept if each not in rows.extra] if together else [name]
                 rows.fetch(tuple(missing), lambda names: self._read(names, solved))
             return rows.extra[name]
 
@@ -172,8 +174,8 @@ class Analysis:
         if kind == "excess":
             return replace(nothing, value=self._excess(signal))
         if kind in ("max", "min"):
-            return self._extreme(signal, kind) or replace(nothing, exact=False)
-        high, low = self._extreme(signal, "max"), self._extreme(signal, "min")
+            return self._extreme(summary.output, kind) or replace(nothing, exact=False)
+        high, low = self._extreme(summary.output, "max"), self._extreme(summary.output, "min")
         if high is None or low is None:
             return replace(nothing, exact=False)
         if kind == "range":
@@ -194,11 +196,38 @@ class Analysis:
         energy = Piecewise(curve.edges, work(nodes(curve.edges).ravel()).reshape(-1, POINTS))
         return float(abs(self.input_rate[0])) * (energy.extreme("max").value - energy.extreme("min").value)
 
-    def _extreme(self, signal: Callable[[Motion | Forces], Floats], kind: str) -> Extreme | None:
+    def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
-        if self.forces is None:
-            return self.extreme(signal, side)
-        return self.extreme(signal, side, of="forces")
+        known = self._together.get((words_name(output), side))
+        if known is not None:
+            return known
+        signal = self.signal(output)
+        return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
+
+    @property
+    def _together(self) -> dict[tuple[str, Kind], Extreme]:
+        """Extremes of all outputs that were asked for, found at once, where polynomials meet them."""
+        if len(self._met[0]) != len(self._words):
+            self._met = tuple(self._words), self._extremes(tuple(self._words))
+        return self._met[1]
+
+    def _extremes(self, names: tuple[str, ...]) -> dict[tuple[str, Kind], Extreme]:
+        grid = self.grid
+        if grid is None:
+            return {}
+        solved = grid.motion if self.forces is None else grid.forces
+        rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
+        values = rows.reshape(len(names), -1, POINTS).swapaxes(1, 2)
+        bound = grid.tolerance * np.abs(values).max(axis=(1, 2))
+        found: dict[tuple[str, Kind], Extreme] = {}
+        kinds: tuple[tuple[Kind, float], ...] = (("max", 1.0), ("min", -1.0))
+        for kind, sign in kinds:
+            piece, place, top, rough = largest(sign * values, (sign * values).max(axis=1))
+            time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
+            for k in np.flatnonzero(rough <= bound):
+                at = float(time[k])
+                found[names[k], kind] = Extreme(sign * float(top[k]), at, self.resolver.input_at(at), True)
+        return found
 
     def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""

@@ -64,10 +64,15 @@ class CycleGrid:
         """Ends of the pieces, s."""
         return self._solved[0]
 
+    @property
+    def tolerance(self) -> float:
+        """Share of a signal's size to which polynomials meet it."""
+        return max(SMOOTH, 8.0 * self._solved[2])
+
     def curve(self, signal: Callable[[Any], Floats], of: str, *, halve: bool = False) -> Piecewise:
         """A signal of the motion, or of the forces, over the time; ``halve``: where it kinks of itself, too."""
         values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
-        pieces, tolerance = values.reshape(-1, POINTS), max(SMOOTH, 8.0 * self._solved[2])
+        pieces, tolerance = values.reshape(-1, POINTS), self.tolerance
         found = Piecewise(self.edges, pieces, tolerance=tolerance)
         if not halve or found.smooth.all():
             return found

@@ -32,9 +32,12 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     asked = None if names is None else [names] if isinstance(names, str) else list(names)
     rows: list[MetricValue] = []
     skipped: list[str] = []
-    for name in _usual() if asked is None else dict.fromkeys(asked):
-        metric = METRICS[name]()
-        if metric.applies(analysis):
+    chosen = {name: METRICS[name]() for name in (_usual() if asked is None else asked)}
+    applying = {name for name, metric in chosen.items() if metric.applies(analysis)}
+    for name in applying:
+        analysis.ask(part for number in chosen[name].numbers(analysis) for part in number.parts)
+    for name, metric in chosen.items():
+        if name in applying:
             rows += metric.evaluate(analysis)
         elif asked is None:
             skipped.append(name)
