@@ -270,6 +270,11 @@ def test_a_killed_server_loses_nothing(tmp_path: Path) -> None:
             1
         ]
         assert saved["saved"]
+        new = {"name": asked(studio, "open", {})[1]["name"], "text": "x: 1", "window": "w", "serial": 0}
+        asked(studio, "keep", new)
+        again = asked(studio, "open", {})[1]
+        assert (again["name"], again["text"], again["recovered"]) == ("machine.yaml", "x: 1", True)
+        assert asked(studio, "open", {"fresh": True})[1]["name"] == "machine2.yaml"
         (tmp_path / "a.yaml").write_text("format: 1\nname: from outside\n")
         again = asked(studio, "save", {"name": "a.yaml", "text": "x: 1", "version": saved["version"]})[1]
         assert not again["saved"]

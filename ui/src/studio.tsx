@@ -159,15 +159,15 @@ class Desk {
     void this.keep();
   }
 
-  async open(asked: { name?: string; gallery?: string }): Promise<void> {
-    const opened = await this.ask<{ text: string; version?: string; serial?: number; recovered?: boolean }>("open", asked);
+  async open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+    const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
     if (!opened) return;
-    this.name.value = asked.name ?? "";
-    [this.version, this.serial, this.past, this.future] = [opened.version ?? "", opened.serial ?? 0, [], []];
+    this.name.value = opened.name;
+    [this.version, this.serial, this.past, this.future] = [opened.version, opened.serial, [], []];
     this.elsewhere.value = null;
     this.onDisk.value = "";
     this.text.value = opened.text;
-    this.dirty.value = Boolean(opened.recovered);
+    this.dirty.value = opened.recovered;
     if (opened.recovered) this.page.note.value = this.say("recovered");
     this.clear();
     await this.solve();
@@ -327,7 +327,7 @@ function Bar({ desk }: { desk: Desk }) {
   );
   return (
     <div class="common">
-      <button onClick={() => void desk.open({})}>{desk.say("new")}</button>
+      <button onClick={() => void desk.open({ fresh: true })}>{desk.say("new")}</button>
       {pick(desk.say("open"), lists.files, (file) => void desk.open({ name: file }))}
       {pick(desk.say("gallery"), lists.gallery, (gallery) => void desk.open({ gallery }))}
       <input value={name} placeholder="machine.yaml" aria-label={desk.say("name")} onInput={(event) => setName(event.currentTarget.value)} />

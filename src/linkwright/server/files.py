@@ -60,6 +60,27 @@ class Files:
         shown = draft["text"] if draft is not None and recovered else text
         return {"name": name, "text": shown, "version": version, "serial": serial, "recovered": recovered}
 
+    def fresh(self, stem: str) -> str:
+        """A name that no file and no draft has."""
+        place = 1
+        while True:
+            name = f"{stem}{place if place > 1 else ''}.yaml"
+            if not (self.folder / name).exists() and self._draft(name) is None:
+                return name
+            place += 1
+
+    def unsaved(self) -> str | None:
+        """The name of the newest draft that was never saved as a file."""
+        drafts = (self.folder / _DRAFTS).glob("*.json")
+        for path in sorted(drafts, key=lambda each: each.stat().st_mtime, reverse=True):
+            try:
+                name = json.loads(path.read_bytes())["name"]
+                if not self.path(name).exists():
+                    return str(name)
+            except (OSError, ValueError, KeyError, TypeError, LinkwrightError):
+                continue
+        return None
+
     def keep(self, name: str, text: str, window: str, serial: int) -> Plain:
         """Keeps a draft; where another window has kept one since ``serial``, its text instead (``other``)."""
         _small(text)

@@ -37,11 +37,17 @@ class Work:
         }
 
     def _open(self, asked: Plain) -> Plain:
+        """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
         if asked.get("gallery"):
-            return {"text": read_source(f"gallery:{_text(asked, 'gallery')}")[0]}
-        if not asked.get("name"):
-            return {"text": NEW}
-        return self.files.open(_text(asked, "name"))
+            name = _text(asked, "gallery")
+            text = read_source(f"gallery:{name}")[0]
+            return {**self.files.open(self.files.fresh(name)), "text": text}
+        if asked.get("name"):
+            return self.files.open(_text(asked, "name"))
+        unsaved = None if asked.get("fresh") else self.files.unsaved()
+        if unsaved is not None:
+            return self.files.open(unsaved)
+        return {**self.files.open(self.files.fresh("machine")), "text": NEW}
 
     def _solve(self, asked: Plain) -> Plain:
         """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
