@@ -175,3 +175,34 @@ def test_errata_of_the_file_stand_in_the_report() -> None:
     found = report("gallery:swing_conveyor", sections=["errata"])
     (table,) = [b for b in found.document.blocks if isinstance(b, Table)]
     assert any("-0.269782°" in plain(cell) for row in table.rows for cell in row)
+
+
+GEARED = """
+format: 1
+name: Geared five-bar
+frame: {points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm]}}
+links:
+  a: {points: [O1, A], length: 60 mm}
+  b: {points: [O2, B], length: 70 mm}
+  c: {points: [A, C], length: 180 mm, mass: 1 kg, inertia: 0.003 kg·m²}
+  d: {points: [B, C], length: 170 mm, mass: 1 kg, inertia: 0.003 kg·m²}
+joints:
+  mesh: {kind: gear, links: [a, b], radii: [100 mm, 100 mm], phase: 40 deg}
+assembly: {C: left}
+driver: {turn: a, about: O1, speed: 60 rpm}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+def test_gears_appear_with_their_own_formulas_and_no_vector_loop() -> None:
+    found = report(lw.loads(GEARED), sections=["structure", "method"])
+    assert not found.missing
+    sides = [" = ".join(b.sides) for b in found.document.blocks if isinstance(b, Formula)]
+    assert sum("overrightarrow" in each for each in sides) == 1  # the dyad's loop alone
+    assert any("omega_{2}" in each and "omega_{1}" in each and "overrightarrow" not in each for each in sides)
+
+
+def test_columns_of_pages_are_aligned_and_the_title_is_there() -> None:
+    page = report("gallery:crank_rocker", sections=["task"]).content(".html").decode()
+    assert "<h1" in page and 'class="by-lrr"' in page
+    assert ".by-lrr :is(td,th):nth-child(2){text-align:right}" in page

@@ -7,9 +7,14 @@ from linkwright.structure.group import Group
 from linkwright.worked.book import Book, tex
 from linkwright.worked.chains import Chain, closures
 
+#: Joints whose closure is a sum of vectors; that of others, such as gears, stands among the formulas.
+VECTORS = ("revolute", "prismatic")
+
 
 def loops(case: Case, group: Group) -> list[tuple[str, str]]:
     """Left and right side of every loop, LaTeX; for the cut at a guide the component across it."""
+    if any(cut.kind not in VECTORS for cut in group.cuts):
+        return []
     book = Book(*case.worked_motion, case.say)
     found = []
     for closure in closures(book, group):

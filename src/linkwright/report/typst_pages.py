@@ -66,10 +66,15 @@ _HEAD = """\
   stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
   inset: (x: 4.5pt, y: 3pt))
 #let lw-is-html = sys.inputs.form == "html"
-#let lw-table(columns, align, head, ..cells) = {{
+#let lw-title(body) = if lw-is-html {{ html.elem("h1", attrs: (class: "title"))[#body] }} else {{
+  align(center, text(19pt, weight: "bold", body)) }}
+#let lw-under(body) = if lw-is-html {{ html.elem("p", attrs: (class: "under"))[#body] }} else {{
+  align(center, body) }}
+#let lw-table(columns, align, kind, head, ..cells) = {{
   set text(8.8pt)
   set par(justify: false)
-  if lw-is-html {{ table(columns: columns.len(), table.header(..head), ..cells) }} else {{
+  if lw-is-html {{ html.elem("div", attrs: (class: kind))[#table(
+    columns: columns.len(), table.header(..head), ..cells)] }} else {{
     table(columns: columns, align: align, table.header(..head), ..cells, table.hline(stroke: 0.9pt)) }}
 }}
 #let lw-row(body, number) = block(width: 100%, above: 0.6em, below: 0.6em, breakable: false,
@@ -103,11 +108,12 @@ _HEAD = """\
 _STYLE = """\
 <style>body{font:16px/1.55 "Noto Serif","Libertinus Serif","DejaVu Serif","Noto Serif CJK SC","Songti SC",serif;\
 max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}table{border-collapse:collapse;\
-font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:right}th{border-top:2px solid;\
-border-bottom:1px solid}td:first-child,th:first-child{text-align:left}tbody tr:last-child td{border-bottom:2px solid}\
+font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:left}th{border-top:2px solid;\
+border-bottom:1px solid}.title,.under{text-align:center}tbody tr:last-child td{border-bottom:2px solid}\
 figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
 !important}figcaption{font-size:.9rem;margin:.4rem}.formula{display:flex;justify-content:space-between;align-items:\
-center;margin:.35rem 0 .35rem 1.2rem;overflow-x:auto}.note{background:#f4f4f4;border-left:3px solid #c8501e;\
+center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
+.note{background:#f4f4f4;border-left:3px solid #c8501e;\
 padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
 underline}@media print{figure{break-inside:avoid}}</style>"""
 
@@ -133,11 +139,25 @@ def compiled(document: Document, form: str) -> bytes:
     if said:
         raise LinkwrightError(Sentence("report.typst_says", sentence="; ".join(dict.fromkeys(said))))
     assert isinstance(found, bytes)
-    return found if form == "pdf" else _styled(found)
+    return found if form == "pdf" else _styled(found, document)
 
 
-def _styled(page: bytes) -> bytes:
-    return page.replace(b"</head>", _STYLE.encode() + b"</head>", 1)
+def _styled(page: bytes, document: Document) -> bytes:
+    """The page with its style, and a rule for every way in which columns of its tables are aligned."""
+    marks = {table.align or "<" * len(table.head) for table in document.blocks if isinstance(table, Table)}
+    rules = [
+        f".{aligned_by(each)} :is(td,th):nth-child({i}){{text-align:{'right' if mark == '>' else 'center'}}}"
+        for each in sorted(marks)
+        for i, mark in enumerate(each, 1)
+        if mark != "<"
+    ]
+    style = f"{_STYLE}<style>{''.join(rules)}</style>"
+    return page.replace(b"</head>", style.encode() + b"</head>", 1)
+
+
+def aligned_by(marks: str) -> str:
+    """The class of tables with these columns."""
+    return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
 @lru_cache(maxsize=1)
@@ -174,8 +194,8 @@ class _Writer:
             mathematics=_listed((MATHEMATICS, *families)),
             language=quoted(document.language),
         )
-        title = f'#align(center)[#text(19pt, weight: "bold")[{_words(document.title)}]]\n'
-        under = "".join(f"#align(center)[{_words(line)}]\n" for line in document.lines)
+        title = f"#lw-title[{_words(document.title)}]\n"
+        under = "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
         contents = (
             ""
             if not document.contents
@@ -229,8 +249,9 @@ class _Writer:
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
         parted = "#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
         return (
-            f"{parted}#figure(lw-table(({columns},), ({sides},), ({head},), {cells}), kind: table, numbering: none, "
-            f"supplement: none, caption: {self._caption(index, table.caption)}) <{_place(index)}>]\n"
+            f"{parted}#figure(lw-table(({columns},), ({sides},), {quoted(aligned_by(marks))}, ({head},), {cells}), "
+            "kind: table, numbering: none, supplement: none, "
+            f"caption: {self._caption(index, table.caption)}) <{_place(index)}>]\n"
         )
 
     def _figure(self, index: int, figure: Figure) -> str:
