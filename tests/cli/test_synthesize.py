@@ -100,3 +100,13 @@ def test_the_task_of_the_gallery_is_checked_listed_and_solved(capsys: pytest.Cap
     assert main(["synthesize", f"gallery:{name}", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["candidates"][0]["error"] == pytest.approx(2.7108919e-7, rel=1e-7)
+
+
+def test_a_demand_of_the_wrong_form_is_said_in_chinese(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "task.yaml"
+    path.write_text(TASK.replace("4\n", "[1, 2]\n").replace("40 mm", "{a: 1}"), encoding="utf-8")
+    assert main(["check", str(path), "--lang", "zh"]) == 1
+    said = capsys.readouterr().out
+    assert "列表" in said and "映射" in said and "list" not in said and "mapping" not in said

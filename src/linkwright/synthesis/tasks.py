@@ -232,9 +232,8 @@ class _Reader:
         return node.text == "true" if form == "flag" else node.text
 
     def _wrong(self, node: Node, key: str, form: str) -> None:
-        given = (
-            node.text if isinstance(node, Scalar) else "a list" if isinstance(node, Sequence) else "a mapping"
-        )
+        kind = "model.a_list" if isinstance(node, Sequence) else "model.a_mapping"
+        given = node.text if isinstance(node, Scalar) else Sentence(kind)
         self.add(node, f"synthesis.{key}", note("task.value", demand=key, form=_form(form), given=given))
 
 
