@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.errors import LinkwrightError
 from linkwright.export.base import FORMATS
 from linkwright.export.results import Results
 from linkwright.model.expressions import parse
@@ -21,10 +22,19 @@ def results(request: pytest.FixtureRequest) -> Results:
     return Results.of(lw.load(f"gallery:{request.param}"), 24)
 
 
+def has_cams(results: Results) -> bool:
+    """Whether the model has a joint that MuJoCo's and Modelica's texts do not carry."""
+    return any(joint.kind == "cam" for joint in results.mechanism.joints.values())
+
+
 @pytest.mark.parametrize("form", [name for name in FORMATS if name not in ("png", "pdf")])
 def test_every_model_has_content_in_every_format(results: Results, form: str) -> None:
     if form in NEEDS:
         pytest.importorskip(NEEDS[form])
+    if form in ("mjcf", "modelica") and has_cams(results):
+        with pytest.raises(LinkwrightError, match="lift of a cam is no sum"):
+            FORMATS[form].content(results)
+        return
     assert len(FORMATS[form].content(results)) > 500
 
 
@@ -37,6 +47,8 @@ def test_dxf_passes_the_audit(results: Results, tmp_path: Path) -> None:
 
 
 def test_mujoco_starts_closed_at_our_places(results: Results) -> None:
+    if has_cams(results):
+        pytest.skip("a cam is not carried, and said so")
     mujoco = pytest.importorskip("mujoco")
     model = mujoco.MjModel.from_xml_string(FORMATS["mjcf"].content(results).decode())
     data = mujoco.MjData(model)
@@ -55,6 +67,8 @@ def test_mujoco_starts_closed_at_our_places(results: Results) -> None:
 
 
 def test_modelica_equations_hold_and_are_as_many_as_unknowns(results: Results) -> None:
+    if has_cams(results):
+        pytest.skip("a cam is not carried, and said so")
     text = FORMATS["modelica"].content(results, form="positions").decode()
     head, body = text.split("\nequation\n")
     unknowns = re.findall(r"^  Real (\w+)\(", head, re.MULTILINE)
@@ -72,6 +86,8 @@ def test_modelica_equations_hold_and_are_as_many_as_unknowns(results: Results) -
 
 
 def test_modelica_moves_as_the_mechanism_does(results: Results) -> None:
+    if has_cams(results):
+        pytest.skip("a cam is not carried, and said so")
     rumoca = pytest.importorskip("rumoca")
     text = FORMATS["modelica"].content(results, name="Machine").decode()
     begin, end = (float(re.findall(rf"{word}=([^,]+),", text)[0]) for word in ("StartTime", "StopTime"))

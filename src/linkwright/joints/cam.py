@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
-from linkwright.joints.base import JOINTS, Cut, Joint, carried_steadily
+from linkwright.joints.base import JOINTS, Cut, Joint, LackingError, carried_steadily
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.laws.program_fields import ProgramField
 from linkwright.model.fields import Field, Quantity, Word
@@ -252,7 +252,7 @@ class CamJoint(Joint):
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
         """A lift gains nothing over whole turns of the cam; where it is within one no sum of rotations says."""
         if not build.gains:
-            raise self.lacks("close_loop")
+            raise LackingError(Sentence("joints.cam_sums"))
         if self.side:
             build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
         else:
@@ -268,6 +268,9 @@ class CamJoint(Joint):
             way = forces.guide_direction(self.holder) * (1.0 if guide.joined[1] == self.follower else -1.0)
             push = (forces.reaction(self.name, on=self.follower) * way).sum(axis=1)
         return push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
+
+    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+        raise LackingError(Sentence("joints.cam_sums"))
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import lcm
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kinematics.closed_loops import Floats, LoopBuilder
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.group import Structure
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.solver import MotionSolver
 
 #: Cycles of more turns are not looked for.
 MOST = 1000
@@ -25,12 +30,19 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
     from linkwright.kinematics.rank import analysed
 
     structure = analysed(mechanism)
-    gained = _gained(mechanism, structure, duration)
-    if gained is None:
+    first = _gained(mechanism, structure, duration, driven_only=True)
+    ahead = None if first is None else _count(first[0])
+    if ahead is None:
         return None
-    turns, slides = gained
-    if np.abs(slides).max(initial=0.0) > WHOLE:
+    gained = _gained(mechanism, structure, ahead * duration)
+    if gained is None or np.abs(gained[1]).max(initial=0.0) > WHOLE:
         return None
+    count = _count(gained[0])
+    return None if count is None or ahead * count > MOST else ahead * count
+
+
+def _count(turns: Floats) -> int | None:
+    """After how many times all of these turns (of one time each) are whole."""
     count = 1
     for turn in turns:
         part = Fraction(float(turn)).limit_denominator(MOST)
@@ -40,8 +52,13 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
     return count
 
 
-def _gained(mechanism: Mechanism, structure: Structure, duration: float) -> tuple[Floats, Floats] | None:
-    """By how many turns every link turns, and by how many metres wheels move slides, while the drivers come back."""
+def _gained(
+    mechanism: Mechanism, structure: Structure, duration: float, *, driven_only: bool = False
+) -> tuple[Floats, Floats] | None:
+    """By how many turns every link turns, and by how many metres wheels move slides, while the drivers come back.
+
+    ``driven_only``: of links that follow the drivers through wheels alone, and no slides.
+    """
     build = LoopBuilder(mechanism, gains=True)
     for group in structure.groups:
         build.add(group)
@@ -61,6 +78,9 @@ def _gained(mechanism: Mechanism, structure: Structure, duration: float) -> tupl
         for unknown, turns in build.rotations
     ]
     slides = [row({key: 1.0}) for key in sums if key[0] == "slide"]
+    if driven_only:
+        free = len(unknowns)
+        rotations, slides = [each for each in rotations if not each[:free].any()], []
     change = _change(mechanism, unknowns, rotations, slides, duration)
     if change is None:
         return None
@@ -88,6 +108,8 @@ def _change(
     from linkwright.kinematics.solver import MotionSolver
 
     solver = MotionSolver(mechanism)
+    if any(joint.kind == "cam" for joint in mechanism.joints.values()):
+        return _by_places(solver, unknowns, wanted, gained, duration)
     followed = solver.follow(at_times(mechanism, [0.0, duration]))
     if followed is None or not np.isfinite(followed.coordinates).all():
         return None
@@ -97,4 +119,29 @@ def _change(
     for i in wanted:
         if unknowns[i] in known:
             gained[i] = float(np.diff(known[unknowns[i]])[0])
+    return gained
+
+
+def _by_places(
+    solver: MotionSolver,
+    unknowns: list[tuple[str, str]],
+    wanted: NDArray[np.intp],
+    gained: Floats,
+    duration: float,
+) -> Floats | None:
+    """The same from the places of slides at both times, where rotations cannot be followed; None for rotations."""
+    from linkwright.kinematics.cycle import at_times
+    from linkwright.kinematics.solve import MotionRun
+
+    names = [unknowns[i][1] for i in wanted if unknowns[i][0] == "slide"]
+    if len(names) < len(wanted):
+        return None
+    outputs = tuple(f"{kind}:{name}" for name in names for kind in ("s", "sv", "sa"))
+    motion = MotionRun(solver, at_times(solver.mechanism, [0.0, duration])).solve(
+        "mark", (*outputs, "outcome")
+    )
+    if not motion.ok.all():
+        return None
+    for i, name in zip(wanted, names, strict=True):
+        gained[i] = float(np.diff(motion.joint(name).displacement)[0])
     return gained

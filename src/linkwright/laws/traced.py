@@ -119,6 +119,7 @@ class LiftCurve:
             return [a if a is b or a == b else select(below, a, b) for a, b in zip(left, right, strict=True)]
 
         slope, start, *row = chosen(0, len(low))
+        row += [0.0] * (3 - len(row))
         t = slope * x + start
         first: list[Scalar] = [float(k) * row[k] for k in range(1, len(row))]
         second: list[Scalar] = [float(k) * first[k] for k in range(1, len(first))]

@@ -34,6 +34,7 @@ WORDS = {
     "planetary_two_inputs": "Planetary train with two inputs",
     "press_double_crank": "Double crank of a printing press's cylinder drive",
     "rack_and_rocker": "Rack driven by a rocker",
+    "printing_press": "Flat-bed printing press, motor to bed and cylinder",
     "scotch_yoke": "Scotch yoke",
     "shaper_quick_return": "Shaper with crank and slotted lever",
     "slider_crank_inline": "Slider-crank, in line",

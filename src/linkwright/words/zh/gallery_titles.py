@@ -34,6 +34,7 @@ WORDS = {
     "planetary_two_inputs": "双输入行星轮系",
     "press_double_crank": "印刷机滚筒传动的双曲柄机构",
     "rack_and_rocker": "摇杆驱动的齿条",
+    "printing_press": "平台印刷机：从电机到版台与压印滚筒",
     "scotch_yoke": "正弦机构",
     "shaper_quick_return": "带曲柄摆动导杆的牛头刨床",
     "slider_crank_inline": "对心曲柄滑块机构",

@@ -47,4 +47,6 @@ WORDS = {
     "cam_guide_remedy": "请在二者之间加移动副；摆动从动件请说明摆杆在哪一侧：side: left",
     "cam_reach": "从动件达不到基圆",
     "cam_reach_remedy": "请加大基圆，或使从动件与凸轮靠近",
+    "cam_sums": "凸轮的升程不是转角与位移之和，而此处只能表达这种和："
+    "导出 MuJoCo 和 Modelica，以及凸轮之后没有闭式解的杆组，只支持齿轮、齿条和带",
 }
