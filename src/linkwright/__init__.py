@@ -65,6 +65,8 @@ if TYPE_CHECKING:
     from linkwright.optimisation.optimize import optimize as optimize
     from linkwright.optimisation.optimum import OptimizeError as OptimizeError
     from linkwright.optimisation.optimum import Optimum as Optimum
+    from linkwright.page.living import LivingPage as LivingPage
+    from linkwright.page.living import living_page as living_page
     from linkwright.plot.animation import Animation as Animation
     from linkwright.plot.animation import animate as animate
     from linkwright.plot.diagrams.diagram_by_name import plot as plot
@@ -140,6 +142,7 @@ PUBLIC = {
     "linkwright.model.schema": ("json_schema",),
     "linkwright.optimisation.optimize": ("optimize",),
     "linkwright.optimisation.optimum": ("OptimizeError", "Optimum"),
+    "linkwright.page.living": ("LivingPage", "living_page"),
     "linkwright.plot.animation": ("Animation", "animate"),
     "linkwright.plot.diagrams.diagram_by_name": ("plot",),
     "linkwright.plot.diagrams.picture": ("Diagram",),

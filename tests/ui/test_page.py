@@ -356,3 +356,15 @@ joints:
 drawing: {B: [0 mm, 50 mm], D: [200 mm, 50 mm], C: [100 mm, 199.66629547095765 mm]}
 driver: {turn: first, about: A, speed: 60 rpm}
 """
+
+
+def test_notebooks_show_the_page_in_a_frame(opened: Opened, tmp_path: Path) -> None:
+    """What a notebook puts on its own page: the machine is drawn inside, with scripts of its own only."""
+    shown = lw.living_page(lw.read_document("gallery:crank_rocker"), lw.load("gallery:kite"), steps=36)
+    host = tmp_path / "notebook.html"
+    host.write_text(f"<!doctype html><title>n</title>{shown._repr_html_()}", encoding="utf-8")
+    opened.tab.goto(host.as_uri())
+    opened.tab.frame_locator("iframe").locator(".handle").first.wait_for(state="attached")
+    assert opened.tab.frame_locator("iframe").locator("svg.machine").count() == 2
+    assert opened.errors == []
+    assert shown.save(tmp_path / "saved.html").read_text(encoding="utf-8") == shown.html

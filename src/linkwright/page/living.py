@@ -1,0 +1,56 @@
+"""The living page as an object: notebooks show it, files keep it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+
+from linkwright.kinematics.solve import solve_motion
+from linkwright.model.document import Document
+from linkwright.model.mechanism import Mechanism
+from linkwright.page.content import page
+from linkwright.whole_files import write_whole
+
+
+@dataclass(frozen=True)
+class LivingPage:
+    """A living page: ``html`` is the whole file. Notebooks show it in a frame of its own, ``height`` pixels tall."""
+
+    html: str
+    height: int = 720
+
+    def save(self, path: str | Path) -> Path:
+        """Writes the file, whole or not at all; raises LinkwrightError where it cannot be written."""
+        return write_whole(path, self.html.encode())
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{escape(self.html)}" sandbox="allow-scripts allow-downloads" '
+            f'style="width:100%;height:{self.height}px;border:0"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"LivingPage({len(self.html)} characters)"
+
+
+def living_page(
+    machine: Mechanism | Document, *beside: Mechanism | Document, steps: int = 360, language: str = "en"
+) -> LivingPage:
+    """The living page of a machine, with others beside it for comparison.
+
+    Args:
+        machine: a mechanism, or a document, whose text the page gives back with the changed numbers.
+        *beside: further ones on the same page.
+        steps: positions over the cycle.
+        language: ``en`` or ``zh``, in which it opens.
+
+    Raises:
+        PositionError: a position of a cycle cannot be reached.
+        StructureError, AssemblyError, CycleError: as :func:`linkwright.solve_motion`.
+    """
+    models = []
+    for each in (machine, *beside):
+        mechanism, text = (each, None) if isinstance(each, Mechanism) else (each.mechanism, each.text)
+        models.append((solve_motion(mechanism, steps=steps), text))
+    return LivingPage(page(models, language))
