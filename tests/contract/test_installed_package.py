@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import linkwright
 
 ROOT = Path(__file__).parents[2]
@@ -42,9 +44,10 @@ pin_in_slot = slots:PinInSlot
 wind = slots:Wind
 [linkwright.drivers]
 settling = slots:Settling
-[linkwright.metrics]
+LEVER[linkwright.metrics]
 mean_torque = slots:MeanTorque
 """
+LEVER = "[linkwright.groups]\nslotted_lever = slots:SlottedLever\n"
 #: A slotted lever driven by a crank's pin, once with the kind of the package, once with a massless block and a guide.
 PROGRAM = r'''
 import sys, numpy as np, linkwright as lw
@@ -68,6 +71,8 @@ loads: {gust: {kind: wind, on: lever, at: E, size: 20 N}}
 own = MODEL.replace("BLOCK", "").replace("JOINT", "kind: pin_in_slot").replace("REST", "block: crank, at: A")
 own = own.replace("DRAWN", "drawing: {A: [0.1 m, 0 m], E: [0.18973665961010275 m, 0.2692099788303083 m]}")
 own = own.replace("points: [O, A], length", "points: [O, A], length")
+if sys.argv[1] == "closed":
+    own = own.split("drawing:")[0] + "driver:" + own.split("driver:")[1]
 known = MODEL.replace("BLOCK", "  block: {points: [A]}").replace("JOINT", "kind: prismatic, direction: 0 deg")
 known = known.replace("REST", "block: block, at: A").replace("DRAWN", "assembly: {slot: forward}")
 mechanism = lw.loads(own)
@@ -80,6 +85,7 @@ assert np.abs(found.input_torque - expected.input_torque).max() < 1e-9
 assert np.abs(found.reaction("Q", on="lever") - expected.reaction("Q", on="lever")).max() < 1e-8
 assert found.balance_residual.max() < 1e-9
 structure = lw.structure(mechanism)
+assert (found.motion.followed is None) == (sys.argv[1] == "closed")
 assert (structure.mobility, [g.signature for g in structure.groups]) == (1, ["R", "RS"])
 assert "pin_in_slot" in str(json_schema()["properties"]["joints"])
 assert lw.loads(dump(mechanism)).joints == mechanism.joints
@@ -113,17 +119,19 @@ print("all is well")
 '''
 
 
-def test_an_installed_package_of_elements(tmp_path: Path) -> None:
+@pytest.mark.parametrize("way", ["closed", "followed"])
+def test_an_installed_package_of_elements(tmp_path: Path, way: str) -> None:
+    """With and without a closed form for the group of the package's joint."""
     (code,) = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     (tmp_path / "slots.py").write_text(code + LAW, "utf-8")
     info = tmp_path / "slots-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: slots\nVersion: 1.0\n", "utf-8")
-    (info / "entry_points.txt").write_text(POINTS, "utf-8")
+    (info / "entry_points.txt").write_text(POINTS.replace("LEVER", LEVER if way == "closed" else ""), "utf-8")
     source = str(Path(linkwright.__file__).parents[1])
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([source, str(tmp_path)])}
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM],
+        [sys.executable, "-c", PROGRAM, way],
         capture_output=True,
         text=True,
         cwd=tmp_path,

@@ -11,13 +11,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor
 from linkwright.registry import Registry
 from linkwright.units import number
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.groups import GroupTracer
+    from linkwright.structure.group import Group
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,30 @@ class Dyad(Protocol):
 
     def explain(self, facts: Mapping[str, float]) -> str:
         """Why the group cannot be assembled, from the facts at that position; a ``Sentence`` has other languages."""
+        ...
+
+
+class WholeGroup(Protocol):
+    """A closed form for a group of any size: it says which groups it fits, and places all their unknowns at once.
+
+    Registered beside the dyads; it has one assembly mode, so ``words`` are empty. ``place`` gives a :class:`Solved`
+    whose coordinates stand in the order of ``group.unknowns``; the tracer knows the poses of links solved before, and
+    the traced dimensions.
+    """
+
+    signature: str
+    words: tuple[str, str]
+
+    def fits(self, group: Group) -> bool:
+        """Whether this is the closed form of a group."""
+        ...
+
+    def place(self, tracer: GroupTracer, group: Group) -> Solved:
+        """The unknowns, what stands under the root (negative out of reach), and facts for ``explain``."""
+        ...
+
+    def explain(self, facts: Mapping[str, float]) -> str:
+        """Why the group cannot be assembled."""
         ...
 
 

@@ -6,7 +6,7 @@ Newton's method places has no turns of its own: its angle is the one nearest to 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from linkwright.engine.trace import Scalar, angle, nearest_turn
 from linkwright.joints.pose import Pose
@@ -24,8 +24,11 @@ def geared(group: Group) -> bool:
     return any(cut.higher for cut in group.cuts)
 
 
-def counted_links(groups: Iterable[Group], touched: Mapping[str, tuple[str, ...]]) -> list[str]:
-    """Links placed without turns whose turns a later pair needs; ``touched``: links that a pair's rows turn."""
+def counted_links(
+    groups: Iterable[Group], touched: Mapping[str, tuple[str, ...]], adds_up: Callable[[Group], bool]
+) -> list[str]:
+    """Links placed without turns whose turns a later pair needs; ``touched``: links that a pair's rows turn;
+    ``adds_up``: whether a group has its rotations as angles with turns."""
     steps = {step.child: (group, step) for group in groups for step in group.tree}
     found: dict[str, None] = {}
     for group in groups:
@@ -34,7 +37,7 @@ def counted_links(groups: Iterable[Group], touched: Mapping[str, tuple[str, ...]
                 while link in steps:
                     owner, step = steps[link]
                     if step.free and step.turns:
-                        if not geared(owner):
+                        if not adds_up(owner):
                             found[link] = None
                         break
                     link = step.parent
@@ -61,9 +64,9 @@ class Angles:
         """Whether the mechanism has pairs that count turns, and those of a link are known."""
         if not self._pairs or link not in self._steps:
             return False
-        group, step = self._steps[link]
+        _, step = self._steps[link]
         if step.free and step.turns:
-            return geared(group) or link in self._known
+            return link in self._known
         return step.parent == "frame" or self.counts(step.parent)
 
     def give(self, link: str, value: Scalar) -> None:

@@ -13,7 +13,7 @@ from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.closed_loops import counted
-from linkwright.kinematics.groups import dyad_shape, in_one_step, state_name
+from linkwright.kinematics.groups import closed_form, dyad_shape, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.model.drawing import Drawing
 from linkwright.model.mechanism import Mechanism
@@ -107,7 +107,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     """Chain coordinates of the groups without closed form."""
     states: dict[str, float] = {}
     for group in structure.groups:
-        if not group.unknowns or dyad_shape(group) is not None or in_one_step(group):
+        if not group.unknowns or closed_form(group):
             continue
         if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(

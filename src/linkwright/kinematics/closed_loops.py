@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kinematics.angles import counted_links
-from linkwright.kinematics.groups import dyad_shape, in_one_step
+from linkwright.kinematics.angles import counted_links, geared
+from linkwright.kinematics.groups import closed_form, whole_form
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
@@ -58,19 +58,19 @@ class Turned:
 
 def iterated(structure: Structure) -> list[Group]:
     """The groups that have no closed form."""
-    return [
-        group
-        for group in structure.groups
-        if group.unknowns and dyad_shape(group) is None and not in_one_step(group)
-    ]
+    return [group for group in structure.groups if group.unknowns and not closed_form(group)]
 
 
 def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
     """Links placed by closed forms whose turns a higher pair counts."""
     pairs = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
-    found = counted_links(structure.groups, pairs) if pairs else []
+    found = counted_links(structure.groups, pairs, _adds_up) if pairs else []
     followed = {link for group in iterated(structure) for link in group.links}
     return [link for link in found if link not in followed]
+
+
+def _adds_up(group: Group) -> bool:
+    return geared(group) and whole_form(group) is None
 
 
 def upstream(structure: Structure, mechanism: Mechanism) -> list[Group]:

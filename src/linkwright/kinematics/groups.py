@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from linkwright.engine.linear import Matrix, determinant, inverse, product
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
-from linkwright.groups.base import DYADS, Chain, Dyad
+from linkwright.groups.base import DYADS, Chain, Dyad, WholeGroup
 from linkwright.joints.base import JOINTS, Cut
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
 from linkwright.kinematics.angles import Angles, geared
@@ -72,6 +73,8 @@ class GroupTracer:
         shape = dyad_shape(group)
         if shape is not None:
             self._closed_form(placed, *shape)
+        elif (whole := whole_form(group)) is not None:
+            self._whole(placed, whole)
         elif in_one_step(group):
             self._one_step(placed)
         else:
@@ -143,6 +146,17 @@ class GroupTracer:
         parent = self._trial(group, None, turning.parent)[turning.parent]
         pivot = pair_of(turning, self.dimensions).place(parent, UNTURNED).place
         return Chain(pivot, anchor, tuple(directions), senses)
+
+    def _whole(self, placed: Placed, form: WholeGroup) -> None:
+        """A closed form of a group's own."""
+        group, solved = placed.group, form.place(self, placed.group)
+        self._hang(group, dict(zip(group.unknowns, solved.coordinates, strict=True)))
+        placed.dyad = form  # type: ignore[assignment]
+        placed.facts = solved.facts
+        placed.reached = solved.square >= -SINGULAR * solved.scale
+        placed.valid = solved.square > SINGULAR * solved.scale
+        placed.quality = solved.square / solved.scale
+        placed.inverse = inverse(jacobian(group, placed.cuts, self.poses, self.dimensions))
 
     # higher pairs alone -------------------------------------------------------------------
     def _one_step(self, placed: Placed) -> None:
@@ -224,9 +238,23 @@ def dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
     for order in ((ends[0], ends[1]), (ends[1], ends[0])):
         pattern = tuple("".join(s.connection.letter for s in chain_unknowns(group, end)) for end in order)
         for dyad in DYADS.values():
-            if pattern == dyad.pattern:
+            if pattern == getattr(dyad, "pattern", None):
                 return dyad(), order
     return None
+
+
+def whole_form(group: Group) -> WholeGroup | None:
+    """The registered closed form that fits a group as a whole."""
+    for name in DYADS:
+        form: Any = DYADS[name]
+        if hasattr(form, "fits") and group.unknowns and (found := form()).fits(group):
+            return found  # type: ignore[no-any-return]
+    return None
+
+
+def closed_form(group: Group) -> bool:
+    """Whether a group is placed without iteration."""
+    return dyad_shape(group) is not None or in_one_step(group) or whole_form(group) is not None
 
 
 def in_one_step(group: Group) -> bool:
