@@ -1,4 +1,4 @@
-"""Pages that are made when the documentation is built: gallery with pictures, reference of model files, API.
+"""Pages that are made when the documentation is built: gallery, model files, API, published numbers.
 
 They have the ending ``.markdown``, are no part of the repository, and stand in ``docs/made``.
 """
@@ -15,6 +15,7 @@ import linkwright as lw
 from linkwright import gallery
 from linkwright.cli.source import gallery_title
 from linkwright.errors import LinkwrightError
+from linkwright.validation.validate import validate
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
@@ -34,6 +35,7 @@ def make() -> None:
             write(f"{language}/gallery/{name}", "\n".join(gallery_page(name, language)))
     write("en/model_file", "\n".join(model_file()))
     write("en/api", "\n".join(api()))
+    write("en/validation_table", f"{validate().markdown()}\n")
 
 
 def write(name: str, text: str) -> None:
