@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
+from tests.reference.adapter import driver_values, reference_system
 from tests.reference.agreement import Comparison, floors, force_floors, motion_comparison
-from tests.reference.geared import Geared, pressed_forces
+from tests.reference.geared import Geared, Wheels, pressed_forces
 from tests.reference.geared_mechanisms import GearedCase, geared_case
 from tests.reference.multibody import Motion, Unreachable
 
@@ -61,6 +63,48 @@ def test_motion_and_forces_agree_with_the_reference(index: int) -> None:
     scale = float(np.abs(expected.lam).max())
     assert forces.balance_residual.max() < 1e-11 * scale
     assert np.abs(forces.power_residual).max() < 1e-11 * scale
+
+
+WHEELS = ("external_gear_pair", "internal_gear_pair", "gear_differential", "geared_fivebar", "geared_fivebar_third",
+          "geared_fivebar_double", "chain_drive", "planetary_two_inputs")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WHEELS)
+def test_gallery_with_wheels(name: str) -> None:
+    """Rows from the file's numbers alone; the reference assembles and follows all bodies by itself."""
+    mechanism = lw.load(f"gallery:{name}")
+    motion = lw.solve_motion(mechanism, steps=48)
+    system = wheel_system(mechanism)
+    start = np.zeros((system.count, 3))
+    for link, row in system.index.items():
+        if link != "frame":
+            start[row, 2] = motion.link(link).angle[0]
+            point, local = next(iter(mechanism.links[link].points.items()))
+            c, s = np.cos(start[row, 2]), np.sin(start[row, 2])
+            x, y = motion.point(f"{link}.{point}").position[0]
+            start[row, :2] = x - c * local[0] + s * local[1], y - s * local[0] - c * local[1]
+    u, ud, udd = driver_values(mechanism, motion.time)
+    reference = system.motion(start, u[0], u, ud, udd)
+    found = motion_comparison(mechanism, motion, reference, derived=False)
+    assert found.failures(TOLERANCE, floors(mechanism, reference)) == []
+
+
+def wheel_system(mechanism: lw.Mechanism) -> Geared:
+    """Bodies, pins, guides and drivers by the adapter, wheels by their numbers of teeth or radii."""
+    pairs = [j for j in mechanism.joints.values() if j.kind in ("gear", "chain")]
+    plain = replace(mechanism, joints={k: j for k, j in mechanism.joints.items() if j not in pairs})
+    base = reference_system(plain)
+    rows = []
+    for j in pairs:
+        a, b = j.links
+        (ax, ay), (bx, by) = (mechanism.link(j.carrier).points[p] for p in j.centres)
+        first, second = j.teeth or j.radii
+        ka, kb = first, second if j.kind == "gear" and j.mesh == "external" else -second
+        turned = np.arctan2(by - ay, bx - ax)  # of the line of centres on the carrier
+        value = kb * (j.phase or 0.0) - (ka + kb) * turned
+        at = (mechanism.link(a).points[j.centres[0]], mechanism.link(b).points[j.centres[1]])
+        rows.append(Wheels(j.name, a, at[0], b, at[1], ka, kb, value))
+    return Geared(base.bodies, base.constraints, rows, base.drivers)
 
 
 def test_the_rows_of_the_reference_have_exact_derivatives() -> None:
