@@ -66,7 +66,8 @@ export class Session {
       this.variants.value = old.variants.value;
       this.counted = old.counted;
     }
-    if (old.curves.value.every(known)) this.curves.value = old.curves.value;
+    const chosen = old.curves.value;
+    if (chosen.join() !== old.data.curves.join() && chosen.every(known)) this.curves.value = chosen;
     const points = new Set(this.data.points.map(({ key }) => key));
     Object.assign(this.shown, old.shown, { paths: new Set([...old.shown.paths].filter((key) => points.has(key))) });
     for (const address of old.model.locked) if (address in this.model.values) this.model.locked.add(address);

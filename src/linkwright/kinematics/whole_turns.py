@@ -108,10 +108,10 @@ def _change(
     from linkwright.kinematics.solver import MotionSolver
 
     solver = MotionSolver(mechanism)
-    if any(joint.kind == "cam" for joint in mechanism.joints.values()):
-        return _by_places(solver, unknowns, wanted, gained, duration)
     followed = solver.follow(at_times(mechanism, [0.0, duration]))
-    if followed is None or not np.isfinite(followed.coordinates).all():
+    if followed is None:
+        return _by_places(solver, unknowns, wanted, gained, duration)
+    if not np.isfinite(followed.coordinates).all():
         return None
     loops = followed.follower.loops
     y = np.concatenate([followed.coordinates, followed.inputs], axis=1)

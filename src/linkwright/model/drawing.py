@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.model.mechanism import Mechanism
 
@@ -85,6 +83,8 @@ class Drawing:
         return None
 
     def _count_turns(self) -> None:
+        import numpy as np
+
         for name, angle in self._angles.items():
             if angle is not None:
                 self._angles[name] = math.remainder(angle, 2 * math.pi)

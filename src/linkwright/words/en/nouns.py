@@ -6,6 +6,7 @@ WORDS = {
     "pair_chain": "chain",
     "pair_rack": "rack and pinion",
     "pair_rolling": "rolling",
+    "pair_cam": "cam",
     "joint_kind": "joint kind",
     "driver_law": "driver law",
     "motion_law": "motion law",

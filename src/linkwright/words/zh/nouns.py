@@ -6,6 +6,7 @@ WORDS = {
     "pair_chain": "链传动",
     "pair_rack": "齿轮齿条副",
     "pair_rolling": "滚动副",
+    "pair_cam": "凸轮副",
     "joint_kind": "运动副类型",
     "driver_law": "驱动规律",
     "motion_law": "运动规律",
