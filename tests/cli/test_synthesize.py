@@ -110,3 +110,11 @@ def test_a_demand_of_the_wrong_form_is_said_in_chinese(
     assert main(["check", str(path), "--lang", "zh"]) == 1
     said = capsys.readouterr().out
     assert "列表" in said and "映射" in said and "list" not in said and "mapping" not in said
+
+
+def test_a_task_without_a_machine_is_sent_to_the_right_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", "gallery:path_of_five_points"]) == 1
+    (said,) = capsys.readouterr().err.splitlines()
+    assert said.endswith(
+        "the file holds a task of synthesis and no machine; linkwright synthesize finds machines for it"
+    )

@@ -78,6 +78,11 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         message = Sentence("model.no_mechanism", kind=kind.text)
         reader.error(kind, "kind", message, Sentence("model.calculations"), "kind")
         return None, reader.findings
+    task = mapping.get("synthesis")
+    if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
+        message = Sentence("model.task_alone")
+        reader.error(task, "synthesis", message, Sentence("model.synthesize"), "kind")
+        return None, reader.findings
     try:
         mechanism = _sections(reader, mapping, source)
     except TooManyFindings:

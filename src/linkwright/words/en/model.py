@@ -130,6 +130,8 @@ WORDS = {
     "points_apart": "name two points apart from each other",
     "point_twice": 'the point "{name}" is listed twice',
     "remove_or_rename": "remove one or rename it",
+    "task_alone": "the file holds a task of synthesis and no machine",
+    "synthesize": "linkwright synthesize finds machines for it",
     "no_frame": "the model has no frame",
     "add_frame": "add frame: {{points: {{O1: [0 m, 0 m]}}}}",
     "frame_no_coordinates": "the frame's points have no coordinates",
@@ -258,6 +260,6 @@ WORDS = {
     "as zero",
     "add_inertia": "add inertia: 2.5 kg·m² (about the mass centre), or inertia: 0 if that is meant",
     "no_mechanism": 'this is a calculation of kind "{kind}", not a mechanism',
-    "calculations": "call linkwright beam, statics, vibration, statistics, program, trajectory, tolerance",
+    "calculations": "call linkwright beam, cam, statics, vibration, statistics, program, trajectory, tolerance",
     "from_and_to": "from and to",
 }

@@ -129,6 +129,8 @@ WORDS = {
     "points_apart": "请给出两个不重合的点",
     "point_twice": "点“{name}”列出了两次",
     "remove_or_rename": "请删去一个或改名",
+    "task_alone": "文件只有综合任务，没有机构",
+    "synthesize": "linkwright synthesize 可求出满足它的机构",
     "no_frame": "模型没有机架",
     "add_frame": "请加上 frame: {{points: {{O1: [0 m, 0 m]}}}}",
     "frame_no_coordinates": "机架的点没有坐标",
@@ -255,7 +257,7 @@ WORDS = {
     "no_inertia": "构件“{link}”会转动且质量为 {mass} kg，但没有转动惯量：按零计算",
     "add_inertia": "请加上 inertia: 2.5 kg·m²（对质心），若确为零则写 inertia: 0",
     "no_mechanism": "该文件是类型“{kind}”的计算，不是机构",
-    "calculations": "请用相应的命令：linkwright beam、statics、vibration、"
+    "calculations": "请用相应的命令：linkwright beam、cam、statics、vibration、"
     "statistics、program、trajectory、tolerance",
     "from_and_to": "from 和 to",
 }
