@@ -10,6 +10,7 @@ import time
 from contextlib import suppress
 
 import pytest
+from tests.failures.pace import at_once
 
 import linkwright as lw
 from linkwright.errors import Finding
@@ -18,7 +19,6 @@ from linkwright.model.source import read_source
 
 COUNT = int(os.environ.get("LINKWRIGHT_DAMAGED", "200"))
 BATCHES = 8
-SECONDS = 2.0
 TEXTS = {name: read_source(f"gallery:{name}")[0] for name in gallery_names()}
 SIGNS = [
     *":{}[],-#&*!|>'\"%@`\t\n ~?=<\\/^·²°",
@@ -108,7 +108,7 @@ def test_damage_is_answered_at_once(batch: int) -> None:
             mechanism, findings = read_text(text, "m.yaml")
         except Exception as error:
             raise AssertionError(f"{name}, batch {batch}, number {number}: {text!r}") from error
-        assert time.process_time() - began < SECONDS, text
+        assert time.process_time() - began < at_once(), text
         assert all(is_placed(each, text) for each in findings), (findings, text)
         errors = [each for each in findings if each.severity == "error"]
         assert (mechanism is None) == bool(errors), text

@@ -5,11 +5,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.failures.pace import at_once
 
 from linkwright.cli import main
 from linkwright.model.file import read_text
 
-SECONDS = 2.0
 MODEL = """\
 format: 1
 frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
@@ -130,7 +130,7 @@ def test_it_is_answered_in_two_seconds(name: str) -> None:
     assert len(text.encode()) <= 1_000_000
     began = time.process_time()
     mechanism, findings = read_text(text, "m.yaml")
-    assert time.process_time() - began < SECONDS
+    assert time.process_time() - began < at_once()
     assert (mechanism is not None) == is_model, findings[:3]
     assert is_model or findings
     assert len(findings) <= 301
@@ -145,5 +145,5 @@ def test_commands_answer_large_models_in_two_seconds(
     path.write_text(INPUTS[name][0](), encoding="utf-8")
     began = time.process_time()
     assert main([command, str(path)]) == 0
-    assert time.process_time() - began < SECONDS
+    assert time.process_time() - began < at_once()
     assert "obility" in capsys.readouterr().out
