@@ -18,6 +18,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.joints.cam_cuts import Geometry
+    from linkwright.joints.marks import Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
@@ -239,6 +240,12 @@ class CamJoint(Joint):
             yield grouping.connection(self, self.follower, self.cam, None)
 
     # motion -----------------------------------------------------------------------------------
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """The cam's profile with its pitch curve, and what of the follower touches it."""
+        from linkwright.joints.cam_shape import CamShape
+
+        return CamShape.of(self, mechanism).marks()
+
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """In the follower's coordinate, unless something that the group turns carries it about."""

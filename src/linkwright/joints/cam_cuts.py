@@ -30,13 +30,15 @@ Lift = tuple[Scalar, Scalar, Scalar]
 class Geometry:
     """How a follower is held, as numbers: ``along`` its way in the carrier's and ``own`` in its own axes (rad; of a
     pivot: to the cam's centre, to ``at``), ``start`` d (m) or ψ₀ (rad), ``scale`` m per unit of the coordinate;
-    ``reach`` positive where follower and base circle meet."""
+    ``reach`` positive where follower and base circle meet; ``aside``: of ``at`` to the left of the way through the
+    cam's centre (m)."""
 
     along: float
     own: float
     start: float
     scale: float
     reach: float
+    aside: float = 0.0
 
     @classmethod
     def of(cls, joint: CamJoint, mechanism: Mechanism) -> Geometry:
@@ -78,9 +80,9 @@ class Geometry:
             1 if outward else -1
         )
         if joint.touch == "flat":
-            return cls(along, own, radius, 1.0, radius)
+            return cls(along, own, radius, 1.0, radius, side)
         square = radius**2 - side**2
-        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square)
+        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side)
 
 
 def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:

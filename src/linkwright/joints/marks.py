@@ -1,4 +1,4 @@
-"""What a joint shows of itself in drawings beside its links: wheels, racks, strands."""
+"""What a joint shows of itself in drawings beside its links: wheels, racks, strands, cams and what touches them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ Vec = tuple[float, float]
 
 @dataclass(frozen=True)
 class Mark:
-    """A ``symbol`` (``gear``, ``disc``, ``rack`` or ``strand``) on a link, in its axes, m and rad.
+    """A ``symbol`` (``gear``, ``disc``, ``rack``, ``strand``, ``cam``, ``roller``, ``knife`` or ``face``) on a
+    link, in its axes, m and rad.
 
-    ``at``: centre, point of the pitch line, or first end; ``to``: second end of a strand; ``turned``: place of a
-    tooth, or direction of a rack; ``inside``: teeth inwards, or right of a rack; ``follows``: the link and
-    point along whose way a rack reaches.
+    ``at``: centre, point of the pitch line, edge, or first end; ``to``: second end of a strand or a face; ``turned``:
+    place of a tooth, or direction of a rack or of a knife; ``inside``: teeth inwards, or right of a rack;
+    ``follows``: the link and point along whose way a rack reaches; ``outlines``: closed curves of a cam, its profile,
+    a roller's pitch curve and the outer wall of a groove (each empty where there is none).
     """
 
     symbol: str
@@ -25,3 +27,4 @@ class Mark:
     teeth: int | None = None
     to: Vec = (0.0, 0.0)
     follows: tuple[str, str] | None = None
+    outlines: tuple[tuple[Vec, ...], ...] = ()

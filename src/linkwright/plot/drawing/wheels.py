@@ -1,4 +1,4 @@
-"""Gears, racks, wheels, belts and chains of a mechanism's drawing, by what their joints say of themselves."""
+"""Gears, racks, wheels, belts, chains and cams of a mechanism's drawing, by what their joints say of themselves."""
 
 from __future__ import annotations
 
@@ -13,19 +13,30 @@ from linkwright.plot.symbols.base import SYMBOLS, Shape
 
 #: A rack goes on beyond the last place of its pinion, units of the paper.
 BEYOND = 14.0
+#: Ends of followers, drawn over the blocks that carry them.
+_OVER = ("roller", "knife", "face")
 
 
 def wheels(machine: Machine) -> Iterator[Part]:
-    """The marks of all joints, each wheel once: below everything else, rings and large ones first."""
+    """The marks of all joints, each wheel once: below everything else, rings and large ones first, but the ends of
+    followers on top."""
     mechanism = machine.motion.mechanism
     tooth: dict[tuple[str, str], float] = {}
     found: dict[tuple[object, ...], Mark] = {}
     for joint in mechanism.joints.values():
         for mark in joint.marks(mechanism, tooth):
-            key = (mark.symbol, mark.link, mark.at, mark.to, round(mark.radius, 9), mark.inside)
+            key = (
+                mark.symbol,
+                mark.link,
+                mark.at,
+                mark.to,
+                round(mark.radius, 9),
+                mark.inside,
+                mark.outlines,
+            )
             found.setdefault(key, mark)
     for mark in sorted(found.values(), key=lambda each: (not each.inside, -each.radius)):
-        yield Part("ground", mark.link, _shape(machine, mark))
+        yield Part("tops" if mark.symbol in _OVER else "ground", mark.link, _shape(machine, mark))
 
 
 def _shape(machine: Machine, mark: Mark) -> Shape:
@@ -34,10 +45,17 @@ def _shape(machine: Machine, mark: Mark) -> Shape:
         return SYMBOLS["gear"](
             at=at, radius=mark.radius * scale, turned=-mark.turned, inside=mark.inside, teeth=mark.teeth
         )
-    if mark.symbol == "disc":
-        return SYMBOLS["disc"](at=at, radius=mark.radius * scale)
+    if mark.symbol in ("disc", "roller"):
+        return SYMBOLS[mark.symbol](at=at, radius=mark.radius * scale)
     if mark.symbol == "strand":
         return SYMBOLS["strand"](start=at, end=machine.view.local(mark.to))
+    if mark.symbol == "face":
+        return SYMBOLS["face"](start=at, end=machine.view.local(mark.to))
+    if mark.symbol == "knife":
+        return SYMBOLS["knife"](at=at, along=(math.cos(mark.turned), -math.sin(mark.turned)))
+    if mark.symbol == "cam":
+        profile, pitch, outer = ([machine.view.local(each) for each in line] for line in mark.outlines)
+        return SYMBOLS["cam"](profile=profile, pitch=pitch, outer=outer)
     assert mark.follows is not None
     along = (math.cos(mark.turned), -math.sin(mark.turned))
     link, point = mark.follows

@@ -1,4 +1,4 @@
-"""Bodies of links: bars, plates, gears, racks and cams."""
+"""Bodies of links: bars, plates, gears, racks, cams and the ends of followers."""
 
 from __future__ import annotations
 
@@ -107,7 +107,39 @@ def rack(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), start: float = -50.0,
 def cam(
     *,
     profile: ArrayLike = ((20.0, 0.0), (15.0, 14.0), (0.0, 20.0), (-15.0, 14.0), (-20.0, 0.0), (0.0, -36.0)),
+    pitch: ArrayLike = (),
+    outer: ArrayLike = (),
 ) -> Shape:
-    """A cam: its closed profile, filled."""
-    outline = points(profile)
-    return Shape((path(outline, "lw-plate", closed=True),), (np.vstack([outline, outline[:1]]),))
+    """A cam: its closed profile, filled, and its pitch curve, a chain line; ``outer``: a groove's other wall."""
+    inner, curve, wall = points(profile), points(pitch), points(outer)
+    body = path(inner, "lw-plate", closed=True)
+    groove = (path(wall, "lw-rim", closed=True),) if len(wall) else ()
+    chain = (path(curve, "lw-pitch", closed=True),) if len(curve) else ()
+    edges = (each for each in (inner, curve, wall) if len(each))
+    return Shape((*groove, body, *chain), tuple(_thinned(each) for each in edges))
+
+
+def _thinned(outline: Floats, most: int = 90) -> Floats:
+    """A closed polyline with few of the points of an outline, for keeping labels clear of it."""
+    few = outline[:: max(1, len(outline) // most)]
+    return np.vstack([few, few[:1]])
+
+
+@SYMBOLS.register("roller")
+def roller(*, at: Vec = (0.0, 0.0), radius: float = 12.0) -> Shape:
+    """The roller of a follower."""
+    return Shape((circle(at, radius, "lw-ground"),), (ring(at, radius, 24),))
+
+
+@SYMBOLS.register("knife")
+def knife(*, at: Vec = (0.0, 0.0), along: Vec = (0.0, -1.0)) -> Shape:
+    """The edge of a follower: the tip of a wedge that opens ``along``."""
+    wedge = placed([(0.0, 0.0), (14.0, 4.5), (14.0, -4.5)], at, along)
+    return Shape((path(wedge, "lw-gear", closed=True),), (np.vstack([wedge, wedge[:1]]),))
+
+
+@SYMBOLS.register("face")
+def face(*, start: Vec = (-30.0, 0.0), end: Vec = (30.0, 0.0)) -> Shape:
+    """The flat face of a follower."""
+    line = points([start, end])
+    return Shape((path(line, "lw-bar"),), (line,))

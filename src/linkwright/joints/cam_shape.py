@@ -1,0 +1,141 @@
+"""The shape of a cam joint: pitch curve and profile in the cam's axes, and the follower's part that touches it."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.joints.cam_cuts import Geometry
+from linkwright.joints.marks import Mark, Vec
+
+if TYPE_CHECKING:
+    from linkwright.joints.cam import CamJoint
+    from linkwright.laws.base import Floats
+    from linkwright.model.mechanism import Mechanism
+
+Points = NDArray[np.complex128]
+#: Points of a drawn curve over a turn of the cam; how far a face goes on beyond its contacts, as a share.
+POINTS, BEYOND = 720, 0.1
+
+
+@dataclass(frozen=True)
+class CamShape:
+    """Points are complex numbers, m, in the axes of the link that is named; angles φ (n,) are the cam's.
+
+    While the cam stands, the carrier turns about its ``centre`` by -φ times the sense and its phase back: the trace
+    point draws the pitch curve, a roller's circle or the flat face envelops the profile (Norton, Cam Design and
+    Manufacturing Handbook, ch. 9).
+    """
+
+    joint: CamJoint
+    geometry: Geometry
+    centre: complex
+    line: float
+    arm: float
+    at: complex
+    pivot: complex
+
+    @classmethod
+    def of(cls, joint: CamJoint, mechanism: Mechanism) -> CamShape:
+        """From the points of the model; ``line``, ``arm``: lengths from a pivot to the centre and to ``at``."""
+        at = complex(*mechanism.link(joint.follower).points[joint.at])
+        centre = complex(*mechanism.link(joint.cam).points[joint.centre])
+        line = arm = 0.0
+        pivot = at
+        if joint.side:
+            pivot = complex(*mechanism.link(joint.follower).points[joint.holder])
+            ends = (mechanism.link(joint.carrier).points[each] for each in (joint.centre, joint.holder))
+            a, b = (complex(*each) for each in ends)
+            line, arm = abs(a - b), abs(at - pivot)
+        return cls(joint, joint.geometry(mechanism), centre, line, arm, at, pivot)
+
+    @property
+    def _side(self) -> float:
+        return 1.0 if self.joint.side == "left" else -1.0
+
+    def _back(self, phi: Floats) -> Points:
+        """What turns directions from the carrier's axes into the cam's."""
+        return np.asarray(np.exp(-1j * (self.joint.phase + self.joint.sense * phi)))
+
+    def pitch(self, phi: Floats) -> Points:
+        """The pitch curve: places of the roller's centre or the edge, in the cam's axes."""
+        return self.centre + self._trace(phi)[0] * self._back(phi)
+
+    def _trace(self, phi: Floats) -> tuple[Points, Points]:
+        """``at`` from the cam's centre in the carrier's axes, and its derivative by φ."""
+        f, rate, _ = self.joint.lift.curves(phi)
+        found, way = self.geometry, cmath.exp(1j * self.geometry.along)
+        if not self.joint.side:
+            return way * (found.start + f + 1j * found.aside), way * rate
+        swung = self.arm * way * np.exp(1j * self._side * (found.start + f))
+        return swung - self.line * way, 1j * self._side * rate * swung
+
+    def profile(self, phi: Floats, *, outer: bool = False) -> Points:
+        """Where cam and follower touch at φ, in the cam's axes; ``outer``: on the other wall of a groove."""
+        if self.joint.touch == "flat":
+            normal, support, slope = self._support(phi)
+            return self.centre + (support + 1j * slope) * normal * self._back(phi)
+        place, rate = self._trace(phi)
+        along = rate - 1j * self.joint.sense * place
+        outward = 1j * self.joint.sense * along / np.abs(along)
+        gap = self.joint.roller_radius * (-1.0 if outer else 1.0)
+        return self.centre + (place - gap * outward) * self._back(phi)
+
+    def _support(self, phi: Floats) -> tuple[Points, Floats, Floats]:
+        """Of a flat face: its normal in the carrier's axes, its distance from the centre, and how that grows with the
+        normal's direction in the cam's axes."""
+        f, rate, _ = self.joint.lift.curves(phi)
+        way, sense = cmath.exp(1j * self.geometry.along), self.joint.sense
+        if not self.joint.side:
+            return np.full(len(phi), way), self.joint.base_radius + f, -sense * rate
+        psi = self.geometry.start + f
+        normal = 1j * self._side * way * np.exp(1j * self._side * psi)
+        return normal, self.line * np.sin(psi), self.line * np.cos(psi) * rate / (self._side * rate - sense)
+
+    def face(self) -> tuple[complex, complex]:
+        """Ends of the flat face in the follower's axes: as far as it is used, and a little more."""
+        phi = _turn()
+        normal, support, slope = self._support(phi)
+        own = cmath.exp(1j * self.geometry.own)
+        if self.joint.side:
+            contact = (support + 1j * slope) * normal + self.line * cmath.exp(1j * self.geometry.along)
+            places = (contact * (1j * self._side * normal.conj())).real
+            start, along, further = self.pivot, own, self.arm
+        else:
+            places, start, along, further = slope - self.geometry.aside, self.at, 1j * own, 0.0
+        low, high = min(float(places.min()), further), max(float(places.max()), further)
+        more = BEYOND * max(high - low, self.joint.base_radius)
+        return start + along * (low - more), start + along * (high + more)
+
+    def marks(self) -> Iterator[Mark]:
+        """The cam, and the roller, the edge or the face."""
+        joint, phi = self.joint, _turn()
+        profile = self.profile(phi)
+        outer = self.profile(phi, outer=True) if joint.closure == "groove" and joint.touch == "roller" else ()
+        pitch = self.pitch(phi) if joint.touch == "roller" else ()
+        reach = float(np.abs(profile - self.centre).max())
+        outlines = tuple(tuple(_vec(each) for each in line) for line in (profile, pitch, outer))
+        yield Mark("cam", joint.cam, _vec(self.centre), reach, outlines=outlines)
+        at = _vec(self.at)
+        if joint.touch == "roller":
+            yield Mark("roller", joint.follower, at, joint.roller_radius)
+        elif joint.touch == "knife":
+            off = 0.5 * pi * self._side if joint.side else 0.0
+            yield Mark("knife", joint.follower, at, turned=self.geometry.own + off)
+        else:
+            start, end = self.face()
+            yield Mark("face", joint.follower, _vec(start), to=_vec(end))
+
+
+def _turn() -> Floats:
+    return np.linspace(0.0, 2.0 * pi, POINTS, endpoint=False, dtype=np.float64)
+
+
+def _vec(place: complex) -> Vec:
+    return float(place.real), float(place.imag)

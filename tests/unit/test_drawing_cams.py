@@ -1,0 +1,121 @@
+"""A drawn cam: its profile touches the follower's drawn part at every position, nowhere deeper, and turns with it."""
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+import linkwright as lw
+from linkwright.joints.cam_shape import CamShape
+from linkwright.joints.marks import Mark
+from linkwright.plot.drawing.view import placements
+
+MODEL = """
+format: 1
+name: drawn cam
+frame: {points: {O: [5 mm, -3 mm], G: [17 mm, 11 mm], A: [165 mm, 12 mm]}}
+links:
+  cam: {points: {X: [30 mm, 4 mm], O: [-2 mm, 7 mm]}}
+  HELD
+joints:
+  GUIDE
+  lobe:
+    kind: cam
+    cam: cam
+    follower: held
+    at: P
+    touch: TOUCH
+    base_radius: 70 mm
+    phase: 20 deg
+    turn: SENSE
+    program:
+      - {rise: LIFT, over: 110 deg, law: cycloidal}
+      - {dwell: 60 deg}
+      - {fall: LIFT, over: 100 deg, law: cycloidal}
+      - {dwell: 90 deg}
+driver: {turn: cam, about: O, speed: 90 rpm}
+"""
+GUIDED = {
+    "HELD": "held: {points: {P: [3 mm, -6 mm], Q: [9 mm, 40 mm]}}",
+    "GUIDE": "guide: {kind: prismatic, guide: frame, through: G, direction: 75 deg, block: held, at: Q, "
+    "block_angle: 100 deg, offset: 6 mm}",
+    "LIFT": "18 mm",
+}
+SWINGING = {"HELD": "held: {points: {A: [4 mm, 2 mm], P: [120 mm, 50 mm]}}", "GUIDE": "", "LIFT": "12 deg"}
+CASES = [(GUIDED, ""), (SWINGING, "left"), (SWINGING, "right")]
+BASE = 0.07
+
+
+def drawn(held: dict[str, str], side: str, touch: str, sense: str) -> tuple[lw.Motion, Mark, Mark]:
+    """A motion whose positions are among those that the drawn curves were taken at, and the marks of the joint."""
+    roller = "roller\n    roller_radius: 10 mm"
+    words = {"roller": roller, "groove": f"{roller}\n    closure: groove"}.get(touch, touch)
+    words += f"\n    side: {side}" if side else ""
+    text = MODEL
+    for key, value in {**held, "TOUCH": words, "SENSE": sense}.items():
+        text = text.replace(key, value)
+    mechanism = lw.loads(text)
+    cam, end = mechanism.joints["lobe"].marks(mechanism, {})
+    return lw.solve_motion(mechanism, steps=72), cam, end
+
+
+def seen(motion: lw.Motion, link: str, *points: tuple[float, float]) -> np.ndarray:
+    """Points (k, 2) of a link as complex places (n, k) in the frame."""
+    placed = placements(motion)[link]
+    return np.stack([placed.world(point) @ [1, 1j] for point in points], axis=1)
+
+
+@pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
+@pytest.mark.parametrize(("held", "side"), CASES)
+@pytest.mark.parametrize("touch", ["roller", "knife", "groove"])
+def test_the_profile_touches_roller_and_knife(
+    held: dict[str, str], side: str, touch: str, sense: str
+) -> None:
+    motion, cam, end = drawn(held, side, touch, sense)
+    profile, *others = (seen(motion, "cam", *line) for line in cam.outlines if line)
+    at = seen(motion, "held", end.at)
+    assert end.radius == (0.0 if touch == "knife" else 0.01)
+    assert len(others) == {"knife": 0, "roller": 1, "groove": 2}[touch]
+    if others:
+        assert np.abs(others[0] - at).min(axis=1) == pytest.approx(0, abs=1e-9 * BASE)
+    for wall in (profile, *others[1:]):
+        assert np.abs(wall - at).min(axis=1) == pytest.approx(end.radius, abs=1e-9 * BASE)
+    middle = seen(motion, "frame", motion.mechanism.frame.points["O"])
+    assert np.abs(profile - middle).min(axis=1) == pytest.approx(BASE, abs=1e-9 * BASE)
+
+
+@pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
+@pytest.mark.parametrize(("held", "side"), CASES)
+def test_the_profile_touches_a_flat_face_within_its_ends(held: dict[str, str], side: str, sense: str) -> None:
+    motion, cam, face = drawn(held, side, "flat", sense)
+    start, end = (seen(motion, "held", place) for place in (face.at, face.to))
+    middle = seen(motion, "frame", motion.mechanism.frame.points["O"])
+
+    def from_face(places: np.ndarray) -> np.ndarray:
+        return (places - start) / (end - start)
+
+    profile, inward = from_face(seen(motion, "cam", *cam.outlines[0])), np.sign(from_face(middle).imag)
+    depth = profile.imag * inward * np.abs(end - start)
+    assert depth.min(axis=1) == pytest.approx(0, abs=1e-9 * BASE)
+    contact = np.take_along_axis(profile.real, depth.argmin(axis=1)[:, None], axis=1)
+    assert 0 < contact.min() < contact.max() < 1
+
+
+def test_the_printing_press_shows_its_cam_under_its_roller() -> None:
+    motion = lw.solve_motion(lw.load("gallery:printing_press"), steps=10)
+    mechanism = motion.mechanism
+    cam, roller = mechanism.joints["compensating_cam"].marks(mechanism, {})
+    assert (cam.link, roller.link, roller.radius) == ("bell_crank", "lower_rack", 0.02)
+    shape = CamShape.of(mechanism.joints["compensating_cam"], mechanism)  # type: ignore[arg-type]
+    placed = placements(motion)["bell_crank"]
+    for index, centre in enumerate(seen(motion, "lower_rack", roller.at)[:, 0]):
+        turned = complex(*placed.direction[index]).conjugate()
+        at = (centre - complex(*placed.origin[index])) * turned
+
+        def gap(phi: float, at: complex = at) -> float:
+            return float(np.abs(shape.profile(np.array([phi]))[0] - at))
+
+        near = 2 * np.pi * np.abs(np.array(cam.outlines[0]) @ [1, 1j] - at).argmin() / len(cam.outlines[0])
+        best = minimize_scalar(
+            gap, bounds=(near - 0.02, near + 0.02), method="bounded", options={"xatol": 1e-9}
+        )
+        assert best.fun == pytest.approx(roller.radius, abs=1e-9 * 0.06)
