@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,18 +23,10 @@ def wheels(machine: Machine) -> Iterator[Part]:
     followers on top."""
     mechanism = machine.motion.mechanism
     tooth: dict[tuple[str, str], float] = {}
-    found: dict[tuple[object, ...], Mark] = {}
+    found: dict[Mark, Mark] = {}
     for joint in mechanism.joints.values():
         for mark in joint.marks(mechanism, tooth):
-            key = (
-                mark.symbol,
-                mark.link,
-                mark.at,
-                mark.to,
-                round(mark.radius, 9),
-                mark.inside,
-                mark.outlines,
-            )
+            key = replace(mark, radius=round(mark.radius, 9), turned=0.0, teeth=None, follows=None)
             found.setdefault(key, mark)
     for mark in sorted(found.values(), key=lambda each: (not each.inside, -each.radius)):
         yield Part("tops" if mark.symbol in _OVER else "ground", mark.link, _shape(machine, mark))
@@ -47,10 +40,8 @@ def _shape(machine: Machine, mark: Mark) -> Shape:
         )
     if mark.symbol in ("disc", "roller"):
         return SYMBOLS[mark.symbol](at=at, radius=mark.radius * scale)
-    if mark.symbol == "strand":
-        return SYMBOLS["strand"](start=at, end=machine.view.local(mark.to))
-    if mark.symbol == "face":
-        return SYMBOLS["face"](start=at, end=machine.view.local(mark.to))
+    if mark.symbol in ("strand", "face"):
+        return SYMBOLS[mark.symbol](start=at, end=machine.view.local(mark.to))
     if mark.symbol == "knife":
         return SYMBOLS["knife"](at=at, along=(math.cos(mark.turned), -math.sin(mark.turned)))
     if mark.symbol == "cam":
