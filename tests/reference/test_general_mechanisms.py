@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,14 @@ def test_no_wrong_number_no_jump_no_unjustified_refusal(batch: int) -> None:
     assert not wrong, "\n".join(f"{r.seed} at {r.steps} steps: {r.kind}: {r.lines[:2]}" for r in wrong)
     assert sum(r.kind == UNSURE for r in results) <= 2
     assert sum(r.notes.get("ok", 0) for r in results) > 100
+
+
+@pytest.mark.parametrize("steps", [1, 60])
+def test_a_torsion_spring_is_wound_as_at_the_beginning_up_to_a_limit(steps: int) -> None:
+    """The rest of the cycle is out of reach, so no whole turn of the spring can be read from it."""
+    text = Path(__file__).with_name("faults").joinpath("spring_before_a_limit.yaml").read_text("utf-8")
+    verdict = judged(text, steps)
+    assert verdict.kind == (LIMIT if steps > 1 else AGREES), verdict.lines
 
 
 def test_everything_comes_up() -> None:

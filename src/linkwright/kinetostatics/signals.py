@@ -138,7 +138,7 @@ class MotionSignals:
         positions = self.cycle.positions
         time, values, laps, gain = positions.time, on_cycle, np.zeros(len(angle)), 0.0
         if positions.period is not None:
-            gain = TURN * float(np.round((values[-1] - values[0]) / TURN))
+            gain = TURN * float(np.nan_to_num(np.round((values[-1] - values[0]) / TURN)))
             time, values = np.append(time, time[0] + positions.period), np.append(values, values[0] + gain)
             laps = np.floor((self.time - time[0]) / positions.period)
         order = np.argsort(time)
