@@ -204,3 +204,18 @@ def test_findings_and_pictures(tmp_path: Path) -> None:
     line = document.modelspace().query("LINE").first
     pitch = math.pi * 3 * math.cos(math.radians(20))
     assert (line.dxf.end - line.dxf.start).magnitude / pitch == pytest.approx(1.20210, abs=5e-6)
+
+
+def test_a_rack_is_drawn_and_written_at_true_scale(tmp_path: Path) -> None:
+    rack = lw.Rack(5, M)
+    assert "z = 5" in rack.draw().svg and "齿条" in rack.draw(language="zh").svg
+    with pytest.raises(lw.LinkwrightError, match="language"):
+        rack.draw(language="de")
+    ezdxf = pytest.importorskip("ezdxf")
+    document = ezdxf.readfile(rack.save_dxf(tmp_path / "rack.dxf"))
+    assert not document.audit().errors and document.units == 4
+    (outline,) = (np.array(each.get_points("xy")) for each in document.modelspace().query("LWPOLYLINE"))
+    assert np.ptp(outline[:, 0]) == pytest.approx(5 * math.pi * 3)
+    assert (outline[:, 1].max(), outline[:, 1].min()) == pytest.approx((3.0, -2.25 * 3))
+    datum = document.modelspace().query("LINE").first
+    assert (datum.dxf.start.y, datum.dxf.end.y) == (0.0, 0.0)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +13,9 @@ from linkwright.errors import RequestError
 from linkwright.gears.gear import PRESSURE_ANGLES
 from linkwright.gears.involute import Floats
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.plot.drawing.picture import Drawing
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,18 @@ class Rack:
         first, last = teeth[0][0, 0], teeth[-1][-1, 0]
         outline = np.concatenate([*teeth, [(last, low), (first, low)]])
         return np.asarray(outline[::-1])
+
+    def draw(self, *, language: str = "en") -> Drawing:
+        """The rack with its datum line."""
+        from linkwright.plot.gears import draw_rack
+
+        return draw_rack(self, language)
+
+    def save_dxf(self, path: str | Path, *, points: int = 12, force: bool = False) -> Path:
+        """The outline and the datum line at true scale (mm) as DXF; needs ezdxf."""
+        from linkwright.export.dxf.gears import save_rack
+
+        return save_rack(self, Path(path), points, force=force)
 
     def _half_tooth(self, points: int) -> Floats:
         """From the middle of the space on to the tip's corner, mirrored to x > 0: root, fillet, flank."""

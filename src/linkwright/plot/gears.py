@@ -1,4 +1,4 @@
-"""Gears in mesh, drawn with their circles and the path of contact."""
+"""Gears in mesh, drawn with their circles and the path of contact; racks with their datum line."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.gears.gear import Gear
     from linkwright.gears.pair import GearPair
+    from linkwright.gears.rack import Rack
 
 DIAGONAL, SIZE = 760.0, 13.0
 #: Thickness of a ring outside its roots, modules.
@@ -26,8 +27,7 @@ RIM = 2.5
 
 def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -> Drawing:
     """Outlines of both gears; rolling circles as chain lines, base circles thin, the path of contact thick."""
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    _require(language)
     outlines = pair.outlines(pinion_angle)
     centres = (np.zeros(2), np.array([pair.centre_sign, 0.0]))
     extent = [_extent(gear, at) for gear, at in zip((pair.pinion, pair.wheel), centres, strict=True)]
@@ -44,15 +44,45 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
         content += _circles(pair, gear, _vec(paper(at)), scale)
     content.append(path(paper(contact_line(pair)), "lw-input-line"))
     box = bounds([paper(each) for each in extent])
-    lines = _lines(pair, language)
-    content += [
+    title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
+    return Drawing(_sheet(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
+
+
+def draw_rack(rack: Rack, language: str = "en") -> Drawing:
+    """The outline of a rack and its datum line, on which pinions without profile shift roll."""
+    _require(language)
+    outline = rack.outline()
+    scale = DIAGONAL / float(np.hypot(*np.ptp(outline, axis=0)))
+    paper = outline * (scale, -scale)
+    box = bounds([paper])
+    datum = points([(box[0] - 12.0, 0.0), (box[2] + 12.0, 0.0)])
+    line = say(
+        "gears.rack",
+        language,
+        teeth=rack.teeth,
+        module=f"{1e3 * rack.module:.6g}",
+        pitch=f"{1e3 * rack.pitch:.7g}",
+        angle=f"{math.degrees(rack.pressure_angle):.6g}",
+    )
+    content = [path(paper, "lw-gear", closed=True), path(datum, "lw-pitch")]
+    wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
+    return Drawing(_sheet(content, wider, [line], say("gears.rack_title", language, teeth=rack.teeth)))
+
+
+def _require(language: str) -> None:
+    if language not in LANGUAGES:
+        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+
+
+def _sheet(content: list[Element], box: Box, lines: list[str], title: str) -> str:
+    """The picture with lines of text below it."""
+    texts = [
         text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)
         for number, line in enumerate(lines)
     ]
     wide = max(width(line, SIZE) for line in lines)
     whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
-    title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
-    return Drawing(document(content, whole, title, None), tuple(map(str, pair.findings)))
+    return document([*content, *texts], whole, title, None)
 
 
 def contact_line(pair: GearPair) -> Floats:

@@ -1,11 +1,11 @@
-"""Gears in mesh as DXF, at true scale in millimetres."""
+"""Gears in mesh and racks as DXF, at true scale in millimetres."""
 
 from __future__ import annotations
 
 import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright.export.base import package
 from linkwright.plot.gears import contact_line
@@ -13,6 +13,7 @@ from linkwright.whole_files import refuse_target, write_whole
 
 if TYPE_CHECKING:
     from linkwright.gears.pair import GearPair
+    from linkwright.gears.rack import Rack
 
 #: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
 LAYERS = {"outline": 7, "rolling": 8, "base": 150, "contact": 1}
@@ -25,11 +26,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
     refuse_target(path, force=force, remedy="force=True")
-    ezdxf = package("ezdxf", "dxf_drawings")
-    document = ezdxf.new("R2010", setup=["linetypes"])
-    document.units = 4
-    for name, colour in LAYERS.items():
-        document.layers.add(name, color=colour)
+    document = _sheet()
     space = document.modelspace()
     for outline in pair.outlines(pinion_angle, points):
         space.add_lwpolyline((_MM * outline).tolist(), close=True, dxfattribs={"layer": "outline"})
@@ -40,6 +37,33 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
         space.add_circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter, dxfattribs={"layer": "base"})
     start, end = (_MM * contact_line(pair)).tolist()
     space.add_line(start, end, dxfattribs={"layer": "contact"})
+    return _written(document, path)
+
+
+def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
+    """The outline as a closed polyline whose corners lie on the exact curves, and the datum line.
+
+    Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
+    """
+    refuse_target(path, force=force, remedy="force=True")
+    document = _sheet()
+    space = document.modelspace()
+    outline = _MM * rack.outline(points)
+    space.add_lwpolyline(outline.tolist(), close=True, dxfattribs={"layer": "outline"})
+    left, right = outline[:, 0].min(), outline[:, 0].max()
+    space.add_line((left, 0.0), (right, 0.0), dxfattribs={"layer": "rolling", "linetype": "DASHDOT"})
+    return _written(document, path)
+
+
+def _sheet() -> Any:
+    document = package("ezdxf", "dxf_drawings").new("R2010", setup=["linetypes"])
+    document.units = 4
+    for name, colour in LAYERS.items():
+        document.layers.add(name, color=colour)
+    return document
+
+
+def _written(document: Any, path: Path) -> Path:
     stream = io.StringIO()
     document.write(stream)
     return write_whole(path, bytes(document.encode(stream.getvalue())))
