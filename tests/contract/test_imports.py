@@ -49,6 +49,7 @@ LEADS_ON = {  # what methods import when they are called: structure(), plot(), a
     "metrics/table.py": {PLOT},
     "cams/result.py": {"linkwright.plot.cams", "linkwright.export.dxf.cams"},
     "gears/pair.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
+    "gears/rack.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
     "parts/base.py": {PLOT},
     "study/compare.py": {PLOT},
     "study/designs.py": {PLOT},

@@ -202,19 +202,27 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         text = (tmp_path / "drawn.yaml").read_text()
         assert lw.solve_forces(lw.solve_motion(lw.loads(text))).input_torque.any()
         before = tab.locator("textarea").input_value()
-        handle = tab.locator('.handle[data-key="A"]').bounding_box()
-        tab.mouse.move(handle["x"] + 13, handle["y"] + 13)
-        tab.mouse.down()
-        tab.mouse.move(handle["x"] + 20, handle["y"] + 4, steps=3)
-        tab.mouse.up()
-        tab.locator(".said", has_text="Not saved").or_(tab.locator(".said", has_text="Saved.")).wait_for()
-        for _ in range(50):
-            if tab.locator("textarea").input_value() != before:
-                break
-            tab.wait_for_timeout(100)
-        assert tab.locator("textarea").input_value() != before
+
+        def becomes(same: bool) -> bool:
+            """Whether within five seconds the text is the one from before, or another one."""
+            for _ in range(50):
+                if (tab.locator("textarea").input_value() == before) == same:
+                    return True
+                tab.wait_for_timeout(100)
+            return False
+
+        def drag() -> bool:
+            """Pulls the pin A; a machine that is solved again meanwhile takes the handle out of the hand."""
+            handle = tab.locator('.handle[data-key="A"]').bounding_box()
+            tab.mouse.move(handle["x"] + 13, handle["y"] + 13)
+            tab.mouse.down()
+            tab.mouse.move(handle["x"] + 20, handle["y"] + 4, steps=3)
+            tab.mouse.up()
+            return becomes(same=False)
+
+        assert any(drag() for _ in range(4))
         tab.get_by_role("button", name="Undo").first.click()
-        assert tab.locator("textarea").input_value() == before
+        assert becomes(same=True)
         assert errors == []
 
 
