@@ -63,52 +63,62 @@ class Pair(Protocol):
         ...
 
 
-class Cut(Protocol):
+@dataclass(frozen=True)
+class Cut(ABC):
     """A cut joint, ready to be traced: its equations, their derivatives, and the forces that close it.
 
-    ``ends``: the links on whose motion the equations depend; ``on``: the link on which its force is reported.
+    ``connection``: the pair of links that was cut; ``ends``: the links on whose motion the equations depend; ``on``:
+    the link on which its force is reported.
     """
 
-    @property
-    def connection(self) -> Connection: ...
-    @property
-    def rows(self) -> int: ...
-    @property
-    def ends(self) -> tuple[str, ...]: ...
-    @property
-    def on(self) -> str: ...
+    connection: Connection
 
+    @property
+    def rows(self) -> int:
+        """How many equations it has."""
+        return 1
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """The links of the connection; further ones where the equations touch them."""
+        return self.connection.a, self.connection.b
+
+    @property
+    def on(self) -> str:
+        """The connection's first link."""
+        return self.connection.a
+
+    @abstractmethod
     def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
         """What the equations leave open."""
-        ...
 
+    @abstractmethod
     def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
         """Rows of the Jacobian for a coordinate that moves an end by ``shift`` and turns it by ``turn``."""
-        ...
 
+    @abstractmethod
     def drift(self, states: States) -> list[Scalar]:
         """First derivative of the equations in time."""
-        ...
 
+    @abstractmethod
     def bend(self, states: States) -> list[Scalar]:
         """Second derivative of the equations in time."""
-        ...
 
+    @abstractmethod
     def place(self, end: str, poses: Poses) -> Vec:
         """Where the cut's force acts."""
-        ...
 
     def arm(self, end: str, poses: Poses) -> Vec:
         """From the anchor of one end to that place."""
-        ...
+        return self.place(end, poses) - poses[end].place
 
+    @abstractmethod
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         """Force and couple on one end from the multipliers of the rows."""
-        ...
 
     def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
         """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work."""
-        ...
+        return None
 
 
 @dataclass(frozen=True)
@@ -292,6 +302,21 @@ class Joint(ABC):
     def lacks(cls, what: str) -> LackingError:
         """The error for what the kind does not supply."""
         return LackingError(Sentence("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what))
+
+
+class HigherPair(Joint):
+    """Two links, ``joined``, that touch: one row, which prevents one of their freedoms."""
+
+    freedoms: ClassVar[int] = 2
+    higher: ClassVar[bool] = True
+
+    def constrain(self, graph: ConstraintGraph) -> None:
+        graph.demand(self.name, self.joined)
+
+    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
+        if grouping.within(self.joined, links):
+            a, b = self.joined
+            yield grouping.connection(self, a, b, None)
 
 
 def carried_steadily(group: Group, cut: Connection) -> bool:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
-from linkwright.joints.base import JOINTS, Cut, Joint, LackingError, carried_steadily
+from linkwright.joints.base import JOINTS, Cut, HigherPair, Joint, LackingError, carried_steadily
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.laws.program_fields import ProgramField
 from linkwright.model.fields import Field, Quantity, Word
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from linkwright.model.nodes import Mapping as MappingNode
     from linkwright.model.plain_reader import Place as Where
     from linkwright.model.reader import Reader
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, Group
 
 TOUCH = ("roller", "knife", "flat")
@@ -44,7 +42,7 @@ def _lift(given: Mapping[str, Any]) -> str:
 
 @JOINTS.register("cam")
 @dataclass(frozen=True)
-class CamJoint(Joint):
+class CamJoint(HigherPair):
     """Link ``cam`` turns about a pin on a carrier and moves link ``follower``, guided or pinned on the same carrier.
 
     The lift f over the cam's angle φ = ±(θ_c - θ_k - ``phase``) moves a guided follower along its guide from where
@@ -58,8 +56,6 @@ class CamJoint(Joint):
     kind: ClassVar[str] = "cam"
     letter: ClassVar[str] = "C"
     couples: ClassVar[bool] = True
-    freedoms: ClassVar[int] = 2
-    higher: ClassVar[bool] = True
     cam: str
     follower: str
     at: str
@@ -230,14 +226,6 @@ class CamJoint(Joint):
     def with_dimensions(self, value: Callable[[str], float]) -> CamJoint:
         new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
         return replace(self, **new)  # type: ignore[arg-type]
-
-    # structure --------------------------------------------------------------------------------
-    def constrain(self, graph: ConstraintGraph) -> None:
-        graph.demand(self.name, self.joined)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if grouping.within(self.joined, links):
-            yield grouping.connection(self, self.follower, self.cam, None)
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 
 from linkwright.engine.trace import Scalar, acos, angle, asin, select, sqrt
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.base import Angles, Poses, States
+from linkwright.joints.base import Angles, Cut, Poses, States
 from linkwright.joints.pose import Pose
 from linkwright.joints.prismatic import PrismaticJoint
 
 if TYPE_CHECKING:
-    from linkwright.joints.base import Cut
     from linkwright.joints.cam import CamJoint
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.laws.traced import LiftCurve
@@ -129,10 +128,9 @@ class _Turned:
 
 
 @dataclass(frozen=True)
-class GuidedCut:
+class GuidedCut(Cut):
     """A follower on a guide: n·(P - C) - d - f = 0; its force is given at the cam's centre C, with a couple f' λ."""
 
-    connection: Connection
     turned: _Turned
     centre: Vec
     at: Vec
@@ -140,16 +138,6 @@ class GuidedCut:
     reference: Vec
     radius: Scalar
     touch: str
-
-    rows = 1
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        return self.connection.a, self.connection.b
-
-    @property
-    def on(self) -> str:
-        return self.connection.a
 
     def _at(self, poses: Poses) -> tuple[Vec, Vec, Scalar, Lift]:
         """n, P - C, the offset e to the right of n, and the lift."""
@@ -187,9 +175,6 @@ class GuidedCut:
     def place(self, end: str, poses: Poses) -> Vec:
         return poses[self.connection.b].point(self.centre)
 
-    def arm(self, end: str, poses: Poses) -> Vec:
-        return self.place(end, poses) - poses[end].place
-
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         n, _, _, lift = self._at(poses)
         force, couple = n * multipliers[0], lift[1] * multipliers[0]
@@ -203,11 +188,10 @@ class GuidedCut:
 
 
 @dataclass(frozen=True)
-class SwingingCut:
+class SwingingCut(Cut):
     """A follower on a pivot A: l (±(θ_f - θ_k + γ - δ) - ψ₀ - f) = 0 with its arm's angle γ and that δ of the line to
     the cam's centre; the couple on it is ±l λ, the contact force goes through pivot and centre of the links."""
 
-    connection: Connection
     turned: _Turned
     centre: Vec
     at: Vec
@@ -218,15 +202,9 @@ class SwingingCut:
     touch: str
     side: float
 
-    rows = 1
-
     @property
     def ends(self) -> tuple[str, ...]:
         return self.connection.a, self.connection.b, self.carrier
-
-    @property
-    def on(self) -> str:
-        return self.connection.a
 
     @property
     def _scale(self) -> Scalar:
@@ -275,9 +253,6 @@ class SwingingCut:
         if end == self.connection.b:
             return poses[end].point(self.centre)
         return poses[self.on].point(self.pivot)
-
-    def arm(self, end: str, poses: Poses) -> Vec:
-        return self.place(end, poses) - poses[end].place
 
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         return ZERO, self._factor(end, poses) * multipliers[0]

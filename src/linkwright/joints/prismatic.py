@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, angle
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import FRICTION
 from linkwright.model.fields import Field, Quantity
@@ -285,22 +285,13 @@ class Guide:
 
 
 @dataclass(frozen=True)
-class GuideCut:
+class GuideCut(Cut):
     """A guide that was cut; its rotation is prevented elsewhere, so only the normal distance is left."""
 
-    connection: Connection
     through: Vec
     at: Vec
     direction: Vec
     offset: Scalar
-
-    @property
-    def rows(self) -> int:
-        return 1
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        return self.connection.a, self.connection.b
 
     @property
     def on(self) -> str:
@@ -334,12 +325,6 @@ class GuideCut:
     def place(self, end: str, poses: Poses) -> Vec:
         return poses[self.connection.b].point(self.at)
 
-    def arm(self, end: str, poses: Poses) -> Vec:
-        return self.place(end, poses) - poses[end].place
-
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         force = self._normal(poses) * multipliers[0]
         return (force if end == self.connection.b else -force), 0.0
-
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
-        return None

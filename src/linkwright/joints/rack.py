@@ -11,7 +11,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, absolute, tan
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Angles, Contact, Joint, Poses, States, carried_steadily
+from linkwright.joints.base import (
+    JOINTS,
+    Angles,
+    Contact,
+    Cut,
+    HigherPair,
+    Joint,
+    Poses,
+    States,
+    carried_steadily,
+)
 from linkwright.joints.gear import STANDARD
 from linkwright.joints.marks import Mark
 from linkwright.joints.prismatic import PrismaticJoint
@@ -28,14 +38,12 @@ if TYPE_CHECKING:
     from linkwright.model.nodes import Mapping as MappingNode
     from linkwright.model.plain_reader import Place as Where
     from linkwright.model.reader import Reader
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, Group
 
 
 @JOINTS.register("rack")
 @dataclass(frozen=True)
-class RackPair(Joint):
+class RackPair(HigherPair):
     """A pinion of pitch ``radius`` (m) rolls on the pitch line of a rack.
 
     The line goes through ``through`` in ``direction`` (rad, in the rack's axes); the pinion's centre, its pin
@@ -48,8 +56,6 @@ class RackPair(Joint):
     kind: ClassVar[str] = "rack"
     letter: ClassVar[str] = "K"
     couples: ClassVar[bool] = True
-    freedoms: ClassVar[int] = 2
-    higher: ClassVar[bool] = True
     pinion: str
     rack: str
     through: str
@@ -200,14 +206,6 @@ class RackPair(Joint):
             new["radius"] = 0.5 * self.teeth * new["module"]
         return replace(self, **new)  # type: ignore[arg-type]
 
-    # structure --------------------------------------------------------------------------------
-    def constrain(self, graph: ConstraintGraph) -> None:
-        graph.demand(self.name, self.joined)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if grouping.within(self.joined, links):
-            yield grouping.connection(self, self.pinion, self.rack, None)
-
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
         """The pinion, and the rack as far as it is used."""
@@ -350,11 +348,10 @@ class _Search:
 
 
 @dataclass(frozen=True)
-class RackCut:
+class RackCut(Cut):
     """The traced row; ``centre`` in the pinion's axes, ``through`` and ``direction`` in the rack's, ``lever`` the
     radius with the sign of the side, ``slope`` tan α."""
 
-    connection: Connection
     centre: Vec
     through: Vec
     direction: Vec
@@ -362,18 +359,6 @@ class RackCut:
     phase: Scalar
     slope: Scalar
     side: int
-
-    @property
-    def rows(self) -> int:
-        return 1
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        return self.connection.a, self.connection.b
-
-    @property
-    def on(self) -> str:
-        return self.connection.a
 
     def _line(self, poses: Poses) -> Vec:
         return poses[self.connection.b].spin(self.direction)
@@ -403,9 +388,6 @@ class RackCut:
     def place(self, end: str, poses: Poses) -> Vec:
         """For the Jacobian the pinion's centre, at which both ends' motions are compared."""
         return poses[self.connection.a].point(self.centre)
-
-    def arm(self, end: str, poses: Poses) -> Vec:
-        return self.place(end, poses) - poses[end].place
 
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         """At the pinion's centre, with the moment of the force at the pitch point."""

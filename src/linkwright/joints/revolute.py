@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import JOINTS, Angles, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.model.fields import Field, Quantity
 
@@ -166,24 +166,15 @@ class Pin:
 
 
 @dataclass(frozen=True)
-class PinCut:
+class PinCut(Cut):
     """A pin that was cut: the point on ``a`` and the point on ``b`` must coincide (two equations)."""
 
-    connection: Connection
     on_a: Vec
     on_b: Vec
 
     @property
     def rows(self) -> int:
         return 2
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        return self.connection.a, self.connection.b
-
-    @property
-    def on(self) -> str:
-        return self.connection.a
 
     def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
         gap = poses[self.connection.a].point(self.on_a) - poses[self.connection.b].point(self.on_b)
@@ -219,6 +210,3 @@ class PinCut:
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         force = Vec(multipliers[0], multipliers[1])
         return (force if end == self.connection.a else -force), 0.0
-
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
-        return None

@@ -12,20 +12,19 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import Angles, Joint, Poses, States
+from linkwright.joints.base import Angles, Cut, HigherPair, Joint, Poses, States
 from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.model.reference_fields import LinkName, LinkNames
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.joints.base import Cut
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.model.drawing import Drawing
@@ -43,15 +42,13 @@ Pair = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class WheelPair(Joint):
+class WheelPair(HigherPair):
     """Two wheels, ``links`` (a, b), whose ``centres`` are pins on the link ``carrier``.
 
     Sizes by numbers of ``teeth``, by pitch ``radii`` (m), or by their ``ratio`` (ω_b - ω_c) / (ω_a - ω_c) alone.
     ``phase`` (rad): angle of b's x axis to the carrier's when a's has none.
     """
 
-    freedoms: ClassVar[int] = 2
-    higher: ClassVar[bool] = True
     rotations_only: ClassVar[bool] = True
     links: tuple[str, str]
     carrier: str
@@ -207,13 +204,12 @@ class WheelPair(Joint):
 
 
 @dataclass(frozen=True)
-class WheelCut:
+class WheelCut(Cut):
     """The row of two wheels: arms ``k`` of a, b and the carrier, ``rest`` the constant; (m).
 
     ``centre_a``, ``centre_b``: the pins in the carrier's axes.
     """
 
-    connection: Connection
     carrier: str
     k: tuple[Scalar, Scalar, Scalar]
     rest: Scalar
@@ -221,16 +217,8 @@ class WheelCut:
     centre_b: Vec
 
     @property
-    def rows(self) -> int:
-        return 1
-
-    @property
     def ends(self) -> tuple[str, ...]:
         return self.connection.a, self.connection.b, self.carrier
-
-    @property
-    def on(self) -> str:
-        return self.connection.a
 
     def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
         return [self._sum(angles) + self.rest]
@@ -257,12 +245,6 @@ class WheelCut:
     def place(self, end: str, poses: Poses) -> Vec:
         """The centre of wheel a."""
         return poses[self.carrier].point(self.centre_a)
-
-    def arm(self, end: str, poses: Poses) -> Vec:
-        return self.place(end, poses) - poses[end].place
-
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
-        return None
 
 
 class Numbers(Field):

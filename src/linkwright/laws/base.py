@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -111,6 +111,18 @@ class MotionLaw(ABC):
             lambda u: self.curves(u)[order], 0.0, 1.0, pieces=24, knots=np.array(self.breaks)
         )
         return max(curve.extreme("max").value, -curve.extreme("min").value, 0.0)
+
+
+@dataclass(frozen=True)
+class MeetingLaw(MotionLaw):
+    """A law that meets any velocity and acceleration at its ends; ``rise`` is 1, or 0 for a way there and back."""
+
+    demanded: Ends = field(default_factory=Ends)
+    rise: float = 1.0
+
+    @classmethod
+    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
+        return cls(ends, rise)
 
 
 MOTION_LAWS: Registry[type[MotionLaw]] = Registry(

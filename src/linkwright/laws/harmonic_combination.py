@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 
-from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw
 
 #: Angular frequencies of the basis 1, u, cos πu, sin πu, cos 2πu, sin 2πu.
 _PI = (pi, 2 * pi)
@@ -28,7 +28,7 @@ def _basis(u: Any) -> list[list[Any]]:
 
 @MOTION_LAWS.register("harmonic_combination")
 @dataclass(frozen=True)
-class HarmonicCombination(MotionLaw):
+class HarmonicCombination(MeetingLaw):
     """s = c₀ + c₁u + c₂ cos πu + c₃ sin πu + c₄ cos 2πu + c₅ sin 2πu with any velocity and acceleration at the ends.
 
     From rest to rest it is the cycloidal law, from turn to turn with ±π²/2 simple harmonic, from rest to a turn with
@@ -37,12 +37,6 @@ class HarmonicCombination(MotionLaw):
 
     key: ClassVar[str] = "harmonic_combination"
     source: ClassVar[str] = "VDI 2143-1"
-    demanded: Ends = field(default_factory=Ends)
-    rise: float = 1.0
-
-    @classmethod
-    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
-        return cls(ends, rise)
 
     @cached_property
     def _coefficients(self) -> Floats:

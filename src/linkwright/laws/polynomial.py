@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import perm
 from typing import Any, ClassVar
@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw, MotionLaw
 from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.words.sentence import Sentence
 
@@ -84,16 +84,10 @@ class Polynomial4567(Polynomial):
 
 @MOTION_LAWS.register("polynomial_5")
 @dataclass(frozen=True)
-class Polynomial5(Polynomial):
+class Polynomial5(MeetingLaw, Polynomial):
     """The polynomial of order 5 with any velocity and acceleration at both ends (all pairs of VDI 2143)."""
 
     key: ClassVar[str] = "polynomial_5"
-    demanded: Ends = field(default_factory=Ends)
-    rise: float = 1.0
-
-    @classmethod
-    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
-        return cls(ends, rise)
 
     @cached_property
     def coefficients(self) -> Coefficients:
@@ -103,16 +97,10 @@ class Polynomial5(Polynomial):
 
 @MOTION_LAWS.register("polynomial_7")
 @dataclass(frozen=True)
-class Polynomial7(Polynomial):
+class Polynomial7(MeetingLaw, Polynomial):
     """The polynomial of order 7 with any velocity and acceleration at both ends, and no jerk there."""
 
     key: ClassVar[str] = "polynomial_7"
-    demanded: Ends = field(default_factory=Ends)
-    rise: float = 1.0
-
-    @classmethod
-    def meeting(cls, ends: Ends, rise: float) -> MotionLaw:
-        return cls(ends, rise)
 
     @cached_property
     def coefficients(self) -> Coefficients:
