@@ -12,6 +12,7 @@ from benchmarks import by_numpy
 from benchmarks.cases import sixbar
 from benchmarks.kernels_alone import HAND
 from benchmarks.timing import Candidate
+from linkwright.kinematics.rows import Rows
 from linkwright.metrics import METRICS
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 
@@ -77,8 +78,9 @@ class NumbersWork:
         return self.length * (1.0 + 1e-6 * self.edits)
 
     def _fresh(self) -> lw.Forces:
-        """The forces again, so that nothing is known of them."""
-        return lw.solve_forces(self.forces.motion)
+        """The forces again, so that nothing is known of them and of their motion."""
+        motion = self.forces.motion
+        return lw.solve_forces(replace(motion, rows=Rows(motion.rows.values, motion.rows.index)))
 
     def disagreement(self) -> float:
         """Largest relative difference of the numbers of many designs from those of one alone."""

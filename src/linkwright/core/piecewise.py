@@ -136,23 +136,10 @@ class Piecewise:
     def extreme(self, kind: str) -> Extreme:
         """The ``max`` or ``min``; at a jump the larger (smaller) of both sides counts."""
         sign = 1.0 if kind == "max" else -1.0
-        seen = sign * (self.values @ _TO_PLACES)
-        top = float(seen.max())
-        slack = 1e-3 * (top - float(seen.min()))
-        inner = np.pad(seen, ((0, 0), (1, 1)), constant_values=-np.inf)
-        peaks = (seen >= inner[:, :-2]) & (seen >= inner[:, 2:]) & (seen >= top - slack)
-        piece, look = np.nonzero(peaks)
-        if len(piece) > 64:
-            best = np.argsort(-seen[piece, look], kind="stable")[:64]
-            piece, look = piece[best], look[best]
-        low, high = _PLACES[np.maximum(look - 1, 0)], _PLACES[np.minimum(look + 1, _LOOKS - 1)]
-        share = _zeros(self.values[piece] @ _TO_SLOPE, low, high, _PLACES[look])
-        values = sign * _at(self.values[piece], share)
-        values = np.maximum(values, seen[piece, look])
-        share = np.where(values > seen[piece, look], share, _PLACES[look])
-        k = int(values.argmax())
-        place = self.edges[piece[k]] + 0.5 * (share[k] + 1.0) * self.width[piece[k]]
-        return Extreme(float(place), sign * float(values[k]), bool(self.smooth[piece[k]]))
+        values = sign * self.values
+        piece, share, top, _ = (each[0] for each in largest(values.T[None], values.max(axis=1)[None]))
+        place = self.edges[piece] + 0.5 * (share + 1.0) * (self.edges[piece + 1] - self.edges[piece])
+        return Extreme(float(place), sign * float(top), bool(self.smooth[piece]))
 
 
 class Integral:
@@ -263,7 +250,7 @@ def _zeros(values: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
         new = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
         moved = np.abs(new - x)[crossing].max(initial=0.0)
         x = new
-        if moved <= 1e-14:
+        if moved <= 1e-9:
             break
     return np.where(crossing, x, start)
 

@@ -1,8 +1,9 @@
 """The searches of a cycle: zeros, lowest values and ends of what holds, in many brackets side by side.
 
 One accuracy for all: a zero and an end are met to :data:`ACCURACY` of their bracket's width (or to rounding, where
-that is coarser); of a smooth minimum the value is met to rounding and the place, as always where a curve is flat, to
-about its square root, 1e-8 of the width.
+that is coarser; a Newton step below its square root, which doubles the digits, is the last one); of a smooth minimum
+the value is met to rounding and the place, as always where a curve is flat, to about its square root, 1e-8 of the
+width.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ Mask = NDArray[np.bool_]
 
 #: Share of a bracket's width to which zeros and ends are met.
 ACCURACY = 1e-14
+#: The same of a Newton step after which what is left is below that.
+_LAST = 1e-8
 _HALVINGS = 47
 _STEPS = 100
 #: Places of a section, and rounds of them, of which each leaves an eighth of the bracket.
@@ -35,8 +38,8 @@ def zeros(
     ``function``: value and slope (k,) at places (k,), one in each bracket; ``first``: the sign (or value) at ``low``,
     other than at ``high``. At a jump or a pole the place of the change of sign is found.
     """
-    fine, first = ACCURACY * np.abs(high - low), np.sign(first)
-    here, before = 0.5 * (low + high) if start is None else start, np.abs(high - low)
+    width, first = np.abs(high - low), np.sign(first)
+    here, before = 0.5 * (low + high) if start is None else start, width
     for _ in range(_STEPS):
         value, slope = function(here)
         same = np.sign(value) == first
@@ -47,7 +50,7 @@ def zeros(
         sound = (newton >= least) & (newton <= most) & (np.abs(newton - here) <= 0.5 * before)
         there = np.where(value == 0.0, here, np.where(sound, newton, 0.5 * (low + high)))
         before, here = np.abs(there - here), there
-        if not (before > fine).any():
+        if not (before > np.where(sound, _LAST, ACCURACY) * width).any():
             break
     return here
 

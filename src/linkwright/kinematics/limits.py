@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.search import ends, zeros
+from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times
@@ -70,7 +71,10 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     found = output_of(motion.mechanism, output) if isinstance(output, str) else output
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
-    return _Search(motion, found).limits()
+    return _known.get(motion, found, lambda: _Search(motion, found).limits())
+
+
+_known: Recent[Motion, tuple[LimitPosition, ...]] = Recent(64)
 
 
 def output_of(mechanism: Mechanism, text: str) -> Output:

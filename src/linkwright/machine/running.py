@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
-from linkwright.machine.speed import SpeedCurve, speed_of
+from linkwright.machine.speed import SpeedCurve, SteadyCycle
 from linkwright.metrics.quantities import shown
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
@@ -141,7 +140,8 @@ def steady_running(
     work = Piecewise(load.edges, mean - load.values).integral()
     energy = _at_constant_speed(reduced, work)
     formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
-    exact = _exact(reduced, work, fluctuation, formula)
+    cycle = SteadyCycle(work, reduced.inertia_at, reduced.speed)
+    exact = _exact(cycle, reduced.mean_inertia, fluctuation, formula)
     return SteadyRunning(
         equivalent=reduced,
         energy=energy,
@@ -150,8 +150,8 @@ def steady_running(
         ratio=ratio,
         flywheel=formula,
         exact_flywheel=exact,
-        speed=_with_flywheel(reduced, work, formula),
-        exact_speed=_with_flywheel(reduced, work, exact),
+        speed=cycle.curve(formula, motor_torque=mean),
+        exact_speed=cycle.curve(exact, motor_torque=mean),
     )
 
 
@@ -173,28 +173,18 @@ def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
         raise LinkwrightError(Sentence("running.driven_by_loads", name=forces.mechanism.name, mean=mean))
 
 
-def _with_flywheel(reduced: Equivalent, work: Integral, flywheel: float) -> SpeedCurve:
-    total = partial(_inertia_with, flywheel, reduced)
-    return speed_of(work, total, reduced.speed, motor_torque=reduced.load.mean)
-
-
-def _inertia_with(flywheel: float, reduced: Equivalent, angle: Floats) -> Floats:
-    return flywheel + reduced.inertia_at(angle)
-
-
-def _exact(reduced: Equivalent, work: Integral, required: float, first: float) -> float:
+def _exact(cycle: SteadyCycle, present: float, required: float, first: float) -> float:
     """Flywheel with which the true fluctuation is the required one, by secant steps; zero where none is needed."""
 
     def reached(flywheel: float) -> float | None:
         try:
-            return _with_flywheel(reduced, work, flywheel).fluctuation
+            return cycle.fluctuation(flywheel)
         except LinkwrightError:
             return None
 
     alone = reached(0.0)
     if alone is not None and alone <= required:
         return 0.0
-    present = reduced.mean_inertia
     here = max(first, 0.1 * present)
     for _ in range(60):
         found = reached(here)

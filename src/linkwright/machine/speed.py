@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from linkwright.core.piecewise import POINTS, Floats, Function, Integral, Piecewise
+from linkwright.core.piecewise import POINTS, Extreme, Floats, Function, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
@@ -75,28 +75,48 @@ def true_speed(
     if driver is not None:
         energy_fluctuation(driver, load)
     total = inertia if callable(inertia) else _constant(inertia)
-    return speed_of(given.minus(load).work, total, speed, motor_torque=given.mean, steps=steps)
+    return SteadyCycle(given.minus(load).work, total, speed).curve(motor_torque=given.mean, steps=steps)
 
 
-def speed_of(
-    work: Integral, total: Function, speed: float, *, motor_torque: float, steps: int = 360
-) -> SpeedCurve:
-    """The same from the excess work over one period, J."""
-    edges = work.edges
-    start, period = float(edges[0]), float(edges[-1] - edges[0])
-    places, weights = work.quadrature
-    done, inertia = work(places), total(places)
-    least = Piecewise(edges, done.reshape(-1, POINTS)).extreme("min").value
-    energy = _initial_energy(done, inertia, weights / period, speed, least)
+class SteadyCycle:
+    """The speed over one period from the excess work, J, with more or less of a flywheel, kg·m².
 
-    at = partial(_speed, energy, work, total)
-    curve = Piecewise(edges, np.sqrt(2.0 * (energy + done) / inertia).reshape(-1, POINTS))
-    if not curve.smooth.all():
-        curve = Piecewise(edges, curve.values, at, edges)
-    low, high = curve.extreme("min"), curve.extreme("max")
-    angle = np.linspace(start, start + period, steps + 1)
-    ends = (low.place, low.value), (high.place, high.value)
-    return SpeedCurve(angle, at(angle), speed, *ends, motor_torque, at)
+    ``own``: inertia without it, over the angle.
+    """
+
+    def __init__(self, work: Integral, own: Function, speed: float) -> None:
+        self.work, self.own, self.speed = work, own, speed
+        places, weights = work.quadrature
+        self._done, self._inertia = work(places), own(places)
+        self._shares = weights / (work.edges[-1] - work.edges[0])
+        self._least = Piecewise(work.edges, self._done.reshape(-1, POINTS)).extreme("min").value
+
+    def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
+        """The speed; raises LinkwrightError for a machine that would stop, or has no inertia somewhere."""
+        at = partial(self._at, flywheel, self._energy(flywheel))
+        start, end = self.work.edges[[0, -1]].tolist()
+        angle = np.linspace(start, end, steps + 1)
+        low, high = ((found.place, found.value) for found in self._extremes(flywheel))
+        return SpeedCurve(angle, at(angle), self.speed, low, high, motor_torque, at)
+
+    def fluctuation(self, flywheel: float) -> float:
+        """Coefficient of speed fluctuation; raises as ``curve``."""
+        low, high = self._extremes(flywheel)
+        return (high.value - low.value) / self.speed
+
+    def _extremes(self, flywheel: float) -> tuple[Extreme, Extreme]:
+        edges, energy = self.work.edges, self._energy(flywheel)
+        speed = np.sqrt(2.0 * (energy + self._done) / (flywheel + self._inertia)).reshape(-1, POINTS)
+        curve = Piecewise(edges, speed)
+        if not curve.smooth.all():
+            curve = Piecewise(edges, speed, partial(self._at, flywheel, energy), edges)
+        return curve.extreme("min"), curve.extreme("max")
+
+    def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:
+        return np.asarray(np.sqrt(2.0 * (energy + self.work(angle)) / (flywheel + self.own(angle))))
+
+    def _energy(self, flywheel: float) -> float:
+        return _initial_energy(self._done, flywheel + self._inertia, self._shares, self.speed, self._least)
 
 
 def _constant(inertia: float) -> Function:
@@ -107,10 +127,6 @@ def _constant(inertia: float) -> Function:
 
 def _same(value: float, angle: Floats) -> Floats:
     return np.full(angle.shape, value)
-
-
-def _speed(energy: float, work: Integral, total: Function, angle: Floats) -> Floats:
-    return np.asarray(np.sqrt(2.0 * (energy + work(angle)) / total(angle)))
 
 
 def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float, least: float) -> float:

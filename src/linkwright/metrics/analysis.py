@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.piecewise import POINTS, Piecewise, largest, nodes
 from linkwright.core.search import lowest
+from linkwright.engine.recent import Recent
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -56,15 +57,16 @@ class Analysis:
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._words: dict[str, None] = {}
-        self._met: tuple[tuple[str, ...], dict[tuple[str, Kind], Extreme]] = (), {}
+        self._met: dict[str, dict[str, Extreme]] = {}
         self._parts: dict[str, Extreme] = {}
 
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
-        """The analysis of a result."""
+        """The analysis of a result, the same one as long as the result is of use."""
         if isinstance(result, Analysis):
             return result
-        return cls(result.motion, result) if isinstance(result, Forces) else cls(result)
+        motion, forces = (result.motion, result) if isinstance(result, Forces) else (result, None)
+        return _known.get(result, "", lambda: cls(motion, forces))
 
     @property
     def input_dimension(self) -> str:
@@ -198,35 +200,34 @@ class Analysis:
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
-        known = self._together.get((words_name(output), side))
+        known = self._together(words_name(output)).get(side)
         if known is not None:
             return known
         signal = self.signal(output)
         return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
 
-    @property
-    def _together(self) -> dict[tuple[str, Kind], Extreme]:
-        """Extremes of all outputs that were asked for, found at once, where polynomials meet them."""
-        if len(self._met[0]) != len(self._words):
-            self._met = tuple(self._words), self._extremes(tuple(self._words))
-        return self._met[1]
+    def _together(self, name: str) -> dict[str, Extreme]:
+        """Extremes of an output, where polynomials meet it, found at once with those of all that were asked for."""
+        if name not in self._met:
+            missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
+            self._met |= self._extremes(missing)
+        return self._met[name]
 
-    def _extremes(self, names: tuple[str, ...]) -> dict[tuple[str, Kind], Extreme]:
+    def _extremes(self, names: tuple[str, ...]) -> dict[str, dict[str, Extreme]]:
         grid = self.grid
+        found: dict[str, dict[str, Extreme]] = {name: {} for name in names}
         if grid is None:
-            return {}
+            return found
         solved = grid.motion if self.forces is None else grid.forces
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
         values = rows.reshape(len(names), -1, POINTS).swapaxes(1, 2)
         bound = grid.tolerance * np.abs(values).max(axis=(1, 2))
-        found: dict[tuple[str, Kind], Extreme] = {}
-        kinds: tuple[tuple[Kind, float], ...] = (("max", 1.0), ("min", -1.0))
-        for kind, sign in kinds:
+        for kind, sign in (("max", 1.0), ("min", -1.0)):
             piece, place, top, rough = largest(sign * values, (sign * values).max(axis=1))
             time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
             for k in np.flatnonzero(rough <= bound):
                 at = float(time[k])
-                found[names[k], kind] = Extreme(sign * float(top[k]), at, self.resolver.input_at(at), True)
+                found[names[k]][kind] = Extreme(sign * float(top[k]), at, self.resolver.input_at(at), True)
         return found
 
     def output(self, words: str) -> Output | None:
@@ -331,6 +332,9 @@ class Analysis:
             return Extreme(first.value, first.time, first.input, True)
         time = float(places[best])
         return Extreme(-sign * float(least[best]), time, self.resolver.input_at(time), True)
+
+
+_known: Recent[Motion | Forces, Analysis] = Recent(8)
 
 
 def _peaks(values: Floats, closed: bool) -> NDArray[np.intp]:

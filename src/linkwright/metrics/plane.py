@@ -13,11 +13,22 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 
 def convex_hull(points: Floats) -> Floats:
-    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain)."""
+    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain, of the points
+    that do not lie inside the polygon of those farthest in some directions)."""
+    ring = points[(points @ _DIRECTIONS).argmax(axis=0)]
+    side = np.roll(ring, -1, axis=0) - ring
+    ring, side = ring[side.any(axis=1)], side[side.any(axis=1)]
+    inside = (
+        points @ np.stack([-side[:, 1], side[:, 0]]) > cross(side, ring) + 1e-12 * np.abs(points).max() ** 2
+    )
+    points = points[~inside.all(axis=1)] if len(side) > 2 else points
     ordered = sorted(set(map(tuple, points.tolist())))
     if len(ordered) < 3:
         return np.array(ordered)
     return np.array(_half(ordered)[:-1] + _half(ordered[::-1])[:-1])
+
+
+_DIRECTIONS = np.stack([np.cos(turn := np.linspace(0.0, 2.0 * np.pi, 33)[:-1]), np.sin(turn)])
 
 
 def _half(ordered: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
