@@ -11,6 +11,8 @@ from linkwright.cli import main
 def test_numbers_and_worked_text_in_both_languages(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["beam", "gallery:cantilever"]) == 0
     assert "-0.84375  mm" in capsys.readouterr().out
+    assert main(["statics", "gallery:force_system", "--digits", "8"]) == 0
+    assert "184.79983" in capsys.readouterr().out
     assert main(["beam", "gallery:cantilever", "--worked", "--lang", "zh"]) == 0
     shown = capsys.readouterr().out
     assert "静定" in shown and "M(ξ) = −3000 + 2000·ξ N·m" in shown

@@ -16,12 +16,17 @@ if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
 
 ENDINGS = (".csv", ".json")
+#: Digits that numbers can be shown with.
+DIGITS = range(3, 16)
 
 
 def part_arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The options that all commands for machine parts have."""
     parser.add_argument("file", metavar="FILE", help=say("part.file_help"))
     parser.add_argument("--worked", action="store_true", help=say("part.worked_help"))
+    parser.add_argument(
+        "--digits", type=int, choices=DIGITS, default=6, metavar="N", help=say("part.digits_help")
+    )
     parser.add_argument("--plot", metavar="FILE", help=say("part.plot_help"))
     parser.add_argument("--output", metavar="FILE", help=say("part.output_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
@@ -103,7 +108,10 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
     if session.json:
         session.show(json_text({"ok": True, **result.data()}))
         return
-    session.show(result.worked(session.language) if options.worked else result.text(session.language))
+    text = (
+        result.worked(session.language) if options.worked else result.text(session.language, options.digits)
+    )
+    session.show(text)
     for written in (options.output, options.plot):
         if written is not None:
             session.show(f"\n{session.say('cli.written', path=written)}")

@@ -95,14 +95,14 @@ class Row:
     note: str = ""
     scale: Scale | None = None
 
-    def cells(self, area: str, say: Say) -> list[str]:
-        """Label, number, unit and note."""
+    def cells(self, area: str, say: Say, digits: int = 6) -> list[str]:
+        """Label, number with so many digits, unit and note."""
         label = self.label or say(f"{area}.{self.key}")
         if isinstance(self.value, str):
             return [label, self.value, "", self.note]
         if self.scale is not None:
-            return [label, f"{self.value / self.scale.factor:.6g}", self.scale.unit, self.note]
-        return [label, number(self.value, self.dimension), unit(self.dimension), self.note]
+            return [label, f"{self.value / self.scale.factor:.{digits}g}", self.scale.unit, self.note]
+        return [label, number(self.value, self.dimension, digits), unit(self.dimension), self.note]
 
 
 @dataclass(frozen=True)
@@ -137,13 +137,13 @@ class Result(ABC):
         """Curves by name with unit, SI; empty where there are none."""
         return {}
 
-    def text(self, language: str = "en") -> str:
+    def text(self, language: str = "en", digits: int = 6) -> str:
         """The numbers as a table in words of the language (``en``, ``zh``)."""
         say = speaker(language)
         lines = [self.title]
         for block in self.blocks(say):
             lines += ["", *([block.title] if block.title else [])]
-            rows = [row.cells(self.area, say) for row in block.rows]
+            rows = [row.cells(self.area, say, digits) for row in block.rows]
             lines += [f"  {line}" for line in aligned(rows, "<><<")]
             lines += [str(remark) for remark in block.remarks]
         return "\n".join(lines)

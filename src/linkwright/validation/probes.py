@@ -189,6 +189,17 @@ def path(given: Mapping[str, Any]) -> Find:
     return lambda what: float(best.error)
 
 
+def function(given: Mapping[str, Any]) -> Find:
+    """Lengths of the four-bar through pairs of angles that are measured from the frame."""
+    from linkwright.synthesis.function_generation.generate import function_generation
+
+    pairs = (np.radians(given[name]) for name in ("inputs", "outputs"))
+    best = function_generation(
+        *pairs, input_zero=0, output_zero=0, frame=parse(given["frame"], "length")
+    ).best
+    return best.linkage.lengths().__getitem__
+
+
 def slider_crank(given: Mapping[str, Any]) -> Find:
     """Lengths of a slider-crank from stroke and ratios."""
     from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
@@ -222,7 +233,7 @@ def regression(given: Mapping[str, Any]) -> Find:
 PROBES: Mapping[str, Probe] = {
     each.__name__: each
     for each in (
-        machine, limits, metrics, structure, gear_pair, involute, areas, torque, calculation, path, slider_crank,
-        motion_law, regression,
+        machine, limits, metrics, structure, gear_pair, involute, areas, torque, calculation, path, function,
+        slider_crank, motion_law, regression,
     )
 }  # fmt: skip

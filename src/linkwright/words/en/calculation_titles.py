@@ -15,8 +15,10 @@ WORDS = {
     "crank_rocker_tolerance": "Swing of a crank-rocker within its tolerances",
     "crusher_rocking": "Jaw crusher that rocks on its mounts",
     "follower_spring": "Cam follower on a spring",
+    "force_along_line": "Force along a line",
     "force_system": "Equilibrant of four forces in space",
     "free_decay": "Free decay of a damped mass",
+    "function_of_three_pairs": "Four-bar for three pairs of angles",
     "gear_pair": "Spur gear pair of least centre distance",
     "levelling_wedge": "Levelling wedge of a machine bed",
     "lightest_spring": "Helical spring of least mass",
@@ -32,5 +34,7 @@ WORDS = {
     "tuned_absorber": "Machine with unbalance and the best damped absorber",
     "two_bar_truss": "Two-bar truss of least weight",
     "path_of_five_points": "Four-bar through five timed points",
+    "two_cables": "Two cables on one hook",
+    "two_forces": "Resultant of two forces in space",
     "two_masses": "Two masses on three springs",
 }

@@ -3,6 +3,7 @@
 WORDS = {
     "file_help": "file with kind: …, or gallery:NAME",
     "worked_help": "show the way to the numbers, step by step",
+    "digits_help": "significant digits of the numbers (3 to 15; default: 6)",
     "plot_help": "draw the diagram in a .svg, .pdf or .png file",
     "output_help": "write curves to a .csv file or all numbers to a .json file",
     "other_command": "the file is of kind {kind}; call: linkwright {command} {file}",

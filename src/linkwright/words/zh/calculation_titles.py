@@ -15,8 +15,10 @@ WORDS = {
     "crank_rocker_tolerance": "公差范围内曲柄摇杆的摆角",
     "crusher_rocking": "在支承上摇摆的颚式破碎机",
     "follower_spring": "弹簧上的凸轮从动件",
+    "force_along_line": "沿一直线的力",
     "force_system": "空间四力的平衡力",
     "free_decay": "有阻尼质量的自由衰减",
+    "function_of_three_pairs": "满足三组对应角的四杆机构",
     "gear_pair": "中心距最小的直齿轮副",
     "levelling_wedge": "机床的调整楔铁",
     "lightest_spring": "质量最小的螺旋弹簧",
@@ -32,5 +34,7 @@ WORDS = {
     "tuned_absorber": "有不平衡的机器与最佳动力吸振器",
     "two_bar_truss": "重量最小的两杆桁架",
     "path_of_five_points": "通过五个定时点的四杆机构",
+    "two_cables": "吊钩上的两根绳",
+    "two_forces": "空间两力的合力",
     "two_masses": "三根弹簧上的两个质量",
 }
