@@ -9,7 +9,6 @@ from linkwright.cli.columns import Column
 from linkwright.cli.errors import UsageError
 from linkwright.cli.solving import Solved, steady
 from linkwright.errors import LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
 from linkwright.structure import Structure
@@ -59,9 +58,7 @@ def _output_guides(mechanism: Mechanism) -> list[str]:
     """Guides on the frame that no driver moves."""
     driven = {driver.joint for driver in mechanism.drivers.values()}
     return [
-        name
-        for name, joint in mechanism.joints.items()
-        if isinstance(joint, PrismaticJoint) and "frame" in joint.joined and name not in driven
+        name for name, joint in mechanism.guides.items() if "frame" in joint.joined and name not in driven
     ]
 
 
@@ -70,7 +67,7 @@ def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
     order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
     driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
     at_frame = [joint for joint in mechanism.joints.values() if "frame" in joint.joined]
-    sliding = {link for joint in at_frame if isinstance(joint, PrismaticJoint) for link in joint.joined}
+    sliding = {link for joint in at_frame if joint.coordinate == "slide" for link in joint.joined}
     hinged = {link for joint in at_frame for link in joint.joined}
 
     def rank(link: str) -> int:

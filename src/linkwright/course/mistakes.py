@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from linkwright.course.chain import Change, Line, lines_of, run, with_terms
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -82,7 +81,7 @@ def degrees_for_radians(sheet: Sheet) -> Made:
 def rpm_for_radians(sheet: Sheet) -> Made:
     """The speed in revolutions per minute is put in as if it were in radians per second."""
     driver = next(iter(sheet.mechanism.drivers.values()))
-    if isinstance(sheet.mechanism.joints[driver.joint], RevoluteJoint):
+    if sheet.mechanism.joints[driver.joint].coordinate == "turn":
         rate = next((line.result.amount for line in sheet.lines if line.result.plain == "q'"), 0.0)
         yield "q'", run(sheet.lines, given={"q'": rate / RPM})
 

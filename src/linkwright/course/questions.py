@@ -93,10 +93,8 @@ def _quantity(key: str, value: float) -> str:
 
 def position_text(found: Variants, say: Say) -> str:
     """The position asked for, in words."""
-    from linkwright.joints.revolute import RevoluteJoint
-
     driver = next(iter(found.task.mechanism.drivers.values()))
-    turning = isinstance(found.task.mechanism.joints[driver.joint], RevoluteJoint)
+    turning = found.task.mechanism.joints[driver.joint].coordinate == "turn"
     place = f"{57.29577951308232 * found.task.at:.6g}°" if turning else f"{1e3 * found.task.at:.6g} mm"
     return say("course.position", input=place, link=driver.link)
 

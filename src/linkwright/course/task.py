@@ -60,7 +60,7 @@ def task(mechanism: Mechanism) -> Task:
     if not drivers or not all(isinstance(driver.law, ConstantSpeed) for driver in drivers):
         raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
     driver = next(iter(drivers))
-    rotary = mechanism.joints[driver.joint].kind == "revolute"
+    rotary = mechanism.joints[driver.joint].coordinate == "turn"
     at = parse(str(given.get("at", "60 deg" if rotary else "0.01 m")), "angle" if rotary else "length")
     sheet = Sheet(mechanism, at)
     return Task(mechanism, _ranges(mechanism, given.get("vary")), _questions(sheet, given.get("ask")), at,

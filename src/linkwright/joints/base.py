@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
+from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
     from linkwright.engine.vector import Vec
-    from linkwright.joints.marks import Mark
+    from linkwright.joints.marks import Mark, Wheels
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.cycle import Floats
@@ -205,6 +206,12 @@ class Joint(ABC):
         """The joint from the values of its keys, or None after a finding."""
         return cls(name, **values)
 
+    @classmethod
+    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+        """A point that several links share by an entry with these words, and the links; the last of them is no
+        link of the pin that the shared name would imply."""
+        return None
+
     def written(self) -> dict[str, Any]:
         """Values of the keys that a file needs, as plain data or as numbers in SI."""
         raise self.lacks("written")
@@ -256,6 +263,20 @@ class Joint(ABC):
         """Constant angle of the child's x axis to the parent's, rad, where the joint does not turn."""
         raise self.lacks("turned")
 
+    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+        """The same as a number."""
+        raise self.lacks("turn_of")
+
+    def point_on(self, link: str) -> str:
+        """The point of one of its links by which the joint holds it."""
+        return self.name
+
+    @property
+    def friction_arm(self) -> float:
+        """Friction over the force that presses the parts together: a coefficient, of a turning joint times the
+        radius, m; 0 without friction."""
+        return 0.0
+
     def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
         """The child as a body of the closed loops."""
         raise self.lacks("hang_in_loop")
@@ -284,6 +305,10 @@ class Joint(ABC):
         have a tooth, rad in their axes, to which a joint adds its own."""
         return ()
 
+    def wheels(self) -> Wheels | None:
+        """The two wheels of a pair of wheels."""
+        return None
+
     def pulls(self, forces: Forces) -> Any:
         """Where (n,) a pair that can only push would have to pull; None for one that can do both."""
         return None
@@ -297,6 +322,12 @@ class Joint(ABC):
         """Where the reaction acts, (n, 2) m in frame axes: in the first of its seats."""
         link, point = self.seats[0]
         return motion.point(f"{link}.{point}").position
+
+    @classmethod
+    def word(cls) -> Sentence | str:
+        """The kind as it is read; one of another package by its own word."""
+        key = f"nouns.pair_{cls.kind}"
+        return Sentence(key) if has(key) else cls.kind
 
     @classmethod
     def lacks(cls, what: str) -> LackingError:

@@ -64,6 +64,9 @@ class BeltPair(WheelPair):
         assert self.radii is not None
         return self.radii
 
+    def running_radii(self) -> tuple[float, float]:
+        return self.pitch_radii()
+
     def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
         a, b = self.pitch_radii()
         if a + b >= distance:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.joints.base import JOINTS, Cut, HigherPair, Joint, LackingError, carried_steadily
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.laws.program_fields import ProgramField
 from linkwright.model.fields import Field, Quantity, Word
 from linkwright.model.reference_fields import LinkName, PointName
@@ -183,11 +182,7 @@ class CamJoint(HigherPair):
         for name, joint in mechanism.joints.items():
             if self.side and joint.coordinate == "turn" and {self.follower, carrier} <= set(joint.joined):
                 return name
-            if (
-                not self.side
-                and isinstance(joint, PrismaticJoint)
-                and set(joint.ties) == {self.follower, carrier}
-            ):
+            if not self.side and joint.coordinate == "slide" and set(joint.ties) == {self.follower, carrier}:
                 return name
         return ""
 

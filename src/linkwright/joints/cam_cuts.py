@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from linkwright.engine.trace import Scalar, acos, angle, asin, select, sqrt
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.joints.base import Angles, Cut, Poses, States
+from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.pose import Pose
-from linkwright.joints.prismatic import PrismaticJoint
 
 if TYPE_CHECKING:
     from linkwright.joints.cam import CamJoint
@@ -46,8 +46,8 @@ class Geometry:
         at = complex(*mechanism.link(joint.follower).points[joint.at])
         carrier = mechanism.link(joint.carrier).points
         centre = complex(*carrier[joint.centre])
-        guide = mechanism.joints[joint.holder]
-        if isinstance(guide, PrismaticJoint):
+        guide = mechanism.guides.get(joint.holder)
+        if guide is not None:
             return cls._guided(joint, guide, mechanism, radius, at, centre)
         line = centre - complex(*carrier[joint.holder])
         arm = at - complex(*mechanism.link(joint.follower).points[joint.holder])
@@ -63,7 +63,7 @@ class Geometry:
     def _guided(
         cls,
         joint: CamJoint,
-        guide: PrismaticJoint,
+        guide: SlidingJoint,
         mechanism: Mechanism,
         radius: float,
         at: complex,
@@ -90,8 +90,8 @@ def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:
     centre = dimensions.point(joint.cam, joint.centre)
     at = dimensions.point(joint.follower, joint.at)
     radius = joint.radius(dimensions)
-    guide = dimensions.mechanism.joints[joint.holder]
-    if isinstance(guide, PrismaticJoint):
+    guide = dimensions.mechanism.guides.get(joint.holder)
+    if guide is not None:
         on_guide, on_block = dimensions.guide_direction(guide), dimensions.block_direction(guide)
         own, there = (on_block, on_guide) if guide.block == joint.follower else (-on_guide, -on_block)
         return GuidedCut(connection, turned, centre, at, own, own.turn(there.conjugate), radius, joint.touch)

@@ -27,6 +27,7 @@ class ChainPair(BeltPair):
     """
 
     kind: ClassVar[str] = "chain"
+    toothed: ClassVar[bool] = True
     pitch: float | None = None
 
     @classmethod

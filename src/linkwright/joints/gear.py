@@ -46,6 +46,7 @@ class GearPair(WheelPair):
 
     kind: ClassVar[str] = "gear"
     letter: ClassVar[str] = "G"
+    toothed: ClassVar[bool] = True
     mesh: str = "external"
     module: float | None = None
     pressure_angle: float = STANDARD
@@ -171,7 +172,7 @@ class GearPair(WheelPair):
         turned = self._meshing(mechanism, tooth) if self.teeth is not None else (0.0, 0.0)
         for k, link in enumerate(self.links):
             yield Mark(
-                "gear" if self.kind == "gear" else "disc",
+                "gear" if self.toothed else "disc",
                 link,
                 mechanism.link(link).points[self.centres[k]],
                 radii[k],

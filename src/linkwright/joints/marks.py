@@ -8,6 +8,23 @@ Vec = tuple[float, float]
 
 
 @dataclass(frozen=True)
+class Wheels:
+    """Two wheels on a carrier, for drawings whose dimensions may change.
+
+    ``ratio`` i of their speeds on it; ``radii`` (m) where they do not follow from the distance of the centres, d i /
+    (i - 1) and d / (i - 1); ``wrapped``: a belt or a chain runs around them; ``toothed``: with teeth.
+    """
+
+    carrier: str
+    centres: tuple[str, str]
+    links: tuple[str, str]
+    ratio: float
+    radii: tuple[float, float] | None
+    wrapped: bool
+    toothed: bool
+
+
+@dataclass(frozen=True)
 class Mark:
     """A ``symbol`` (``gear``, ``disc``, ``rack``, ``strand``, ``cam``, ``roller``, ``knife`` or ``face``) on a
     link, in its axes, m and rad.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar, angle
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
+from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import FRICTION
 from linkwright.model.fields import Field, Quantity
@@ -32,34 +33,11 @@ if TYPE_CHECKING:
 
 @JOINTS.register("prismatic")
 @dataclass(frozen=True)
-class PrismaticJoint(Joint):
-    """A guide line fixed in link ``guide`` and a block, link ``block``, that slides along it without turning.
-
-    The line goes through the point ``through`` of the guide link; its direction is the angle ``direction``
-    (rad, in that link's axes) or, with ``direction_points`` (P, Q), the direction from P to Q of that link.
-    The point ``at`` of the block stays at the normal distance ``offset`` (m, left of the direction positive)
-    from the line. ``block_angle`` (rad) is the direction of the line in the block's axes.
-    Coordinate: displacement s of ``at`` from ``through`` along the direction, in m.
-    """
+class PrismaticJoint(SlidingJoint):
+    """A straight guide with its block; :class:`SlidingJoint` says what its fields mean."""
 
     kind: ClassVar[str] = "prismatic"
     letter: ClassVar[str] = "P"
-    couples: ClassVar[bool] = True
-    freedoms: ClassVar[int] = 1
-    coordinate: ClassVar[str] = "slide"
-    guide: str
-    through: str
-    direction: float
-    direction_points: tuple[str, str] | None
-    block: str
-    at: str
-    offset: float = 0.0
-    block_angle: float = 0.0
-    friction: float = 0.0
-
-    @property
-    def joined(self) -> tuple[str, ...]:
-        return (self.guide, self.block)
 
     def dimensions(self) -> Mapping[str, float]:
         found = {f"{self.name}.offset": self.offset, f"{self.name}.block_angle": self.block_angle}
@@ -128,6 +106,11 @@ class PrismaticJoint(Joint):
             )
         return joint.aligned(links[guide].points)
 
+    @classmethod
+    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+        at, guide = given.get("at"), given.get("guide")
+        return (at, (guide,)) if at and guide and at == given.get("through") else None
+
     @staticmethod
     def _apart(reader: Reader, node: MappingNode, place: Where, values: Mapping[str, Any]) -> bool:
         """Whether guide and block, and their points, are different ones."""
@@ -162,10 +145,6 @@ class PrismaticJoint(Joint):
         return values
 
     # structure --------------------------------------------------------------------------------
-    @property
-    def ties(self) -> tuple[str, ...]:
-        return (self.guide, self.block)
-
     def constrain(self, graph: ConstraintGraph) -> None:
         graph.hold_rotation(self.name, self.guide, self.block)
         graph.demand(self.name, (self.guide, self.block), 1)
@@ -176,7 +155,6 @@ class PrismaticJoint(Joint):
 
     # motion -----------------------------------------------------------------------------------
     def angle_of_guide(self, mechanism: Mechanism) -> float:
-        """Direction of the guide in the axes of its link, rad."""
         if self.direction_points is None:
             return self.direction
         points = mechanism.link(self.guide).points
@@ -230,10 +208,6 @@ class PrismaticJoint(Joint):
         along = cmath.exp(1j * (guide.offset + self.angle_of_guide(build.mechanism)))
         build.slide(start, build.unknown("slide", self.name, group), guide.rotation, along, self.offset)
         build.loop(group, start, build.place(self.block, self.at))
-
-    @property
-    def seats(self) -> tuple[tuple[str, str], ...]:
-        return ((self.block, self.at),)
 
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]

@@ -23,8 +23,8 @@ from linkwright.joints.base import (
     carried_steadily,
 )
 from linkwright.joints.gear import STANDARD
+from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.marks import Mark
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.toothed import FITS, length
 from linkwright.model.fields import Field, Quantity
 from linkwright.model.reference_fields import Direction, LinkName, PointName
@@ -292,11 +292,11 @@ class _Search:
 
     def __init__(self, pair: RackPair, mechanism: Mechanism) -> None:
         self.pair, self.mechanism = pair, mechanism
-        self.guides = [j for j in mechanism.joints.values() if isinstance(j, PrismaticJoint)]
+        self.guides = list(mechanism.guides.values())
 
     def found(self) -> _Way | None:
         carriers = self._carriers()
-        routes: list[tuple[str, tuple[PrismaticJoint, ...]]] = [(self.pair.rack, ())]
+        routes: list[tuple[str, tuple[SlidingJoint, ...]]] = [(self.pair.rack, ())]
         seen = {self.pair.rack}
         for link, route in routes:
             if link in carriers and route:
@@ -319,7 +319,7 @@ class _Search:
             if link != pinion
         }
 
-    def _measured(self, carrier: str, centre: str, route: Sequence[PrismaticJoint]) -> _Way:
+    def _measured(self, carrier: str, centre: str, route: Sequence[SlidingJoint]) -> _Way:
         """The route in axes whose x axis is the pitch line."""
         pair, link = self.pair, self.pair.rack
         first = route[0]

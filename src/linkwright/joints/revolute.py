@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
+from linkwright.joints.lower import TurningJoint
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.model.fields import Field, Quantity
 
@@ -29,24 +30,11 @@ FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb fric
 
 @JOINTS.register("revolute")
 @dataclass(frozen=True)
-class RevoluteJoint(Joint):
-    """A pin through the point ``name`` of every link in ``links`` (two or more, in the order of the file).
-
-    Coordinate: angle of the second link's x axis against the first's, in rad, counter-clockwise positive.
-    ``pin_radius`` in m (None: not given), ``friction`` the dimensionless coefficient of Coulomb friction.
-    """
+class RevoluteJoint(TurningJoint):
+    """A pin: the kind that points of one name imply."""
 
     kind: ClassVar[str] = "revolute"
     letter: ClassVar[str] = "R"
-    freedoms: ClassVar[int] = 1
-    coordinate: ClassVar[str] = "turn"
-    links: tuple[str, ...]
-    pin_radius: float | None = None
-    friction: float = 0.0
-
-    @property
-    def joined(self) -> tuple[str, ...]:
-        return self.links
 
     def dimensions(self) -> Mapping[str, float]:
         given = {f"{self.name}.friction": self.friction} if self.friction else {}

@@ -22,6 +22,7 @@ class RollingPair(GearPair):
 
     kind: ClassVar[str] = "rolling"
     letter: ClassVar[str] = "O"
+    toothed: ClassVar[bool] = False
     pressure_angle: float = 0.0
 
     @classmethod

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import Angles, Cut, HigherPair, Joint, Poses, States
+from linkwright.joints.marks import Wheels
 from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.model.reference_fields import LinkName, LinkNames
 from linkwright.units import number
@@ -50,6 +51,7 @@ class WheelPair(HigherPair):
     """
 
     rotations_only: ClassVar[bool] = True
+    toothed: ClassVar[bool] = False
     links: tuple[str, str]
     carrier: str
     centres: tuple[str, str]
@@ -188,6 +190,16 @@ class WheelPair(HigherPair):
         points = mechanism.link(self.carrier).points
         a, b = (complex(*points[each]) for each in self.centres)
         return b - a
+
+    def wheels(self) -> Wheels:
+        radii = self.running_radii()
+        return Wheels(
+            self.carrier, self.centres, self.links, self.transmission, radii, radii is not None, self.toothed
+        )
+
+    def running_radii(self) -> Pair | None:
+        """Radii (m) that do not follow from the distance of the centres, as those of a belt."""
+        return None
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

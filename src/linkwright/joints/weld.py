@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import JOINTS, Joint
+from linkwright.joints.lower import RigidJoint
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.model.fields import Field, Quantity, Text
 from linkwright.model.reference_fields import LinkNames
@@ -28,20 +29,11 @@ if TYPE_CHECKING:
 
 @JOINTS.register("weld")
 @dataclass(frozen=True)
-class WeldJoint(Joint):
-    """Links (a, b) fixed to each other at their common point ``at``, b's x axis at ``angle`` (rad) to a's."""
+class WeldJoint(RigidJoint):
+    """Two links made one; :class:`RigidJoint` says what its fields mean."""
 
     kind: ClassVar[str] = "weld"
     letter: ClassVar[str] = "W"
-    couples: ClassVar[bool] = True
-    freedoms: ClassVar[int] = 0
-    links: tuple[str, str]
-    at: str
-    angle: float = 0.0
-
-    @property
-    def joined(self) -> tuple[str, ...]:
-        return self.links
 
     def dimensions(self) -> Mapping[str, float]:
         return {f"{self.name}.angle": self.angle}
@@ -72,14 +64,15 @@ class WeldJoint(Joint):
         found = [reader.point_of(held, place.child("at"), values["at"], each) for each in values["links"]]
         return cls(name, **values) if all(found) else None
 
+    @classmethod
+    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+        at, links = given.get("at"), given.get("links")
+        return (at, links) if at and isinstance(links, list) and len(links) == 2 else None
+
     def written(self) -> dict[str, Any]:
         return {"links": list(self.links), "at": self.at, "angle": self.angle}
 
     # structure --------------------------------------------------------------------------------
-    @property
-    def ties(self) -> tuple[str, ...]:
-        return self.links
-
     def constrain(self, graph: ConstraintGraph) -> None:
         graph.hold_rotation(self.name, *self.links)
         graph.demand(self.name, self.links, 2)
@@ -103,10 +96,6 @@ class WeldJoint(Joint):
         turn = self.angle if step.child == self.links[1] else -self.angle
         place, anchor = build.place(step.parent, self.at), build.local(step.child, self.at)
         return build.body(parent.rotation, parent.offset + turn, anchor, place)
-
-    @property
-    def seats(self) -> tuple[tuple[str, str], ...]:
-        return ((self.links[-1], self.at),)
 
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]

@@ -8,8 +8,7 @@ from math import sin as sine
 
 from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
 from linkwright.engine.vector import Vec
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.weld import WeldJoint
+from linkwright.joints.lower import RigidJoint, SlidingJoint
 from linkwright.model.geometry import centre, local_points
 from linkwright.model.mechanism import Link, Mechanism
 
@@ -81,7 +80,7 @@ class Dimensions:
         x, y = centre(self.link(link), {n: (v.x, v.y) for n, v in self._points[link].items()}, self)
         return Vec(x, y)
 
-    def guide_direction(self, joint: PrismaticJoint) -> Vec:
+    def guide_direction(self, joint: SlidingJoint) -> Vec:
         """Unit vector along a guide, in the axes of the link that carries it."""
         if joint.direction_points is None:
             return self.unit(f"{joint.name}.direction")
@@ -94,11 +93,11 @@ class Dimensions:
                 return Vec(1.0, 0.0)
         return d * reciprocal(sqrt(d.square))
 
-    def block_direction(self, joint: PrismaticJoint) -> Vec:
+    def block_direction(self, joint: SlidingJoint) -> Vec:
         """Unit vector along the guide, in the axes of the block."""
         return self.unit(f"{joint.name}.block_angle")
 
-    def weld_direction(self, joint: WeldJoint) -> Vec:
+    def weld_direction(self, joint: RigidJoint) -> Vec:
         """Unit vector of the second link's x axis in the first link's axes."""
         return self.unit(f"{joint.name}.angle")
 

@@ -80,11 +80,10 @@ _known: Recent[Motion, tuple[LimitPosition, ...]] = Recent(64)
 def output_of(mechanism: Mechanism, text: str) -> Output:
     """The output that a text means. Raises LinkwrightError, with the nearest one, where it means none."""
     links = {name: link.points for name, link in mechanism.links.items()}
-    joints = {name: joint.kind for name, joint in mechanism.joints.items()}
-    found = resolve_output(text, links, joints)
+    guides = tuple(mechanism.guides)
+    found = resolve_output(text, links, guides)
     if found is not None:
         return found
-    guides = [name for name, joint in mechanism.joints.items() if joint.coordinate == "slide"]
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     hint = offered(text, [*links, *guides, *points])
     raise RequestError(Sentence("motion.no_output", text=text, hint=hint))

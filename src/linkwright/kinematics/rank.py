@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.cam import CamJoint
-from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.rack import RackPair
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -287,7 +287,7 @@ class ConstraintSystem:
         c = np.cos(difference)
         return Row(joint, "rotation", np.sin(difference), {a: (0.0, 0.0, -c), b: (0.0, 0.0, c)})
 
-    def along(self, joint: PrismaticJoint, poses: Mapping[str, Place], *, across: bool) -> Row:
+    def along(self, joint: SlidingJoint, poses: Mapping[str, Place], *, across: bool) -> Row:
         """The block's place along the guide, or its distance across it."""
         guide, block = poses[joint.guide], poses[joint.block]
         direction = joint.angle_of_guide(self.mechanism) + (0.5 * math.pi if across else 0.0)

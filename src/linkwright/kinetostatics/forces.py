@@ -203,11 +203,9 @@ class Forces:
 
     def guide_direction(self, joint: str) -> Floats:
         """Unit vector along a guide, (n, 2)."""
-        from linkwright.model.drawing import guide_angle
-
-        prismatic = self.mechanism.joints[joint]
-        angle = guide_angle(self.mechanism, prismatic)  # type: ignore[arg-type]
-        e = self.motion.link(prismatic.joined[0]).direction
+        guide = self.mechanism.guides[joint]
+        angle = guide.angle_of_guide(self.mechanism)
+        e = self.motion.link(guide.guide).direction
         c, s = np.cos(angle), np.sin(angle)
         return np.stack([c * e[:, 0] - s * e[:, 1], s * e[:, 0] + c * e[:, 1]], axis=1)
 

@@ -9,15 +9,11 @@ import numpy as np
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.errors import LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
 from linkwright.model.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -56,18 +52,12 @@ class FrictionTerms:
         """
         terms = []
         for name, joint in mechanism.joints.items():
-            coefficient = getattr(joint, "friction", 0.0)
-            if not coefficient:
-                continue
-            if isinstance(joint, RevoluteJoint):
-                if joint.pin_radius is None:
-                    raise LinkwrightError(Sentence("forces.needs_pin_radius", name=name))
+            arm, slides = joint.friction_arm, joint.coordinate == "slide"
+            if arm:
                 pairs = [
                     (c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name
                 ]
-                terms += [FrictionTerm(name, a, b, coefficient * joint.pin_radius, False) for a, b in pairs]
-            elif isinstance(joint, PrismaticJoint):
-                terms.append(FrictionTerm(name, joint.guide, joint.block, coefficient, True))
+                terms += [FrictionTerm(name, a, b, arm, slides) for a, b in pairs]
         return cls(motion, tuple(terms))
 
     def wrenches(self) -> dict[str, list[Wrench]]:

@@ -13,8 +13,6 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
@@ -151,7 +149,7 @@ class Named:
 
     def _slide(self, name: str) -> Quantity | None:
         owner, _, part = name.rpartition(".")
-        if isinstance(self.mechanism.joints.get(owner), PrismaticJoint) and part in SLIDE_PARTS:
+        if owner in self.mechanism.guides and part in SLIDE_PARTS:
             kind, dimension = SLIDE_PARTS[part]
             value = self.motion.outputs.value(f"{kind}:{owner}")
             return Quantity(name, dimension, self._in_time(name, value) if part == "jerk" else value)
@@ -208,7 +206,7 @@ class Named:
 
     def _effort_dimension(self, driver: str) -> str:
         joint = self.mechanism.joints[self.mechanism.drivers[driver].joint]
-        return "torque" if isinstance(joint, RevoluteJoint) else "force"
+        return "torque" if joint.coordinate == "turn" else "force"
 
     # phrases ------------------------------------------------------------------------------
     def input_torque(self, name: str, rest: list[str]) -> Quantity:
@@ -285,7 +283,7 @@ class Named:
         """Rate of a link's angle, or of a guide's displacement, over the first driver's."""
         if len(rest) != 1 or not self.mechanism.drivers:
             raise self._unknown(name)
-        slides = isinstance(self.mechanism.joints.get(rest[0]), PrismaticJoint)
+        slides = rest[0] in self.mechanism.guides
         if not slides and rest[0] not in self.mechanism.links:
             raise self._unknown(name)
         rate = self.motion.outputs.value(f"{'sv' if slides else 'w'}:{rest[0]}")
@@ -297,8 +295,8 @@ class Named:
     def heat(self, name: str, rest: list[str]) -> Quantity:
         """Force of a pin times its pin radius times the relative speed of its two links, with the speed's sign."""
         joint, link, _ = self._at_joint(name, rest)
-        pin = self.mechanism.joints[joint]
-        if not isinstance(pin, RevoluteJoint) or not pin.pin_radius:
+        pin = self.mechanism.pins.get(joint)
+        if pin is None or not pin.pin_radius:
             raise self._unknown(name)
         other = next(each for each in pin.joined if each != link)
         states = self.motion.motion.states
@@ -385,9 +383,9 @@ def output_names(mechanism: Mechanism) -> Iterator[str]:
     for link in mechanism.links:
         yield from (f"{link}.angle", f"{link}.angular_velocity", f"{link}.angular_acceleration")
     for name, joint in mechanism.joints.items():
-        if isinstance(joint, PrismaticJoint):
+        if name in mechanism.guides:
             yield from (f"{name}.{part}" for part in SLIDE_PARTS)
-            yield f"couple {name} on {joint.block}"
+            yield f"couple {name} on {mechanism.guides[name].block}"
         yield from (f"reaction {name} on {link}" for link in joint.joined if link != "frame")
     keys = {canonical(mechanism, name, p) for name, link in mechanism.links.items() for p in link.points}
     for key in sorted(keys):

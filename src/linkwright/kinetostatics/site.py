@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
@@ -57,10 +56,9 @@ def output_value(motion: MotionTrace, output: Output) -> Scalar:
 
 def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
     """Of a prismatic joint: the guide's unit vector, the block's point, the sliding velocity."""
-    prismatic = motion.mechanism.joints[joint]
-    assert isinstance(prismatic, PrismaticJoint)
+    prismatic = motion.mechanism.guides[joint]
     guide, block = motion.states[prismatic.guide], motion.states[prismatic.block]
-    direction = guide.pose.spin(motion.dimensions.guide_direction(prismatic))
+    direction = guide.pose.spin(prismatic.slide_direction(motion.dimensions))
     at = motion.dimensions.point(prismatic.block, prismatic.at)
     place = block.pose.place + block.arm(at)
     relative = block.velocity_of(at) - guide.velocity_at(place - guide.pose.place)

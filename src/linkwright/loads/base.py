@@ -291,9 +291,9 @@ def points(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
     return _declare(PointReferences(doc=doc, key=key), default)
 
 
-def joint(*kinds: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
-    """The name of a joint of one of the kinds (default: revolute or prismatic)."""
-    return _declare(JointName(kinds or ("revolute", "prismatic"), doc=doc, key=key), default)
+def joint(*coordinates: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+    """The name of a joint with one of the coordinates ``turn`` and ``slide`` (default: either)."""
+    return _declare(JointName(coordinates or ("turn", "slide"), doc=doc, key=key), default)
 
 
 def word(*choices: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:

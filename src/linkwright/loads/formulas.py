@@ -57,8 +57,7 @@ def _column(name: str, signals: Signals) -> Array:
 def output_named(name: str, mechanism: Mechanism) -> Output | None:
     """The output that a name in an expression means."""
     links = {"frame": mechanism.frame, **mechanism.links}
-    kinds = {joint: each.kind for joint, each in mechanism.joints.items()}
-    return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, kinds)
+    return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)
 
 
 def _refusal(expression: Expression, columns: Mapping[str, Array], signals: Signals, index: int) -> str:

@@ -32,7 +32,7 @@ class Pressure(Load):
 
     kind: ClassVar[str] = "pressure"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("area", "bore"), ("magnitude", "ramp", "table"))
-    joint: str = base.joint("prismatic", doc="the prismatic joint whose block is the piston")
+    joint: str = base.joint("slide", doc="the prismatic joint whose block is the piston")
     area: float | None = base.quantity("area", above=0, default=None, doc="area of the piston")
     bore: float | None = base.quantity("length", above=0, default=None, doc="diameter of the piston")
     pushes: str = base.word(

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.prismatic import PrismaticJoint
 
 if TYPE_CHECKING:
     from linkwright.model.mechanism import Mechanism
@@ -75,6 +74,5 @@ class Site(Protocol):
 
 def guide_and_block(site: Site, joint: str) -> tuple[str, str]:
     """The links of a prismatic joint: the one that carries the guide, the one that slides."""
-    found = site.motion.mechanism.joints[joint]
-    assert isinstance(found, PrismaticJoint)
+    found = site.motion.mechanism.guides[joint]
     return found.guide, found.block

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.lower import TurningJoint
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
@@ -45,8 +45,8 @@ class BearingPv(Metric):
             yield replace(found, remarks=(Remark("bearing_pv.mean", said),))
 
 
-def _bearings(analysis: Analysis) -> Iterator[tuple[RevoluteJoint, str]]:
+def _bearings(analysis: Analysis) -> Iterator[tuple[TurningJoint, str]]:
     """Every pin with a radius, with each link that it holds beside its first one."""
-    for joint in analysis.motion.mechanism.joints.values():
-        if isinstance(joint, RevoluteJoint) and joint.pin_radius:
+    for joint in analysis.motion.mechanism.pins.values():
+        if joint.pin_radius:
             yield from ((joint, link) for link in joint.links[1:])

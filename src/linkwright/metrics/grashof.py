@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from math import hypot
 
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.lower import TurningJoint
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
 from linkwright.metrics.quantities import shown
@@ -54,7 +54,7 @@ class FourBar:
 
 def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
     """All four-bar loops that contain the frame and have pins only."""
-    pins = {name: joint for name, joint in mechanism.joints.items() if isinstance(joint, RevoluteJoint)}
+    pins = mechanism.pins
     grounded = [
         (link, name) for name, joint in pins.items() if "frame" in joint.links for link in joint.links
     ]
@@ -72,7 +72,7 @@ def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
 
 
 def _couplers(
-    mechanism: Mechanism, pins: dict[str, RevoluteJoint], first: tuple[str, str], second: tuple[str, str]
+    mechanism: Mechanism, pins: Mapping[str, TurningJoint], first: tuple[str, str], second: tuple[str, str]
 ) -> Iterator[tuple[str, str, str]]:
     """Pins on both sides and the link between them."""
     on_first = [name for name, joint in pins.items() if first[0] in joint.links and name != first[1]]

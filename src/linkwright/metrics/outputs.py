@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Mechanism
@@ -21,9 +19,9 @@ def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
         if "frame" not in joint.joined:
             continue
         links = [link for link in joint.joined if link != "frame" and (name, link) not in driven]
-        if isinstance(joint, RevoluteJoint):
+        if joint.coordinate == "turn":
             found |= {Output("angle", link, link): None for link in links}
-        elif isinstance(joint, PrismaticJoint) and links:
+        elif joint.coordinate == "slide" and links:
             found[Output("displacement", name, name)] = None
     return tuple(found)
 
@@ -69,9 +67,8 @@ def turns_fully(motion: Motion, output: Output) -> bool:
 def free_points(mechanism: Mechanism) -> tuple[str, ...]:
     """Points of moving links that are no joint's: coupler points, tool points; as ``link.point``."""
     used = set(mechanism.joints)
-    for joint in mechanism.joints.values():
-        if isinstance(joint, PrismaticJoint):
-            used |= {joint.through, joint.at, *(joint.direction_points or ())}
+    for joint in mechanism.guides.values():
+        used |= {joint.through, joint.at, *(joint.direction_points or ())}
     return tuple(
         f"{name}.{point}"
         for name, link in mechanism.links.items()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.lower import SlidingJoint
 from linkwright.model.mechanism import Mechanism
 
 Vec = tuple[float, float]
@@ -35,19 +35,18 @@ class Drawing:
     def driver(self, name: str) -> float | None:
         """A driver's coordinate in the drawing."""
         driver = self.mechanism.drivers[name]
-        joint = self.mechanism.joints[driver.joint]
-        if isinstance(joint, PrismaticJoint):
-            return self.slide(joint)
+        if driver.joint in self.mechanism.guides:
+            return self.slide(self.mechanism.guides[driver.joint])
         turned, base = self.angle(driver.link), self.angle(driver.relative_to)
         return None if turned is None or base is None else turned - base
 
-    def slide(self, joint: PrismaticJoint) -> float | None:
+    def slide(self, joint: SlidingJoint) -> float | None:
         """Displacement of a guide's block in the drawing."""
         through, at = self.place(joint.guide, joint.through), self.place(joint.block, joint.at)
         angle = self.angle(joint.guide)
         if through is None or at is None or angle is None:
             return None
-        direction = angle + guide_angle(self.mechanism, joint)
+        direction = angle + joint.angle_of_guide(self.mechanism)
         return (at[0] - through[0]) * math.cos(direction) + (at[1] - through[1]) * math.sin(direction)
 
     def _from_points(self, link: str) -> float | None:
@@ -96,17 +95,12 @@ class Drawing:
 
     def _spread_along_guides(self) -> None:
         """A link without two drawn points takes its direction from a guide."""
-        guides = [j for j in self.mechanism.joints.values() if isinstance(j, PrismaticJoint)]
+        guides = self.mechanism.guides.values()
         for _ in guides:
             for joint in guides:
-                turn = guide_angle(self.mechanism, joint) - joint.block_angle
+                turn = joint.angle_of_guide(self.mechanism) - joint.block_angle
                 guide, block = self._angles[joint.guide], self._angles[joint.block]
                 if block is None and guide is not None:
                     self._angles[joint.block] = guide + turn
                 elif guide is None and block is not None:
                     self._angles[joint.guide] = block - turn
-
-
-def guide_angle(mechanism: Mechanism, joint: PrismaticJoint) -> float:
-    """Direction of a guide in the axes of its link, rad."""
-    return joint.angle_of_guide(mechanism)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,6 +19,7 @@ from linkwright.units import LARGEST_OF_ALL, Dimension
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
     from linkwright.model.expressions import Expression
 
 Vec = tuple[float, float]
@@ -199,6 +200,27 @@ class Mechanism(Frozen):
             expressions=kept,
         )
 
+    @cached_property
+    def pins(self) -> Mapping[str, TurningJoint]:
+        """The joints about which links turn."""
+        from linkwright.joints.lower import TurningJoint
+
+        return {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
+
+    @cached_property
+    def guides(self) -> Mapping[str, SlidingJoint]:
+        """The joints along which blocks slide."""
+        from linkwright.joints.lower import SlidingJoint
+
+        return {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
+
+    @cached_property
+    def welds(self) -> Mapping[str, RigidJoint]:
+        """The joints that make one of two links."""
+        from linkwright.joints.lower import RigidJoint
+
+        return {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
+
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
         joint = self.joints.get(name)
@@ -267,4 +289,4 @@ class Mechanism(Frozen):
         return f"Mechanism({self.name!r}: links {names}; {counts})"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {key: value for key, value in self.__dict__.items() if key != "_dimensions"}
+        return {each.name: getattr(self, each.name) for each in fields(self)}

@@ -18,11 +18,11 @@ from linkwright.words.sentence import Sentence, together
 
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc="the link that is turned"),
-    "about": JointName(("revolute",), required=True, doc="the pin about which it turns"),
+    "about": JointName(("turn",), required=True, doc="the pin about which it turns"),
     "relative_to": LinkName(doc="the link against which (default: the frame)"),
 }
 SLIDE_FIELDS: Mapping[str, Field] = {
-    "slide": JointName(("prismatic",), required=True, doc="the prismatic joint that is driven"),
+    "slide": JointName(("slide",), required=True, doc="the prismatic joint that is driven"),
 }
 
 

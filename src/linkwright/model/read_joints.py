@@ -38,6 +38,17 @@ def _word(node: MappingNode, key: str) -> str:
     return value.text if isinstance(value, Scalar) else ""
 
 
+def _words(node: MappingNode) -> dict[str, str | list[str]]:
+    """The entry's words and lists of words."""
+    found: dict[str, str | list[str]] = {}
+    for key, value in node:
+        if isinstance(value, Scalar):
+            found[key] = value.text
+        elif isinstance(value, Sequence):
+            found[key] = [item.text for item in value.items if isinstance(item, Scalar)]
+    return found
+
+
 def _implied_pins(
     links: Mapping[str, tuple[str, ...]], joints: list[MappingNode]
 ) -> dict[str, tuple[str, ...]]:
@@ -46,22 +57,10 @@ def _implied_pins(
         for point in points:
             holders.setdefault(point, []).append(link)
     for joint in joints:
-        kind, at = _word(joint, "kind"), _word(joint, "at")
-        if (
-            kind == "prismatic"
-            and at == _word(joint, "through")
-            and _word(joint, "guide") in holders.get(at, ())
-        ):
-            holders[at].remove(_word(joint, "guide"))
-        elif kind == "weld":
-            welded = joint.get("links")
-            names = (
-                [item.text for item in welded.items if isinstance(item, Scalar)]
-                if isinstance(welded, Sequence)
-                else []
-            )
-            if len(names) == 2 and set(names) <= set(holders.get(at, ())):
-                holders[at].remove(names[1])
+        kind = _word(joint, "kind")
+        point, shared = (JOINTS[kind].unpinned(_words(joint)) if kind in JOINTS else None) or ("", ())
+        if shared and set(shared) <= set(holders.get(point, ())):
+            holders[point].remove(shared[-1])
     return {point: tuple(owners) for point, owners in holders.items() if len(owners) > 1}
 
 

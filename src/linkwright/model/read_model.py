@@ -11,7 +11,6 @@ from typing import Any
 
 from linkwright import units
 from linkwright.errors import Finding, QuantityError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.loads.base import Load, read_load
 from linkwright.model import expressions
 from linkwright.model.drawing import Drawing
@@ -21,7 +20,7 @@ from linkwright.model.nodes import Mapping as MappingNode
 from linkwright.model.nodes import Node, Scalar
 from linkwright.model.plain_reader import Place, TooManyFindings
 from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
-from linkwright.model.read_joints import read_joints, scan_joints
+from linkwright.model.read_joints import IMPLIED, read_joints, scan_joints
 from linkwright.model.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.model.reader import Reader
 from linkwright.model.whole import check_whole
@@ -102,9 +101,9 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     links = read_links(reader, root.get("links"), frame, drawn)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
     ends = {
-        name: (joint.block, joint.guide)
+        name: (joint.joined[1], joint.joined[0])
         for name, joint in joints.items()
-        if isinstance(joint, PrismaticJoint)
+        if joint.coordinate == "slide"
     }
     drivers = complete(read_drivers(reader, root), ends)
     mechanism = Mechanism(
@@ -204,7 +203,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
             "name",
         )
         return None
-    if name in reader.names.links or reader.names.joints.get(name, "revolute") != "revolute":
+    if name in reader.names.links or reader.names.joints.get(name, IMPLIED) != IMPLIED:
         reader.error(
             key, place, Sentence("model.name_taken", name=name), Sentence("model.rename_one"), "duplicate"
         )

@@ -11,6 +11,7 @@ from typing import Literal
 
 from linkwright import units
 from linkwright.errors import QuantityError
+from linkwright.joints.base import JOINTS
 from linkwright.model import expressions
 from linkwright.model.expressions import Expression
 from linkwright.model.nodes import Mapping as MappingNode
@@ -39,6 +40,11 @@ class Names:
     joints: dict[str, str] = field(default_factory=dict)
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
     incomplete: bool = False
+
+    @property
+    def sliding(self) -> list[str]:
+        """The joints with a displacement."""
+        return [name for name, kind in self.joints.items() if JOINTS[kind].coordinate == "slide"]
 
     _owners: dict[str, list[str]] = field(default_factory=dict)
 
@@ -208,11 +214,7 @@ class Reader(PlainReader):
             return self._variables
         taken = {*self.kinds, *units.UNITS, *expressions.CONSTANTS, *expressions.FUNCTIONS}
         found = {link: angle for link in self.names.links if link != "frame" and link not in taken}
-        found |= {
-            name: length
-            for name, kind in self.names.joints.items()
-            if kind == "prismatic" and name not in taken
-        }
+        found |= {name: length for name in self.names.sliding if name not in taken}
         for link, points in self.names.links.items():
             for point in points:
                 for axis in ("x", "y"):
@@ -343,12 +345,12 @@ class Reader(PlainReader):
 
     def output(self, node: Node, place: Place, text: str) -> Output | None:
         """An output of the mechanism by its text."""
-        found = resolve_output(text, self.names.links, self.names.joints)
+        found = resolve_output(text, self.names.links, self.names.sliding)
         if found is not None:
             return found
         names = [
             *self.names.links,
-            *(name for name, kind in self.names.joints.items() if kind == "prismatic"),
+            *self.names.sliding,
         ]
         points = dict.fromkeys(f"{point}.x" for points in self.names.links.values() for point in points)
         offer = nearest(text, [*(name for name in names if name != "frame"), *points])

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from linkwright.joints.base import JOINTS
 from linkwright.model.fields import Field, Schema, quantity_schema, written_quantity
 from linkwright.model.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
@@ -138,9 +139,14 @@ class PointReferences(Field):
 
 @dataclass(frozen=True)
 class JointName(Field):
-    """The name of a joint, of one of ``kinds`` (revolute, prismatic, weld)."""
+    """The name of a joint, one with one of the ``coordinates``: ``turn``, ``slide``."""
 
-    kinds: tuple[str, ...] = ("revolute", "prismatic")
+    coordinates: tuple[str, ...] = ("turn", "slide")
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds that have one."""
+        return tuple(kind for kind in JOINTS if JOINTS[kind].coordinate in self.coordinates)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
@@ -151,8 +157,8 @@ class JointName(Field):
             reader.error(
                 node,
                 place,
-                Sentence("model.joint_is", name=name, kind=Sentence(f"model.{kind}")),
-                Sentence("model.name_joint", kinds=tuple(Sentence(f"model.{each}") for each in self.kinds)),
+                Sentence("model.joint_is", name=name, kind=JOINTS[kind].word()),
+                Sentence("model.name_joint", kinds=tuple(JOINTS[each].word() for each in self.kinds)),
                 "reference",
             )
             return None

@@ -261,14 +261,12 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     return SwingPhase(values["of"], values["from"], values["to"], *parts)
 
 
-def resolve_output(
-    text: str, links: Mapping[str, Collection[str]], joints: Mapping[str, str]
-) -> Output | None:
-    """The output that a text means, given each link's points and each joint's kind; None where it means
-    none."""
+def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Collection[str]) -> Output | None:
+    """The output that a text means, given each link's points and the joints with a displacement; None
+    where it means none."""
     if text in links and text != "frame":
         return Output("angle", text, text)
-    if joints.get(text) == "prismatic":
+    if text in slides:
         return Output("displacement", text, text)
     owner, _, word = text.rpartition(".")
     if word not in ("x", "y"):

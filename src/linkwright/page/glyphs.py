@@ -14,11 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.joints.belt import BeltPair
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.toothed import WheelPair
-from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.model.mechanism import Link
@@ -144,21 +139,20 @@ def _wheels(machine: Machine) -> Iterator[Plain]:
     """Wheels of gears, rolling pairs, belts and chains: pitch circles with teeth, sizes in m or as shares of the
     distance between the centres."""
     for joint in machine.motion.mechanism.joints.values():
-        if not isinstance(joint, WheelPair):
+        wheels = joint.wheels()
+        if wheels is None:
             continue
-        ratio = joint.transmission
-        radii = joint.pitch_radii() if isinstance(joint, BeltPair) else (None, None)
-        wrapped = isinstance(joint, BeltPair)
+        ratio, radii = wheels.ratio, wheels.radii or (None, None)
         shares = (abs(ratio / (ratio - 1.0)), abs(1.0 / (ratio - 1.0))) if ratio != 1.0 else (0.5, 0.5)
-        ends = [key_of(machine, joint.carrier, centre) for centre in joint.centres]
-        for place, link in enumerate(joint.links):
+        ends = [key_of(machine, wheels.carrier, centre) for centre in wheels.centres]
+        for place, link in enumerate(wheels.links):
             yield {
                 "kind": "wheel", "layer": "ground", "at": ends[place],
                 "points": ends, "along": 0.0 if link == "frame" else f"e:{link}", "radius": radii[place],
-                "share": shares[place], "toothed": joint.kind in ("gear", "chain"),
-                "inside": ratio > 0 and not wrapped and shares[place] == max(shares),
+                "share": shares[place], "toothed": wheels.toothed,
+                "inside": ratio > 0 and not wheels.wrapped and shares[place] == max(shares),
             }  # fmt: skip
-        if wrapped:
+        if wheels.wrapped:
             yield {
                 "kind": "strands",
                 "layer": "ground",
@@ -170,12 +164,13 @@ def _wheels(machine: Machine) -> Iterator[Plain]:
 
 def undrawn(machine: Machine) -> list[str]:
     """Joints that the page shows by their numbers only."""
-    known = (RevoluteJoint, PrismaticJoint, WeldJoint, WheelPair)
-    return [name for name, joint in machine.motion.mechanism.joints.items() if not isinstance(joint, known)]
+    mechanism = machine.motion.mechanism
+    known = {*mechanism.pins, *mechanism.guides, *mechanism.welds}
+    return [name for name, joint in mechanism.joints.items() if name not in known and joint.wheels() is None]
 
 
 def _welds(machine: Machine) -> Iterator[Plain]:
-    joints = [j for j in machine.motion.mechanism.joints.values() if isinstance(j, WeldJoint)]
+    joints = machine.motion.mechanism.welds.values()
     for joint, part in zip(joints, welds(machine), strict=True):
         yield _tied(machine, part, joint.at)
 

@@ -13,7 +13,6 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, select
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
 from linkwright.kinematics.step_rule import StepRule
@@ -153,13 +152,12 @@ class PagePrograms:
         ]
         names += [f"fact:{name}|{fact}" for name, placed in motion.placed.items() for fact in placed.facts]
         outputs: dict[str, Scalar | bool] = {name: solver.outputs.value(name) for name in names}
-        for name, joint in self.mechanism.joints.items():
-            if isinstance(joint, PrismaticJoint):
-                outputs |= {
-                    f"{kind}:{name}": solver.outputs.value(f"{kind}:{name}") for kind in ("s", "sv", "sa")
-                }
-                direction, _, _ = guide_state(motion, name)
-                outputs |= {f"d:{name}.x": direction.x, f"d:{name}.y": direction.y}
+        for name in self.mechanism.guides:
+            outputs |= {
+                f"{kind}:{name}": solver.outputs.value(f"{kind}:{name}") for kind in ("s", "sv", "sa")
+            }
+            direction, _, _ = guide_state(motion, name)
+            outputs |= {f"d:{name}.x": direction.x, f"d:{name}.y": direction.y}
         for group in self.dyads:
             outputs[f"m:{group.name}"] = transmission(solver.outputs, group)
             outputs[f"quality:{group.name}"] = motion.placed[group.name].quality

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
@@ -43,13 +42,12 @@ def _motion(page: PagePrograms) -> list[Plain]:
                 f"g:{name}", "row", [f"g:{name}"], "angular_acceleration", "angular_acceleration", name=name
             ),
         ]
-    for name, joint in mechanism.joints.items():
-        if isinstance(joint, PrismaticJoint):
-            found += [
-                _signal(f"s:{name}", "row", [f"s:{name}"], "length", "displacement", name=name),
-                _signal(f"sv:{name}", "row", [f"sv:{name}"], "velocity", "slide_velocity", name=name),
-                _signal(f"sa:{name}", "row", [f"sa:{name}"], "acceleration", "slide_acceleration", name=name),
-            ]
+    for name in mechanism.guides:
+        found += [
+            _signal(f"s:{name}", "row", [f"s:{name}"], "length", "displacement", name=name),
+            _signal(f"sv:{name}", "row", [f"sv:{name}"], "velocity", "slide_velocity", name=name),
+            _signal(f"sa:{name}", "row", [f"sa:{name}"], "acceleration", "slide_acceleration", name=name),
+        ]
     for key in page.traced.solver.outputs.point_keys():
         found += [
             _signal(f"v:{key}", "size", _pair("v", key), "velocity", "velocity", name=key),
@@ -64,7 +62,7 @@ def _motion(page: PagePrograms) -> list[Plain]:
 def _forces(page: PagePrograms) -> list[Plain]:
     found = []
     for name in page.traced.forces.forces.efforts:
-        turning = not isinstance(page.mechanism.joints[page.mechanism.drivers[name].joint], PrismaticJoint)
+        turning = page.mechanism.drivers[name].joint not in page.mechanism.guides
         word, kind = ("input_torque", "torque") if turning else ("input_force", "force")
         one = len(page.mechanism.drivers) == 1
         found.append(
@@ -178,8 +176,8 @@ def moving_dimensions(page: PagePrograms, key: str) -> list[str]:
             elif number == 0 and link.geometry == "drawing":
                 placed = [a for a in own if a.endswith(".x")][:1]
             found |= dict.fromkeys(placed)
-    for joint in mechanism.joints.values():
-        if isinstance(joint, PrismaticJoint) and key == canonical(mechanism, joint.block, joint.at):
+    for joint in mechanism.guides.values():
+        if key == canonical(mechanism, joint.block, joint.at):
             found[f"{joint.name}.offset"] = None
     return list(dict.fromkeys(each for address in found for each in _behind(page, address)))
 

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -206,8 +205,8 @@ def output_of_machine(machine: Mechanism, name: str) -> Output:
     """
     from linkwright.kinematics.limits import output_of
 
-    for joint_name, joint in machine.joints.items():
-        if isinstance(joint, PrismaticJoint) and joint.guide == "frame" and joint.block == name:
+    for joint_name, joint in machine.guides.items():
+        if joint.guide == "frame" and joint.block == name:
             name = joint_name
     try:
         return output_of(machine, name)

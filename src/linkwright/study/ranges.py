@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import units
 from linkwright.errors import QuantityError, RequestError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
@@ -153,7 +152,7 @@ def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
     if driver is None and parts[0] != "cycle":
         return None
     first = driver or next(iter(mechanism.drivers.values()))
-    turning = isinstance(mechanism.joints[first.joint], RevoluteJoint)
+    turning = mechanism.joints[first.joint].coordinate == "turn"
     travel, rate = ("angle", "angular_velocity") if turning else ("length", "velocity")
     kinds = {
         "speed": rate,

@@ -12,7 +12,6 @@ import numpy as np
 
 from linkwright import units
 from linkwright.errors import Finding, LinkwrightError, ModelError
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.fields import Quantity, Text, Word
 from linkwright.model.mechanism import Link, Mechanism
 from linkwright.parts.base import Floats, fault
@@ -189,11 +188,10 @@ class ToleranceStudy(OfMechanism):
         return []
 
     def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
-        joint = self.mechanism.joints.get(pin)
+        joint = self.mechanism.pins.get(pin)
         key = f"clearances.{pin}"
-        if not isinstance(joint, RevoluteJoint):
-            pins = [name for name, each in self.mechanism.joints.items() if isinstance(each, RevoluteJoint)]
-            return [fault("tolerance.no_pin", key, name=pin, known=", ".join(pins))]
+        if joint is None:
+            return [fault("tolerance.no_pin", key, name=pin, known=", ".join(self.mechanism.pins))]
         if clearance.on not in joint.joined:
             return [
                 fault(

@@ -10,12 +10,8 @@ import numpy as np
 
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.model.drawing import guide_angle
 from linkwright.model.mechanism import Link
 from linkwright.structure.group import TreeJoint
 from linkwright.words import Say
@@ -126,8 +122,7 @@ class Book:
 
     def _make(self, key: str, link: str, point: str) -> Spot:
         label = self._label(key, link, point)
-        joint = self.mechanism.joints.get(key)
-        fixed = link == "frame" or (isinstance(joint, RevoluteJoint) and "frame" in joint.links)
+        fixed = "frame" in (link, *self.mechanism.pin_links(key))
         if fixed:
             x, y = self.mechanism.frame.points[point]
             known = (t if t.amount else ZERO for t in self._coordinates(label, x, y))
@@ -188,10 +183,9 @@ class Book:
     # guides and drivers -------------------------------------------------------------------
     def slide(self, joint: str) -> Slide:
         """A guide in this position."""
-        prismatic = self.mechanism.joints[joint]
-        assert isinstance(prismatic, PrismaticJoint)
+        prismatic = self.mechanism.guides[joint]
         at = self.motion.joint(joint)
-        direction = math.radians(self.angle_of(prismatic.guide)) + guide_angle(self.mechanism, prismatic)
+        direction = math.radians(self.angle_of(prismatic.guide)) + prismatic.angle_of_guide(self.mechanism)
         along = complex(np.cos(direction), np.sin(direction))
         terms = []
         for c, value in (("x", along.real), ("y", along.imag)):
@@ -210,9 +204,8 @@ class Book:
 
     def guide_angle(self, step: TreeJoint) -> Term:
         """Direction of a guide in the axes of the link that carries it."""
-        prismatic = self.mechanism.joints[step.joint]
-        assert isinstance(prismatic, PrismaticJoint)
-        return self.degrees(guide_angle(self.mechanism, prismatic))
+        prismatic = self.mechanism.guides[step.joint]
+        return self.degrees(prismatic.angle_of_guide(self.mechanism))
 
     def drive(self, name: str) -> tuple[Term, Term, Term]:
         """Coordinate of a driver with its rates."""
@@ -229,12 +222,7 @@ class Book:
 
     def turned(self, step: TreeJoint) -> Term:
         """Angle of the child's axes against the parent's, for a guide or a weld."""
-        joint = self.mechanism.joints[step.joint]
-        if isinstance(joint, WeldJoint):
-            return self.degrees(joint.angle if step.child == joint.links[1] else -joint.angle)
-        assert isinstance(joint, PrismaticJoint)
-        turn = guide_angle(self.mechanism, joint) - joint.block_angle
-        return self.degrees(turn if step.child == joint.block else -turn)
+        return self.degrees(self.mechanism.joints[step.joint].turn_of(step.child, self.mechanism))
 
     @staticmethod
     def degrees(radians: float) -> Term:

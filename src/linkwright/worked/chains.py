@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot
 from linkwright.worked.terms import NOWHERE, TWO, Pair, Term
@@ -62,10 +61,7 @@ class Chain:
 
 def attach(step: TreeJoint, link: str, book: Book) -> str:
     """Name of the point of a link at which a joint holds it."""
-    joint = book.mechanism.joints[step.joint]
-    if isinstance(joint, PrismaticJoint):
-        return joint.through if link == joint.guide else joint.at
-    return getattr(joint, "at", joint.name)
+    return book.mechanism.joints[step.joint].point_on(link)
 
 
 def walk(book: Book, group: Group, end: str, tip: Spot, point: str) -> Chain:
@@ -210,8 +206,7 @@ def closures(book: Book, group: Group) -> list[Closure]:
             tip, names = book.spot(cut.a, cut.joint), (cut.joint, cut.joint)
             across = None
         else:
-            joint = book.mechanism.joints[cut.joint]
-            assert isinstance(joint, PrismaticJoint)
+            joint = book.mechanism.guides[cut.joint]
             tip, names = book.spot(cut.b, joint.at), (joint.through, joint.at)
             across = book.slide(cut.joint)
         chains = tuple(

@@ -10,7 +10,6 @@ import numpy as np
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
@@ -149,8 +148,7 @@ class KnownForces:
         load = self.book.mechanism.loads.get(name)
         if isinstance(load, Pressure):
             along = self.book.slide(load.joint).along
-            held = self.book.mechanism.joints[load.joint]
-            assert isinstance(held, PrismaticJoint)
+            held = self.book.mechanism.guides[load.joint]
             push = force.real * along.x.value + force.imag * along.y.value
             forward = (link == held.block) == (load.pushes == "forward")
             self.formulas.press(step, load, push if forward else -push)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.loads.base import Load
 from linkwright.loads.damper import Damper
 from linkwright.loads.pressure import Pressure
@@ -94,8 +93,7 @@ class LoadFormulas:
         return step.find(self._named("M", load, found.value), found, "N·m")
 
     def _pressure(self, step: Step, load: Pressure, link: str) -> Pair | None:
-        joint = self.book.mechanism.joints[load.joint]
-        assert isinstance(joint, PrismaticJoint)
+        joint = self.book.mechanism.guides[load.joint]
         size = self._sizes.get(load.name)
         if size is None:
             return None

@@ -8,7 +8,6 @@ from linkwright.groups.rpp import RPP
 from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot, tex
@@ -79,20 +78,16 @@ class Places:
     def guide(self, step: Step, joint: str) -> Slide:
         """Notes the direction of a guide."""
         slide = self.book.slide(joint)
-        prismatic = self.book.mechanism.joints[joint]
-        assert isinstance(prismatic, PrismaticJoint)
+        prismatic = self.book.mechanism.guides[joint]
         if joint not in self.guides:
             self.guides.add(joint)
-            turn = self.book.turn(prismatic.guide) + self.book.degrees(self._own_angle(prismatic))
+            turn = self.book.turn(prismatic.guide) + self.book.degrees(
+                prismatic.angle_of_guide(self.book.mechanism)
+            )
             for term, part in ((slide.along.x, cosine(turn)), (slide.along.y, sine(turn))):
                 if term.op == "symbol":
                     step.find(term, part, "")
         return slide
-
-    def _own_angle(self, joint: PrismaticJoint) -> float:
-        from linkwright.model.drawing import guide_angle
-
-        return guide_angle(self.book.mechanism, joint)
 
     def displacement(self, step: Step, slide: Slide, formula: Term) -> None:
         """Notes the displacement of a block."""
@@ -122,7 +117,7 @@ class Places:
         for end in ends:
             steps = list(reversed(list(group.path(end))))
             free = [joint for joint in steps if joint.free]
-            if free and free[0].kind == "revolute" and steps[0] is not free[0]:
+            if free and free[0].turns and steps[0] is not free[0]:
                 return False
         return True
 

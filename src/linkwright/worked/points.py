@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot
 from linkwright.worked.chains import attach
@@ -49,8 +48,7 @@ def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
 
 def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
     """Place of the point by which a guide holds its second link."""
-    prismatic = book.mechanism.joints[joint.joint]
-    assert isinstance(prismatic, PrismaticJoint)
+    prismatic = book.mechanism.guides[joint.joint]
     slide = book.slide(joint.joint)
     shift = slide.along.times(slide.s)
     if prismatic.offset:
@@ -69,8 +67,7 @@ def cut_displacements(book: Book, places: Places, step: Step, group: Group) -> N
 
 
 def _guide_ends(book: Book, joint: str) -> tuple[Spot, Spot]:
-    prismatic = book.mechanism.joints[joint]
-    assert isinstance(prismatic, PrismaticJoint)
+    prismatic = book.mechanism.guides[joint]
     return book.spot(prismatic.guide, prismatic.through), book.spot(prismatic.block, prismatic.at)
 
 
@@ -90,8 +87,7 @@ def check_closure(book: Book, step: Step, group: Group) -> None:
         if cut.turns:
             rows = (("x", gap.x), ("y", gap.y))
         else:
-            slide, joint = book.slide(cut.joint), book.mechanism.joints[cut.joint]
-            assert isinstance(joint, PrismaticJoint)
+            slide, joint = book.slide(cut.joint), book.mechanism.guides[cut.joint]
             off = symbol(f"h_{cut.joint}", f"h_{cut.joint}", joint.offset) if joint.offset else number(0.0)
             rows = (("n", slide.along.cross(-gap) - off),)  # type: ignore[assignment]
         for c, row in rows:
@@ -108,10 +104,7 @@ def attach_of(book: Book, group: Group, link: str) -> str:
 
 
 def _end_name(book: Book, joint: str, link: str) -> str:
-    found = book.mechanism.joints[joint]
-    if isinstance(found, PrismaticJoint):
-        return found.through if link == found.guide else found.at
-    return joint
+    return book.mechanism.joints[joint].point_on(link)
 
 
 class Movers:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
@@ -249,8 +248,8 @@ class Reactions:
 
     def _block_point(self, joint: TreeJoint) -> Pair:
         """Point about which a couple is counted: the block's point, or the weld."""
-        held = self.book.mechanism.joints[joint.joint]
-        if isinstance(held, PrismaticJoint):
+        held = self.book.mechanism.guides.get(joint.joint)
+        if held is not None:
             return self.book.spot(held.block, held.at).place
         return self.book.spot(joint.child, attach(joint, joint.child, self.book)).place
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.structure.group import TreeJoint
 from linkwright.worked.book import Book
 from linkwright.worked.chains import attach
@@ -51,8 +50,7 @@ def _arm(book: Book, link: str, start: str, end: str) -> Pair:
 
 
 def _slide(book: Book, step: TreeJoint, angle: Term, found: Trail, *, local: bool) -> None:
-    joint = book.mechanism.joints[step.joint]
-    assert isinstance(joint, PrismaticJoint)
+    joint = book.mechanism.guides[step.joint]
     sign = 1 if step.child == joint.block else -1
     slide = book.slide(step.joint)
     along, turn = slide.along, ZERO

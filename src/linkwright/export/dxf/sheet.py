@@ -11,7 +11,6 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.labels import Obstacles, place
 from linkwright.plot.drawing.machine import Part
@@ -117,12 +116,11 @@ class Sheet:
         mechanism = self.results.mechanism
         for name, link in {"frame": mechanism.frame, **mechanism.links}.items():
             for point in link.points:
-                joint = mechanism.joints.get(point)
-                pin = isinstance(joint, RevoluteJoint) and name in joint.links
-                if isinstance(joint, RevoluteJoint) and pin:
-                    if name != joint.links[0]:
+                pin = mechanism.pins.get(point)
+                if pin is not None and name in pin.links:
+                    if name != pin.links[0]:
                         continue
-                    radius = joint.pin_radius * self.factor if joint.pin_radius else PIN * self.unit
+                    radius = pin.pin_radius * self.factor if pin.pin_radius else PIN * self.unit
                 elif name == "frame":
                     continue
                 else:

@@ -11,9 +11,7 @@ import numpy as np
 
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.motion import Motion
-from linkwright.model.drawing import guide_angle
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.view import placements
 from linkwright.structure.group import Connection, TreeJoint
@@ -101,7 +99,7 @@ class Bodies:
         )
 
     def _joint(self, body: ET.Element, step: TreeJoint) -> None:
-        if step.kind == "weld":
+        if not (step.turns or step.slides):
             return
         pin = step.turns
         link = self.mechanism.links[step.child]
@@ -146,11 +144,10 @@ class Bodies:
         return step.connection.b, step.connection.a
 
     def _slide_axis(self, step: TreeJoint) -> tuple[float, float, float]:
-        joint = self.mechanism.joints[step.joint]
-        assert isinstance(joint, PrismaticJoint)
+        joint = self.mechanism.guides[step.joint]
         if step.child == joint.block:
             return math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0
-        angle = guide_angle(self.mechanism, joint)
+        angle = joint.angle_of_guide(self.mechanism)
         return -math.cos(angle), -math.sin(angle), 0.0
 
     def _coordinate(self, step: TreeJoint) -> Coordinate:
@@ -184,8 +181,7 @@ class Bodies:
     def _riders(self, body: ET.Element, guide: str) -> None:
         """A small body on each guide of this link that is cut: the block is held to it."""
         for cut in self.riders.get(guide, ()):
-            joint = self.mechanism.joints[cut.joint]
-            assert isinstance(joint, PrismaticJoint)
+            joint = self.mechanism.guides[cut.joint]
             rider = self._placed(f"{cut.joint}.rider", self.pose(guide), self.pose(cut.b))
             slide = self.motion.joint(cut.joint)
             found = Coordinate(cut.joint, slide.displacement[self.index], slide.velocity[self.index], None)

@@ -10,11 +10,8 @@ from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import Names, number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
+from linkwright.joints.lower import RigidJoint, SlidingJoint
 from linkwright.kinematics.names import canonical
-from linkwright.model.drawing import guide_angle
 from linkwright.plot.drawing.view import placements
 
 
@@ -37,7 +34,7 @@ class Equations:
         self.known: set[str] = set()
         self.links = {name: self.names.of("link", name) for name in self.mechanism.links}
         self.placed = placements(self.motion)
-        self.pins = {k: j for k, j in self.mechanism.joints.items() if isinstance(j, RevoluteJoint)}
+        self.pins = self.mechanism.pins
 
     def write(self) -> Text:
         """All lines."""
@@ -47,12 +44,12 @@ class Equations:
             self._pin(name)
         for name in self.links:
             self.plain_points(name)
+        for guide in self.mechanism.guides.values():
+            self._guide(guide)
+        for weld in self.mechanism.welds.values():
+            self._weld(weld)
         for joint in self.mechanism.joints.values():
-            if isinstance(joint, PrismaticJoint):
-                self._guide(joint)
-            elif isinstance(joint, WeldJoint):
-                self._weld(joint)
-            elif joint.higher and joint.name not in self.results.structure.redundant:
+            if joint.higher and joint.name not in self.results.structure.redundant:
                 self.text.equations.append(f"{self.rolled(joint)} = 0.0;")
         for name in self.mechanism.drivers:
             self._driver(name)
@@ -134,7 +131,7 @@ class Equations:
     def angle(self, link: str) -> str:
         return "0.0" if link == "frame" else f"{self.links[link]}_phi"
 
-    def _guide(self, joint: PrismaticJoint) -> None:
+    def _guide(self, joint: SlidingJoint) -> None:
         me = self.names.of("guide", joint.name)
         slide = self.motion.joint(joint.name)
         self.unknown(
@@ -142,7 +139,7 @@ class Equations:
         )
         self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
         turn = self.parameter(
-            f"{me}_direction", "rad", guide_angle(self.mechanism, joint), f"direction of {joint.name}"
+            f"{me}_direction", "rad", joint.angle_of_guide(self.mechanism), f"direction of {joint.name}"
         )
         offset = self.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
         block = self.parameter(
@@ -156,7 +153,7 @@ class Equations:
         ]
         if joint.name not in self.results.structure.redundant:
             angles = [self.motion.link(link).angle[self.index] for link in (joint.block, joint.guide)]
-            gap = angles[0] + joint.block_angle - angles[1] - guide_angle(self.mechanism, joint)
+            gap = angles[0] + joint.block_angle - angles[1] - joint.angle_of_guide(self.mechanism)
             self.text.equations.append(f"{self.angle(joint.block)} + {block} = {along}{turns(gap)};")
 
     def rolled(self, joint: Joint) -> str:
@@ -175,7 +172,7 @@ class Equations:
             " + ".join(f"({number(factor)})*{name}" for factor, name, _ in terms) + f" + ({number(-start)})"
         )
 
-    def _weld(self, joint: WeldJoint) -> None:
+    def _weld(self, joint: RigidJoint) -> None:
         a, b = joint.links
         for left, right in zip(self.world(a, joint.at), self.world(b, joint.at), strict=True):
             self.text.equations.append(f"{left} = {right};")

@@ -11,9 +11,7 @@ from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.weld import WeldJoint
-from linkwright.model.drawing import guide_angle
+from linkwright.joints.lower import RigidJoint, SlidingJoint
 
 Pair = tuple[str, str]
 
@@ -35,12 +33,12 @@ class Rates:
             self._pin(name)
         for name in self.mechanism.links:
             self.model.plain_points(name)
+        for guide in self.mechanism.guides.values():
+            self._guide(guide)
+        for weld in self.mechanism.welds.values():
+            self._weld(weld)
         for joint in self.mechanism.joints.values():
-            if isinstance(joint, PrismaticJoint):
-                self._guide(joint)
-            elif isinstance(joint, WeldJoint):
-                self._weld(joint)
-            elif joint.higher and joint.name not in self.redundant:
+            if joint.higher and joint.name not in self.redundant:
                 self._rolling(joint)
         for name in self.mechanism.drivers:
             self._driver(name)
@@ -83,9 +81,9 @@ class Rates:
             for axis, place, rate, first in zip("xy", here, speed, base, strict=True):
                 self._condition(f"{rate} - {first}", f"{place} - {me}_{axis}")
 
-    def _guide(self, joint: PrismaticJoint) -> None:
+    def _guide(self, joint: SlidingJoint) -> None:
         me = self.model.names.of("guide", joint.name)
-        angle = guide_angle(self.mechanism, joint)
+        angle = joint.angle_of_guide(self.mechanism)
         turn = self.model.parameter(f"{me}_direction", "rad", angle, f"direction of {joint.name}")
         offset = self.model.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
         slide = self.motion.joint(joint.name)
@@ -121,7 +119,7 @@ class Rates:
         rate = " + ".join(f"({number(factor)})*{name}" for factor, name in terms)
         self._condition(rate, self.model.rolled(joint))
 
-    def _weld(self, joint: WeldJoint) -> None:
+    def _weld(self, joint: RigidJoint) -> None:
         a, b = joint.links
         here, there = self.model.world(a, joint.at), self.model.world(b, joint.at)
         for p, q, u, v in zip(

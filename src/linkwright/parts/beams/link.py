@@ -11,7 +11,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.fields import Quantity, Text
 from linkwright.model.mechanism import Link, Mechanism
@@ -205,10 +204,9 @@ class LinkStress(Result):
     def _seat(self, joint: str) -> Floats:
         """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
         given = self.problem.mechanism.joints[joint]
-        if isinstance(given, PrismaticJoint) and given.guide == self.problem.link:
-            return self._local(self.forces.motion.point(f"{given.block}.{given.at}").position)
-        point = getattr(given, "at", joint)
-        return np.tile(self.link.points[point], (self.forces.steps, 1))
+        if given.couples or given.higher:
+            return self._local(given.acts_at(self.forces.motion))
+        return np.tile(self.link.points[given.point_on(self.problem.link)], (self.forces.steps, 1))
 
     def _joint_forces(self) -> list[PointForce]:
         found, name = [], self.problem.link
@@ -227,7 +225,7 @@ class LinkStress(Result):
             effort = self.forces.driver_effort(name) * (1.0 if driver.link == self.problem.link else -1.0)
             seat = self._seat(driver.joint)
             force, couple = np.zeros((len(effort), 2)), effort
-            if isinstance(self.problem.mechanism.joints[driver.joint], PrismaticJoint):
+            if driver.joint in self.problem.mechanism.guides:
                 force = self._turned(effort[:, None] * self.forces.guide_direction(driver.joint))
                 couple = np.zeros_like(effort)
             found.append(PointForce(name, self.axis.nearest(seat)[0], force, seat, couple))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
@@ -69,11 +69,7 @@ class _Polygon:
 
     def made(self) -> MotionPolygon:
         """Group by group, in solving order; in each the absolute vectors of its points first."""
-        guides = [
-            joint
-            for joint in self.motion.mechanism.joints.values()
-            if isinstance(joint, PrismaticJoint) and joint.guide != "frame"
-        ]
+        guides = [joint for joint in self.motion.mechanism.guides.values() if joint.guide != "frame"]
         solved: set[str] = set()
         for group in self.motion.structure.groups:
             self.found.group = f"{group.signature}: {', '.join(group.links)}"
@@ -120,7 +116,7 @@ class _Polygon:
             "a", pair, "tangential", corner, corner + float(state.angular_acceleration[i]) * across
         )
 
-    def _guide(self, joint: PrismaticJoint) -> None:
+    def _guide(self, joint: SlidingJoint) -> None:
         """From the guide's point under the block to the block's own point."""
         under = f"{joint.at}({joint.guide})"
         state, i = self.motion.link(joint.guide), self.index
@@ -153,13 +149,7 @@ class _Polygon:
         return len(keys) > 1
 
     def _fixed(self, link: str, point: str) -> bool:
-        joint = self.motion.mechanism.joints.get(point)
-        return (
-            joint is not None
-            and "frame" in joint.joined
-            and link in joint.joined
-            and joint.kind == "revolute"
-        )
+        return {"frame", link} <= set(self.motion.mechanism.pin_links(point))
 
     def _value(self, link: str, point: str) -> Floats:
         found = self.motion.point(f"{link}.{point}")

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.limits import output_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, owners
@@ -33,8 +31,8 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
     if link and link in mechanism.links and point in mechanism.links[link].points:
         return canonical(mechanism, link, point)
     found = [owner for owner in owners(mechanism, name) if owner != "frame"]
-    pin = isinstance(mechanism.joints.get(name), RevoluteJoint)
-    if found and (pin or len(found) == 1) and not isinstance(mechanism.joints.get(name), PrismaticJoint):
+    pin = name in mechanism.pins
+    if found and (pin or len(found) == 1) and name not in mechanism.guides:
         return canonical(mechanism, found[0], name)
     return output_of(mechanism, name)
 

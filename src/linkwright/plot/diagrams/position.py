@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.model.drawing import guide_angle
 from linkwright.plot.diagrams.picture import INK, new_figure
 from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
 from linkwright.plot.diagrams.units import significant
@@ -100,12 +98,10 @@ def _straight(cloud: Floats) -> bool:
 def _guides(axes: Axes, motion: Motion, index: int, factor: float) -> list[Floats]:
     """Guide lines through where the block is, as long as the block travels at this place."""
     found: list[Floats] = []
-    for joint in motion.mechanism.joints.values():
-        if not isinstance(joint, PrismaticJoint):
-            continue
+    for joint in motion.mechanism.guides.values():
         at = place_of(motion, joint.block, joint.at, index) * factor
         turned = 0.0 if joint.guide == "frame" else float(motion.link(joint.guide).angle[index])
-        angle = guide_angle(motion.mechanism, joint) + turned
+        angle = joint.angle_of_guide(motion.mechanism) + turned
         along = np.array([np.cos(angle), np.sin(angle)]) * 0.12 * reach(motion) * factor
         line = np.array([at - along, at + along])
         axes.plot(*line.T, color=INK, linewidth=0.9, linestyle=(0, (6, 2, 1, 2)), zorder=1.5)

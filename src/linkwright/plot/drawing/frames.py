@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
-from linkwright.model.drawing import guide_angle
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import LINE, Vec
@@ -62,12 +61,12 @@ def parting(machine: Machine, run: list[int]) -> float:
     return largest
 
 
-def _beside_guide(machine: Machine, joint: PrismaticJoint, run: list[int]) -> float:
+def _beside_guide(machine: Machine, joint: SlidingJoint, run: list[int]) -> float:
     """How far a block's point is from the line of its guide half-way between keyframes."""
     link = machine.motion.mechanism.link
     block = _half_way(machine, joint.block, link(joint.block).points[joint.at], run)
     base = _half_way(machine, joint.guide, link(joint.guide).points[joint.through], run)
-    angle = guide_angle(machine.motion.mechanism, joint) - _half_turn(machine, joint.guide, run)
+    angle = joint.angle_of_guide(machine.motion.mechanism) - _half_turn(machine, joint.guide, run)
     across = np.stack([-np.sin(angle), -np.cos(angle)], axis=1)
     aside = ((block - base) * across).sum(axis=1) - joint.offset * machine.view.scale
     return float(np.abs(aside).max(initial=0.0))

@@ -7,9 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.weld import WeldJoint
-from linkwright.model.drawing import guide_angle
+from linkwright.joints.lower import SlidingJoint
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.svg.element import Floats
@@ -28,13 +26,13 @@ def guides(machine: Machine) -> Iterator[Part]:
             yield from _block_on_guide(machine, name, joint)
 
 
-def direction(machine: Machine, joint: PrismaticJoint) -> Vec:
+def direction(machine: Machine, joint: SlidingJoint) -> Vec:
     """Direction of a guide on its link's piece of paper."""
-    angle = guide_angle(machine.motion.mechanism, joint)
+    angle = joint.angle_of_guide(machine.motion.mechanism)
     return math.cos(angle), -math.sin(angle)
 
 
-def block_direction(joint: PrismaticJoint) -> Vec:
+def block_direction(joint: SlidingJoint) -> Vec:
     """Direction of a guide on its block's piece of paper."""
     return math.cos(joint.block_angle), -math.sin(joint.block_angle)
 
@@ -46,13 +44,13 @@ def travel(machine: Machine, name: str) -> tuple[float, float]:
     way = block.world(link(joint.block).points[joint.at]) - guide.world(
         link(joint.guide).points[joint.through]
     )
-    angle = guide_angle(machine.motion.mechanism, joint)
+    angle = joint.angle_of_guide(machine.motion.mechanism)
     axis = Placement(np.zeros_like(guide.origin), guide.direction).world((math.cos(angle), math.sin(angle)))
     s = (way * axis).sum(axis=1) * machine.view.scale
     return float(np.nanmin(s)), float(np.nanmax(s))
 
 
-def line_start(machine: Machine, joint: PrismaticJoint) -> Vec:
+def line_start(machine: Machine, joint: SlidingJoint) -> Vec:
     """Where the block's point is at displacement zero, on the piece of paper of the guide's link."""
     x, y = machine.local(joint.guide, joint.through)
     along = direction(machine, joint)
@@ -72,7 +70,7 @@ def is_cylinder(machine: Machine, name: str) -> bool:
     return bare and pinned and not used and joint.offset == 0 and travel(machine, name)[0] > 40.0
 
 
-def _cylinder(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Part]:
+def _cylinder(machine: Machine, name: str, joint: SlidingJoint) -> Iterator[Part]:
     short, longest = travel(machine, name)
     length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
     piston = max(longest - 0.92 * length, short - length + 10.0)
@@ -86,7 +84,7 @@ def _cylinder(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Pa
     )
 
 
-def _block_on_guide(machine: Machine, name: str, joint: PrismaticJoint) -> Iterator[Part]:
+def _block_on_guide(machine: Machine, name: str, joint: SlidingJoint) -> Iterator[Part]:
     at, along = machine.local(joint.block, joint.at), block_direction(joint)
     shift = clear_shift(machine, name, joint)
     place = (at[0] + shift * along[0], at[1] + shift * along[1])
@@ -105,7 +103,7 @@ def _block_on_guide(machine: Machine, name: str, joint: PrismaticJoint) -> Itera
     yield Part("blocks", joint.block, SYMBOLS["slider"](at=place, along=along))
 
 
-def _rod(machine: Machine, joint: PrismaticJoint, low: float, high: float) -> Iterator[Part]:
+def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iterator[Part]:
     """The line of a guide on a moving link, long enough for the whole travel, and its tie to the link."""
     start, way = line_start(machine, joint), direction(machine, joint)
     through = machine.local(joint.guide, joint.through)
@@ -119,11 +117,11 @@ def _rod(machine: Machine, joint: PrismaticJoint, low: float, high: float) -> It
         yield Part("bodies", joint.guide, SYMBOLS["bar"](through=[through, start]))
 
 
-def _named(machine: Machine, joint: PrismaticJoint) -> list[Vec]:
+def _named(machine: Machine, joint: SlidingJoint) -> list[Vec]:
     return [machine.local(joint.guide, point) for point in joint.direction_points or ()]
 
 
-def ground_side(machine: Machine, joint: PrismaticJoint) -> int:
+def ground_side(machine: Machine, joint: SlidingJoint) -> int:
     """The side of a fixed guide that faces away from the rest of the machine; below where there is none."""
     x, y = line_start(machine, joint)
     way = direction(machine, joint)
@@ -139,7 +137,7 @@ def ground_side(machine: Machine, joint: PrismaticJoint) -> int:
     return -1 if mean > 0 else 1
 
 
-def clear_shift(machine: Machine, name: str, joint: PrismaticJoint) -> float:
+def clear_shift(machine: Machine, name: str, joint: SlidingJoint) -> float:
     """How far along its guide a block is drawn from its point, clear of fixed pivots and other blocks."""
     if joint.guide != "frame":
         return 0.0
@@ -163,7 +161,7 @@ def clear_shift(machine: Machine, name: str, joint: PrismaticJoint) -> float:
     return float(np.nanmax(on_line(np.concatenate(moving)))) - low + 0.9 * LENGTH
 
 
-def _on_other_block(machine: Machine, joint: PrismaticJoint) -> bool:
+def _on_other_block(machine: Machine, joint: SlidingJoint) -> bool:
     """Whether the block of another guide is drawn at the same place."""
     pin = machine.pins.get(joint.at)
     together = {joint.block} if pin is None or joint.block not in pin.links else set(pin.links)
@@ -173,9 +171,7 @@ def _on_other_block(machine: Machine, joint: PrismaticJoint) -> bool:
 
 def welds(machine: Machine) -> Iterator[Part]:
     """Welds between links, and of links to the ground."""
-    for joint in machine.motion.mechanism.joints.values():
-        if not isinstance(joint, WeldJoint):
-            continue
+    for joint in machine.motion.mechanism.welds.values():
         a, b = joint.links
         at = machine.local(b, joint.at)
         second = _towards(machine, b, joint.at)

@@ -9,7 +9,6 @@ from linkwright.loads.base import AT_REST, LinkPoint, Load
 from linkwright.loads.force import Force
 from linkwright.loads.pressure import Pressure
 from linkwright.loads.torque import Torque
-from linkwright.model.drawing import guide_angle
 from linkwright.model.reference_fields import JointName, PointName
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import Label
@@ -131,7 +130,7 @@ def _pressed(machine: Machine, load: Pressure, index: int) -> Shape:
     """Arrows on the face of the block on which a pressure pushes; one arrow at the end of a cylinder's rod."""
     joint = machine.guides[load.joint]
     c, s = machine.placed[joint.guide].direction[index]
-    angle = math.atan2(s, c) + guide_angle(machine.motion.mechanism, joint)
+    angle = math.atan2(s, c) + joint.angle_of_guide(machine.motion.mechanism)
     along = (math.cos(angle), -math.sin(angle))
     sign = (_sign(load) or 1) * (-1 if load.pushes == "backward" else 1)
     way = (sign * along[0], sign * along[1])

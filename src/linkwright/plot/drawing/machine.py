@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
 
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
+from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.view import Placement, View
@@ -40,15 +37,15 @@ class Machine:
     placed: dict[str, Placement]
     view: View
 
-    @cached_property
-    def pins(self) -> dict[str, RevoluteJoint]:
+    @property
+    def pins(self) -> Mapping[str, TurningJoint]:
         """Its pins by name."""
-        return {k: j for k, j in self.motion.mechanism.joints.items() if isinstance(j, RevoluteJoint)}
+        return self.motion.mechanism.pins
 
-    @cached_property
-    def guides(self) -> dict[str, PrismaticJoint]:
+    @property
+    def guides(self) -> Mapping[str, SlidingJoint]:
         """Its guides by name."""
-        return {k: j for k, j in self.motion.mechanism.joints.items() if isinstance(j, PrismaticJoint)}
+        return self.motion.mechanism.guides
 
     def local(self, link: str, point: str) -> Vec:
         """A point on its link's piece of paper."""
@@ -99,7 +96,7 @@ def _plain_points(machine: Machine, link: Link) -> list[str]:
     guided = {j.at for j in machine.guides.values() if j.block == link.name}
     through = {j.through for j in machine.guides.values() if j.guide == link.name}
     joints = machine.motion.mechanism.joints
-    welded = {j.at for j in joints.values() if isinstance(j, WeldJoint) and link.name in j.links}
+    welded = {j.at for j in machine.motion.mechanism.welds.values() if link.name in j.links}
     return [
         p
         for p in link.points
@@ -134,7 +131,7 @@ def _passing(machine: Machine, link: str, point: str) -> Floats | None:
     return points([here - 1.3 * PIN * along, here + 1.3 * PIN * along])
 
 
-def support_direction(machine: Machine, point: str, joint: RevoluteJoint) -> Vec:
+def support_direction(machine: Machine, point: str, joint: TurningJoint) -> Vec:
     """Direction of the ground under a fixed pivot: down, unless links reach there for most of the motion."""
     choices: list[tuple[Vec, float]] = [
         ((0.0, 1.0), 0.0),

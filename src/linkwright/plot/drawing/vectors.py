@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
@@ -288,7 +286,7 @@ def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, To
         feet[name] = _joint_place(forces.motion, joint, on)
         values[name] = forces.reaction(joint, on=on)
         low[name] = reaction_index(mechanism, joint, on)
-        if isinstance(mechanism.joints[joint], PrismaticJoint | WeldJoint):
+        if mechanism.joints[joint].couples:
             couples[name] = forces.couple(joint, on=on)
     return (
         Vectors("force", "N", feet, values, {name: ("F", index) for name, index in low.items()}),
@@ -307,8 +305,8 @@ def _joint_on(forces: Forces, name: str) -> tuple[str, str]:
 
 def _joint_place(motion: Motion, joint: str, on: str) -> Floats:
     found = motion.mechanism.joints[joint]
-    if isinstance(found, PrismaticJoint | WeldJoint):
-        return _position(motion, f"{found.joined[1]}.{found.at}")
+    if found.couples or found.higher:
+        return found.acts_at(motion)
     return _position(motion, f"{on}.{joint}")
 
 
@@ -351,7 +349,7 @@ def _load_place(forces: Forces, name: str) -> Floats:
 def link_middle(motion: Motion, link: str) -> Floats:
     """A pin of a link on the frame, or its mass centre, (n, 2) m."""
     for name, joint in motion.mechanism.joints.items():
-        if joint.kind == "revolute" and {"frame", link} <= set(joint.joined):
+        if joint.coordinate == "turn" and {"frame", link} <= set(joint.joined):
             return _position(motion, f"frame.{name}")
     return motion.link(link).centre.position
 
@@ -366,7 +364,7 @@ def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
     for name, driver in mechanism.drivers.items():
         feet[name] = _joint_place(forces.motion, driver.joint, driver.link)
         effort = forces.driver_effort(name)
-        if isinstance(mechanism.joints[driver.joint], PrismaticJoint):
+        if driver.joint in mechanism.guides:
             pushes[name] = effort[:, None] * forces.guide_direction(driver.joint)
         else:
             turns[name] = effort

@@ -1,6 +1,9 @@
 """Things and quantities in sentences."""
 
 WORDS = {
+    "pair_revolute": "revolute",
+    "pair_prismatic": "prismatic",
+    "pair_weld": "weld",
     "pair_gear": "gear",
     "pair_belt": "belt",
     "pair_chain": "chain",

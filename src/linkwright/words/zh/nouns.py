@@ -1,6 +1,9 @@
 """句子中的事物与物理量。"""
 
 WORDS = {
+    "pair_revolute": "转动副",
+    "pair_prismatic": "移动副",
+    "pair_weld": "刚性连接",
     "pair_gear": "齿轮副",
     "pair_belt": "带传动",
     "pair_chain": "链传动",

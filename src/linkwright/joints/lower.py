@@ -1,0 +1,120 @@
+"""Lower pairs as drawings, exports and design numbers see them: what turns, what slides, what holds two links."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from linkwright.errors import LinkwrightError
+from linkwright.joints.base import Joint
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class TurningJoint(Joint):
+    """A pin through the point ``name`` of every link in ``links`` (two or more, in the order of the file).
+
+    Coordinate: angle of the second link's x axis against the first's, in rad, counter-clockwise positive.
+    ``pin_radius`` in m (None: not given), ``friction`` the dimensionless coefficient of Coulomb friction.
+    """
+
+    freedoms: ClassVar[int] = 1
+    coordinate: ClassVar[str] = "turn"
+    links: tuple[str, ...]
+    pin_radius: float | None = None
+    friction: float = 0.0
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return self.links
+
+    @property
+    def friction_arm(self) -> float:
+        if self.friction and self.pin_radius is None:
+            raise LinkwrightError(Sentence("forces.needs_pin_radius", name=self.name))
+        return self.friction * (self.pin_radius or 0.0)
+
+
+@dataclass(frozen=True)
+class SlidingJoint(Joint):
+    """A guide line fixed in link ``guide`` and a block, link ``block``, that slides along it without turning.
+
+    The line goes through the point ``through`` of the guide link; its direction is the angle ``direction``
+    (rad, in that link's axes) or, with ``direction_points`` (P, Q), the direction from P to Q of that link.
+    The point ``at`` of the block stays at the normal distance ``offset`` (m, left of the direction positive)
+    from the line. ``block_angle`` (rad) is the direction of the line in the block's axes.
+    Coordinate: displacement s of ``at`` from ``through`` along the direction, in m.
+    """
+
+    couples: ClassVar[bool] = True
+    freedoms: ClassVar[int] = 1
+    coordinate: ClassVar[str] = "slide"
+    guide: str
+    through: str
+    direction: float
+    direction_points: tuple[str, str] | None
+    block: str
+    at: str
+    offset: float = 0.0
+    block_angle: float = 0.0
+    friction: float = 0.0
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return (self.guide, self.block)
+
+    @property
+    def ties(self) -> tuple[str, ...]:
+        return (self.guide, self.block)
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.block, self.at),)
+
+    def point_on(self, link: str) -> str:
+        return self.through if link == self.guide else self.at
+
+    @property
+    def friction_arm(self) -> float:
+        return self.friction
+
+    @abstractmethod
+    def angle_of_guide(self, mechanism: Mechanism) -> float:
+        """Direction of the guide in the axes of its link, rad."""
+
+    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+        turn = self.angle_of_guide(mechanism) - self.block_angle
+        return turn if child == self.block else -turn
+
+
+@dataclass(frozen=True)
+class RigidJoint(Joint):
+    """Links (a, b) fixed to each other at their common point ``at``, b's x axis at ``angle`` (rad) to a's."""
+
+    couples: ClassVar[bool] = True
+    freedoms: ClassVar[int] = 0
+    links: tuple[str, str]
+    at: str
+    angle: float = 0.0
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        return self.links
+
+    @property
+    def ties(self) -> tuple[str, ...]:
+        return self.links
+
+    @property
+    def seats(self) -> tuple[tuple[str, str], ...]:
+        return ((self.links[-1], self.at),)
+
+    def point_on(self, link: str) -> str:
+        return self.at
+
+    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+        return self.angle if child == self.links[1] else -self.angle
