@@ -22,10 +22,11 @@ METRICS_OF, RUNNING, COMPARED, STUDIED = (
     "compare of two",
     "design numbers of many",
 )
-EDITED, PREPARED, UNLOADED = (
+EDITED, PREPARED, UNLOADED, BY_NUMPY = (
     "an edited value solved again",
     "prepared, solved",
     "prepared without load, solved",
+    "prepared without load, solved by NumPy",
 )
 LINK = "pitman.length"
 
@@ -46,7 +47,9 @@ class NumbersWork:
         self.columns = {LINK: self.length * random.uniform(0.99, 1.01, designs)}
         self.other = self.mechanism.with_dimensions({LINK: 1.01 * self.length})
         self.prepared = lw.prepare(self.mechanism, vary=[LINK], steps=steps)
-        self.bare = lw.prepare(replace(self.mechanism, loads={}), vary=[LINK], steps=steps)
+        bare = replace(self.mechanism, loads={})
+        self.bare = lw.prepare(bare, vary=[LINK], steps=steps)
+        self.by_numpy = lw.prepare(bare, vary=[LINK], steps=steps, backend="numpy")
 
     def candidates(self) -> list[Candidate]:
         """One call each; many designs count as one by their share."""
@@ -61,6 +64,7 @@ class NumbersWork:
             ),
             PREPARED: lambda: self.prepared.solve({LINK: self._edit()}),
             UNLOADED: lambda: self.bare.solve({LINK: self._edit()}),
+            BY_NUMPY: lambda: self.by_numpy.solve({LINK: self._edit()}),
         }
         count = len(self.columns[LINK])
         many = Candidate(

@@ -182,6 +182,8 @@ def numbers(size: Size) -> Section:
     ]
     ratio = rounds.ratio(design_numbers.PREPARED, design_numbers.UNLOADED)
     goals.append(Goal("prepared crusher: with its load ÷ without, time", ratio, 1.5, False))
+    ratio = rounds.ratio(design_numbers.EDITED, design_numbers.BY_NUMPY)
+    goals.append(Goal("edited crusher with its load ÷ prepared by NumPy without, time", ratio, 2.5, False))
     note = f"largest difference of numbers of many designs from one alone {work.disagreement():.1e}"
     return Section("Design numbers of the six-bar crusher with its load", header, rows, goals, [note])
 

@@ -30,6 +30,8 @@ RATES: Mapping[str, Callable[[str], tuple[str, str]]] = {
 }
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
+#: Newton steps from a limit of a design to that of one near it.
+NEAR_STEPS = 5
 #: Steps to the edge of a part of a stroke, which may be far from the middle of it.
 EDGE_STEPS = 40
 
@@ -51,10 +53,18 @@ def limit_stages(
 
 def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
     """Rate and second derivative of an output as traced values."""
-    solver = traced.solver
-    owner = traced.named.point_key(output.owner) if output.kind in ("x", "y") else output.owner
-    rate, second = (solver.outputs.value(name) for name in RATES[output.kind](owner))
+    rate, second = (traced.solver.outputs.value(name) for name in _rate_names(traced, output))
     return rate, second
+
+
+def rate_name(traced: Traced, output: Output) -> str:
+    """The name of an output's rate among the motion's outputs."""
+    return _rate_names(traced, output)[0]
+
+
+def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
+    owner = traced.named.point_key(output.owner) if output.kind in ("x", "y") else output.owner
+    return RATES[output.kind](owner)
 
 
 def _nearest(traced: Traced, output: Output) -> Stage:
@@ -148,6 +158,31 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
         starts={"x": 0.0, "low": 0.0, "high": 0.0},
         roots={"x": "gap"},
     )
+
+
+def near_limits(traced: Traced, outputs: Iterable[Output], valued: Iterable[Output]) -> Program:
+    """Limits by Newton's steps from the inputs ``near:OUTPUT`` per position: ``limit:OUTPUT``, the last step
+    ``moved:OUTPUT``, of the ``valued`` ones also ``value:OUTPUT``."""
+    t, known = Trace(), set(valued)
+    (driver,) = traced.mechanism.drivers
+    found: dict[str, Scalar | bool] = {}
+    for output in outputs:
+        rate, second = rates(traced, output)
+        sought = {"step": rate / second, "value": 0.0}
+        if output in known:
+            sought["value"] = output_value(traced.solver.motion, output)
+        motion = Program.of(traced.solver.motion.trace, sought)
+        x: Scalar = t.position(f"near:{output}")
+        for _ in range(NEAR_STEPS):
+            there = inlined(
+                motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x}
+            )
+            moved = there["step"] * t.parameter(f"{driver}.speed")
+            x = x - moved
+        found |= {f"limit:{output}": x, f"moved:{output}": absolute(moved)}
+        if output in known:
+            found[f"value:{output}"] = there["value"]
+    return Program.of(t, found)
 
 
 def _counted(traced: Traced, output: Output) -> Stage:

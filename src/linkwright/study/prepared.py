@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Literal
@@ -9,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -22,18 +24,22 @@ from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces
-from linkwright.kinetostatics.site import TracedSite
+from linkwright.kinetostatics.site import TracedSite, limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.along_input import magnitude
+from linkwright.loads.phases import TURN
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.study.limit_stages import constants
+from linkwright.study.limit_stages import CONVERGED, constants, near_limits, rate_name
 from linkwright.study.loaded_cycle import AlongInput, along_input
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
 #: The row of how near a group is to a change point or a gap.
 NEAREST = "nearest change point"
+#: Lanes in which limit positions are looked for beside each other, as many as a processor may have; how near to a
+#: position, rad, one counts as on it.
+LANES, AT = 8, 1e-9
 
 Backend = Literal["auto", "numpy", "llvm"]
 
@@ -79,7 +85,8 @@ class Prepared:
         self.solver = self._loads.traced.solver
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
-        self._names = (*motion[:-1], *forces, *self._loads.fields, NEAREST, "outcome")
+        more = (name for name in self._loads.rates.values() if name not in motion)
+        self._names = (*motion[:-1], *forces, *self._loads.fields, *more, NEAREST, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
@@ -94,7 +101,8 @@ class Prepared:
 
     def _trace(self) -> Program:
         motion, forces = self.solver.outputs, self._loads.traced.forces.outputs
-        stored, sizes = set(motion.standard()), self._loads.sizes
+        stored = {*motion.standard(), *self._loads.rates.values()}
+        sizes = self._loads.sizes
         values = {
             name: sizes[name] if name in sizes else (motion if name in stored else forces).value(name)
             for name in self._names
@@ -107,8 +115,6 @@ class Prepared:
     def _evaluator(self, backend: Backend) -> Callable[[Floats], Floats]:
         arrays = {name: self.positions.arrays[name] for name in self.program.positions}
         if backend != "numpy":
-            from linkwright.engine.llvm_backend import compile_program
-
             able = bool(self.program.positions) and not self.program.states
             compiled = compile_program(self.program) if able else None
             if compiled is not None:
@@ -129,22 +135,30 @@ class Prepared:
         design = Design(self.mechanism, self.solver.assembly.modes, changes)
         if not (self._plain and self._fine):
             return self._solve_in_turn(design, failures)
-        table = self._table(changes)
-        found = self._loads.limits(changes)
-        if found is None:
+        values = self._values(changes)
+        if values is None:
             return self._solve_in_turn(design, failures)
-        for name, value in found.items():
-            if name in self._places:
-                table[self._places[name]] = value
-        values = self._evaluate(table)
         near = values[-2]
-        fields = {name: values[self._index[name]] for name in self._loads.fields}
-        if not all(np.isfinite(row).all() for row in fields.values()):
-            return self._solve_in_turn(design, failures)
         if np.count_nonzero(values[-1]) or near.min() < NEAR + np.abs(near[1:] - near[:-1]).max():
             return self._solve_in_turn(design, failures)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
+        fields = {name: values[self._index[name]] for name in self._loads.fields}
         return Forces(motion, self.force_solver, fields, False, motion.rows)
+
+    def _values(self, changes: Mapping[str, float]) -> Floats | None:
+        """Outputs (names, n); None where a load has no value, or its limit positions are not certain."""
+        loads, table = self._loads, self._table(changes)
+        for limits in (loads.near, loads.searched):
+            found = limits(changes)
+            if found is None:
+                continue
+            for name, value in found.items():
+                if name in self._places:
+                    table[self._places[name]] = value
+            values = self._evaluate(table)
+            if loads.agree(found, values, self._index):
+                return values if loads.finite(values, self._index) else None
+        return None
 
     def _table(self, changes: Mapping[str, float]) -> Floats:
         table = self._base.copy()
@@ -170,15 +184,15 @@ class Prepared:
 
 
 class _Followed:
-    """Loads that a compiled program traces, with the cycle program that finds their limit positions before."""
+    """Loads that a compiled program traces, with what finds their limit positions before."""
 
-    def __init__(self, traced: Traced, loads: AlongInput, backend: Backend) -> None:
-        self.traced, self._backend = traced, backend
+    def __init__(self, traced: Traced, loads: AlongInput) -> None:
+        self.traced, self.loads = traced, loads
         self.tables = loads.tables
         self.fields = tuple(f"load:{name}" for name in sorted(loads.names))
-        self._limits = CycleProgram(tuple(loads.stages(traced))) if loads.outputs else None
-        self._doubts = tuple(f"doubt:{each}" for each in loads.outputs)
         self.known = {**constants(traced), **loads.constants}
+        self._own = threading.local()
+        self.rates = {output: rate_name(traced, output) for output in loads.outputs}
 
     @classmethod
     def of(cls, prepared: Prepared) -> _Followed:
@@ -188,10 +202,10 @@ class _Followed:
         fields = plain.forces.fields_needed()
         nothing = AlongInput(frozenset())
         if not fields or prepared.backend == "numpy" or not available() or plain.solver.motion.next_states:
-            return cls(plain, nothing, prepared.backend)
+            return cls(plain, nothing)
         loads = along_input(plain, vary, fields) or nothing
         traced = Traced(mechanism, vary, positions, along_input=loads.names) if loads.names else plain
-        return cls(traced, loads, "llvm")
+        return cls(traced, loads)
 
     @cached_property
     def sizes(self) -> dict[str, Scalar]:
@@ -202,18 +216,117 @@ class _Followed:
             name: magnitude(load, TracedSite(motion, load, along_input=True)) for name, load in found.items()
         }
 
-    def limits(self, changes: Mapping[str, float]) -> dict[str, float] | None:
+    def finite(self, values: Floats, index: Mapping[str, int]) -> bool:
+        """Whether every load has a value everywhere."""
+        return all(np.isfinite(values[index[f"load:{name}"]]).all() for name in self.loads.fallible)
+
+    # limit positions ----------------------------------------------------------------------------
+    def searched(self, changes: Mapping[str, float]) -> dict[str, float] | None:
         """What the program takes besides dimensions; None for designs whose limit positions are not certain."""
-        if self.fields and any(name.rpartition(".")[0] in self.traced.mechanism.drivers for name in changes):
+        if self._with_speed(changes):
             return None
-        if self._limits is None:
+        if not self.loads.outputs:
             return {}
-        known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
-        table = [[known[name] for name in self._limits.dimensions]]
-        positions = self.traced.positions.arrays
-        found = self._limits.evaluate(table, positions, tables=self.tables, threads=1, backend=self._backend)
-        if any(found[name][0] != 0.0 for name in self._doubts):
+        cycle = self._cycle
+        table, positions = [self._numbers(cycle.dimensions, changes)], self.traced.positions.arrays
+        found = cycle.evaluate(table, positions, tables=self.tables, threads=1, backend="llvm")
+        if any(found[f"doubt:{output}"][0] != 0.0 for output in self.loads.outputs):
             return None
         return {
             name: float(column[0]) for name, column in found.items() if name.startswith(("limit:", "value:"))
         }
+
+    def near(self, changes: Mapping[str, float]) -> dict[str, float] | None:
+        """The same by Newton's steps from the limit positions of the mechanism as it is; to be seen whether they
+        agree with the rates."""
+        if self._with_speed(changes):
+            return None
+        if not self.loads.outputs:
+            return {}
+        newton: _Newton | None = getattr(self._own, "newton", None)
+        if newton is None:
+            if self._begin is None:
+                return None
+            newton = self._own.newton = _Newton(*self._begin)
+        return newton.limits(changes)
+
+    def agree(self, limits: Mapping[str, float], values: Floats, index: Mapping[str, int]) -> bool:
+        """Whether the rates change their signs at these limit positions, and nowhere else."""
+        step = self.known["step of the input"] + 2.0 * AT
+        for output, name in self.rates.items():
+            rises = (values[index[name]] > 0.0).tobytes()
+            rises += rises[:1]
+            for kind, turn in (("max", b"\1\0"), ("min", b"\0\1")):
+                place = rises.find(turn)
+                if place < 0 or rises.rfind(turn) != place:
+                    return False
+                way = limits[f"limit:{output}:{kind}"] - self._inputs[place]
+                if (way * self._sense + AT) % TURN > step:
+                    return False
+        return True
+
+    @cached_property
+    def _inputs(self) -> list[float]:
+        """The input at every position."""
+        return [float(q) for q in next(iter(self.traced.positions.coordinates.values()))[0]]
+
+    @cached_property
+    def _sense(self) -> float:
+        """1 where the input grows, else -1."""
+        return float(np.sign(next(iter(self.traced.positions.coordinates.values()))[1][0]))
+
+    @cached_property
+    def _cycle(self) -> CycleProgram:
+        return CycleProgram(tuple(self.loads.stages(self.traced)))
+
+    @cached_property
+    def _begin(self) -> tuple[CompiledProgram, Floats, dict[str, Floats]] | None:
+        """Newton's steps compiled, their numbers, and the limits where they begin."""
+        known = self.searched({})
+        compiled = compile_program(near_limits(self.traced, self.loads.outputs, self.loads.valued))
+        if known is None or compiled is None:
+            return None
+        starts = {
+            f"near:{output}": np.resize([known[limit_name(output, kind)] for kind in ("max", "min")], LANES)
+            for output in self.loads.outputs
+        }
+        return compiled, np.array(self._numbers(compiled.program.parameters, {})), starts
+
+    def _numbers(self, names: Iterable[str], changes: Mapping[str, float]) -> list[float]:
+        known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
+        return [known[name] for name in names]
+
+    def _with_speed(self, changes: Mapping[str, float]) -> bool:
+        drivers = self.traced.mechanism.drivers
+        return bool(self.fields) and any(name.rpartition(".")[0] in drivers for name in changes)
+
+
+class _Newton:
+    """One thread's call of Newton's steps to the limit positions of a design."""
+
+    def __init__(self, compiled: CompiledProgram, base: Floats, starts: Mapping[str, Floats]) -> None:
+        program = compiled.program
+        self._base, self._numbers = base, base.copy()
+        self._places = {name: place for place, name in enumerate(program.parameters)}
+        self._rows = np.empty((len(program.outputs), LANES))
+        self._run = compiled.bound(self._numbers, starts, self._rows)
+        names = program.output_names
+        self._moved = [place for place, name in enumerate(names) if name.startswith("moved:")]
+        self._found = [
+            (place, side, f"{name}:{kind}")
+            for place, name in enumerate(names)
+            if place not in self._moved
+            for side, kind in enumerate(("max", "min"))
+        ]
+
+    def limits(self, changes: Mapping[str, float]) -> dict[str, float] | None:
+        """Limits, and values there, by name; None where the steps do not come to an end."""
+        self._numbers[:] = self._base
+        for address, value in changes.items():
+            if address in self._places:
+                self._numbers[self._places[address]] = value
+        self._run()
+        rows = self._rows.tolist()
+        if not all(max(rows[place]) <= CONVERGED for place in self._moved):
+            return None
+        return {name: rows[place][side] for place, side, name in self._found}
