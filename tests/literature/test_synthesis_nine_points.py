@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.synthesis.nine_points import tracker
 from linkwright.synthesis.nine_points.classes import CLASSES, class_keys, is_real, new_classes, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
-from linkwright.synthesis.nine_points.start import around, start_set
+from linkwright.synthesis.nine_points.start import around, random_points, start_set
 from linkwright.synthesis.nine_points.tracker import residual
 
 PROBLEM_3 = [
@@ -44,6 +45,16 @@ def test_the_start_set_is_closed_under_monodromy() -> None:
     assert lost <= 3
     assert len(new_classes(ends, class_keys(u))) == 0
     assert len(new_classes(ends, np.empty(0, complex))) == len(ends)
+
+
+def test_without_a_compiler_paths_end_at_the_same_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
+    q, u = start_set()
+    goal = random_points(np.random.default_rng(5))
+    compiled = tracker.track(u[:24], q, goal)
+    monkeypatch.setattr(tracker, "available", lambda: False)
+    plain = tracker.track(u[:24], q, goal)
+    assert plain.arrived.all() and compiled.arrived.all()
+    assert np.abs(class_keys(plain.solutions) - class_keys(compiled.solutions)).max() < 1e-9
 
 
 def test_a_hidden_crank_rocker_is_among_the_solutions() -> None:

@@ -21,6 +21,7 @@ from linkwright.engine.kernel import (
     store,
     total,
 )
+from linkwright.engine.kernel_complex import choose, fetch, inverse, put, square
 
 pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
 SHIFT = 3
@@ -77,3 +78,19 @@ def test_kernels_compute_what_python_says() -> None:
         if at >= 0:
             expected[at] += series(0.5, k // 2)
     assert out[:24] == pytest.approx(expected, rel=1e-13)
+
+
+def mixture(x: Reals, y: Reals, out: Reals) -> None:
+    a, b = fetch(x, 0), fetch(y, 1)
+    put(out, 0, (a - 2.0) * b + root(square(b)) * a - (1.0 - b) * 3.0)
+    put(out, 1, choose(square(a) > square(b), inverse(a), -b + a))
+
+
+def test_kernels_compute_with_complex_numbers() -> None:
+    draw = np.random.default_rng(2)
+    x, y, out = (draw.normal(size=(2, 2, 8)) for _ in range(3))
+    Kernels([mixture])("mixture", *(each.ctypes.data for each in (x, y, out)))
+    a, b = x[0, 0] + 1j * x[0, 1], y[1, 0] + 1j * y[1, 1]
+    first, second = out[:, 0] + 1j * out[:, 1]
+    assert first == pytest.approx((a - 2) * b + np.abs(b) * a - (1 - b) * 3, rel=1e-13)
+    assert second == pytest.approx(np.where(np.abs(a) > np.abs(b), 1 / a, a - b), rel=1e-13)

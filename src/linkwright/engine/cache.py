@@ -31,7 +31,7 @@ _DIGEST = 32
 _SUFFIX = ".lwcode"
 _SOURCES = (
     "ir_*.py",
-    "kernel.py",
+    "kernel*.py",
     "functions.py",
     "table.py",
     "lines.py",

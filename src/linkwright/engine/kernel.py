@@ -4,9 +4,9 @@ What straight-line programs cannot say (loops that end on a condition, tables of
 written as plain functions with annotated arguments: ``int``, ``float``, ``Reals`` and ``Wholes`` (addresses of
 doubles and of 64-bit integers; ``address + k`` is the address k entries on). Statements: assignment, ``if``,
 ``while``, ``for … in range``, ``break``, ``continue``, ``return``; a variable keeps the type of its first value.
-``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles. Python never runs such a function; it is read,
-translated to LLVM's language and kept in the cache of machine code. Sums may be reordered: results are equal to the
-bit on one machine, not between machines.
+``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles, ``kernel_complex`` has complex ones. Python never
+runs such a function; it is read, translated to LLVM's language and kept in the cache of machine code. Sums may be
+reordered: results are equal to the bit on one machine, not between machines.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from typing import Any
 
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
+from linkwright.engine.kernel_complex import ComplexWriter
 
 LANES = 8
 _FLAGS = ("contract", "reassoc", "nsz", "arcp")
@@ -38,7 +39,9 @@ class Vector:
     def __add__(self, other: Vector | float) -> Vector:
         raise NotImplementedError
 
-    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __add__
+    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __lt__ = __gt__ = (
+        __add__
+    )
 
     def __neg__(self) -> Vector:
         raise NotImplementedError
@@ -196,8 +199,10 @@ class _Address:
         self.type = value.type
 
 
-class _Writer:
+class _Writer(ComplexWriter):
     """Writes one function."""
+
+    lanes, flags = LANES, _FLAGS
 
     def __init__(self, module: Any, made: dict[str, Any], constants: dict[str, float]) -> None:
         self.module, self.made, self.constants = module, made, constants
@@ -362,12 +367,14 @@ class _Writer:
 
     def _of_UnaryOp(self, node: ast.UnaryOp) -> Any:
         value = self._value(node.operand)
-        return self.b.neg(value) if value.type == self.whole else self.b.fneg(value, flags=_FLAGS)
+        return self.b.neg(value) if value.type == self.whole else self._negative(value)
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
         left, right, name = self._value(node.left), self._value(node.right), type(node.op).__name__
         if isinstance(left, _Address):
             return _Address(self.b.gep(left.value, [right], source_etype=left.entry), left.entry)
+        if self._is_pair(left) or self._is_pair(right):
+            return self._complex_operation(name, left, right)
         left, right = self._alike(left, right)
         if left.type == self.whole:
             return getattr(self.b, _WHOLE[name])(left, right)
@@ -380,7 +387,9 @@ class _Writer:
 
     def _of_Compare(self, node: ast.Compare) -> Any:
         left, right = self._alike(self._value(node.left), self._value(node.comparators[0]))
-        sign = _COMPARE[type(node.ops[0]).__name__]
+        return self._compared(_COMPARE[type(node.ops[0]).__name__], left, right)
+
+    def _compared(self, sign: str, left: Any, right: Any) -> Any:
         compare = self.b.icmp_signed if left.type == self.whole else self.b.fcmp_ordered
         return compare(sign, left, right)
 
@@ -436,17 +445,13 @@ class _Writer:
 
     def _call_min(self, left: Any, right: Any) -> Any:
         left, right = self._alike(left, right)
-        return self.b.select(self._less(left, right), left, right)
+        return self.b.select(self._compared("<", left, right), left, right)
 
     def _call_max(self, left: Any, right: Any) -> Any:
         left, right = self._alike(left, right)
-        return self.b.select(self._less(left, right), right, left)
+        return self.b.select(self._compared("<", left, right), right, left)
 
     _call_lower, _call_higher = _call_min, _call_max
-
-    def _less(self, left: Any, right: Any) -> Any:
-        compare = self.b.icmp_signed if left.type == self.whole else self.b.fcmp_ordered
-        return compare("<", left, right)
 
     def _call_load(self, address: _Address, index: Any) -> Any:
         place = self.b.gep(address.value, [index], source_etype=self.real)
@@ -463,7 +468,7 @@ class _Writer:
         return self.b.fadd(self._as(first, self.vector), steps)
 
     def _call_spread(self, value: Any) -> Any:
-        return self._as(value, self.vector)
+        return self._spread(self._as(value, self.real))
 
     def _call_root(self, value: Any) -> Any:
         return self._intrinsic("sqrt", value)

@@ -51,6 +51,14 @@ def conjugate(u: Complexes) -> Complexes:
     return v
 
 
+def turned(u: Complexes, way: complex) -> Complexes:
+    """The solutions for points multiplied by the unit vector ``way``."""
+    v = u.copy()
+    v[:, :8:2] *= way
+    v[:, 1:8:2] /= way
+    return v
+
+
 def is_real(u: Complexes, tolerance: float = 1e-7) -> Flags:
     """Which solutions are four-bars of the real plane."""
     return np.asarray(np.abs(conjugate(u) - u).max(1) < tolerance * np.abs(u).max(1))

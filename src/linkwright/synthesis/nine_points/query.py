@@ -1,8 +1,8 @@
 """All classes of four-bars through nine given points: from the start set to the points.
 
-Lost paths are tried again: with smaller steps, by the conjugate solutions (real points: the set is closed under
-conjugation), along bent ways (nearly the same way, so nearly always the same end, but past the place where a path
-came too near a singular point), and along other ways altogether.
+What lost paths leave open is sought again: by the conjugate solutions (real points: the set is closed under
+conjugation), with smaller steps, and along other ways: to the points turned about the first one, from where the
+solutions are turned back.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from linkwright.synthesis.nine_points.classes import (
     conjugate,
     filled,
     new_classes,
+    turned,
 )
-from linkwright.synthesis.nine_points.start import random_points, start_set
+from linkwright.synthesis.nine_points.start import start_set
 from linkwright.synthesis.nine_points.tracker import MOST_STEPS, TOLERANCE, track
 
 Complexes = NDArray[np.complex128]
 Whole = NDArray[np.int64]
 
-BENDS, DETOURS = 6, 2
-BEND = 0.15
+#: Other ways that are tried at most.
+TURNS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,16 +75,13 @@ def _completed(
     if len(found) < CLASSES:
         ends = track(again, q0, q, tolerance=0.1 * TOLERANCE, most=10 * MOST_STEPS)
         found, extra = filled(found, ends.solutions[ends.arrived]), 1
-    rng = np.random.default_rng(0)
-    for attempt in range(BENDS + DETOURS):
+    for turn in range(1, TURNS + 1):
         if len(found) == CLASSES:
             break
-        bent = attempt < BENDS
-        via = 0.5 * (q0 + q) + BEND * random_points(rng) if bent else random_points(rng)
-        ends = track(again if bent else u0, q0, via)
-        ends = track(ends.solutions[ends.arrived], via, q)
-        found = filled(found, ends.solutions[ends.arrived])
-        found, extra = filled(found, conjugate(found)), extra + 1
+        way = np.exp(1j * turn)
+        ends = track(u0, q0, q * np.array([[way], [1 / way]]))
+        found, extra = filled(found, turned(ends.solutions[ends.arrived], 1 / way)), extra + 1
+        found = filled(found, conjugate(found))
     return found, extra
 
 

@@ -18,11 +18,13 @@ Source: Wampler, Morgan and Sommese 1992, J. Mech. Des. 114; Allgower and Georg 
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.engine.machine_code import available
+from linkwright.engine.threads import cores, spread_over
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -31,7 +33,6 @@ Whole = NDArray[np.int64]
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181
-THREADS = 2
 TOLERANCE, SMALLEST_STEP, LARGEST_STEP, MOST_STEPS = 1e-3, 1e-12, 0.2, 3000
 
 
@@ -47,12 +48,15 @@ def track(
     start: Complexes, q0: Complexes, q1: Complexes, *, tolerance: float = TOLERANCE, most: int = MOST_STEPS
 ) -> Ends:
     """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1."""
-    chunks = [start[i : i + CHUNK] for i in range(0, len(start), CHUNK)]
-    if not chunks:
-        return Ends(start.copy(), np.zeros(0, bool))
-    with ThreadPoolExecutor(min(THREADS, len(chunks))) as pool:
-        parts = list(pool.map(lambda part: _Paths(part, q0, q1, tolerance, most).run(), chunks))
-    found = Ends(np.concatenate([p.solutions for p in parts]), np.concatenate([p.arrived for p in parts]))
+    done, arrived = start.copy(), np.zeros(len(start), bool)
+
+    def carry(first: int, last: int) -> None:
+        paths = _Paths(start[first:last], q0, q1, tolerance, most)
+        ends = paths.run_compiled() if available() else paths.run()
+        done[first:last], arrived[first:last] = ends.solutions, ends.arrived
+
+    spread_over(len(start), CHUNK, cores(), carry)
+    found = Ends(done, arrived)
     with np.errstate(all="ignore"):
         right = found.arrived & np.isfinite(found.solutions).all(1)
         right &= residual(np.where(right[:, None], found.solutions, 1.0), q1) < 1e-9
@@ -80,6 +84,21 @@ class _Paths:
         self.tolerance, self.most = tolerance, most
         self.done = start.T.copy()
         self.arrived = np.zeros(len(start), bool)
+
+    def run_compiled(self) -> Ends:
+        """The same steps in compiled code."""
+        from linkwright.engine.kernel import LANES
+        from linkwright.synthesis.nine_points.kernels import ROOM, kernels
+
+        rows, arrived, room = self.done.T.copy(), np.zeros(len(self.arrived)), np.zeros(ROOM)
+        along = [_in_lanes(each, LANES) for each in (self.q0, self.dq)]
+        limits = np.array([self.tolerance, SMALLEST_STEP, LARGEST_STEP, self.most])
+        places = [each.ctypes.data for each in (rows, *along, arrived, limits)]
+        kernels()("carry", len(rows), *places, room.ctypes.data)
+        self.done, self.arrived = rows.T.copy(), arrived > 0.5
+        with np.errstate(all="ignore"):
+            self._polish()
+        return Ends(self.done.T.copy(), self.arrived)
 
     def run(self) -> Ends:
         """Steps until every path has arrived or is given up."""
@@ -133,6 +152,12 @@ class _Paths:
             du = linear_step(u, self.q1 + 0 * u[:1], None)
             better = relative_size(du, u) < 1e-6
             self.done[:, good] = np.where(better, u + du, u)
+
+
+def _in_lanes(q: Complexes, lanes: int) -> Floats:
+    """Points (2, 8, 1) as entries of compiled code, equal in all lanes."""
+    flat = q.reshape(-1, 1)
+    return np.ascontiguousarray(np.repeat(np.concatenate([flat.real, flat.imag], 1), lanes, 1))
 
 
 def linear_step(u: Complexes, q: Complexes, dq: Complexes | None) -> Complexes:
