@@ -5,7 +5,8 @@ import { readdirSync, readFileSync } from "node:fs";
 export function fingerprint(folder: string): string {
   const hash = createHash("sha256");
   const names = readdirSync(`${folder}/src`).sort().map((name) => `src/${name}`);
-  for (const name of [...names, "package-lock.json", "vite.config.ts", "vite.engine.config.ts", "vite.studio.config.ts"]) {
+  const configurations = readdirSync(folder).filter((name) => /^vite\..*ts$/.test(name)).sort();
+  for (const name of [...names, "package-lock.json", ...configurations]) {
     hash.update(name + "\n");
     hash.update(readFileSync(`${folder}/${name}`));
   }

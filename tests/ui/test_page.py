@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.ui.browser import Opened, browser, needs_chromium
+from tests.unit import test_drawing_cams as drawn_cams
 
 import linkwright as lw
+from linkwright.joints.cam_shape import CamShape
 from linkwright.model.mechanism import Mechanism
 from linkwright.page import content
 
@@ -356,6 +358,79 @@ joints:
 drawing: {B: [0 mm, 50 mm], D: [200 mm, 50 mm], C: [100 mm, 199.66629547095765 mm]}
 driver: {turn: first, about: A, speed: 60 rpm}
 """
+
+
+@pytest.mark.parametrize(("case", "touch"), [(0, "groove"), (1, "flat"), (2, "knife"), (0, "flat")])
+def test_cams_are_drawn_where_their_followers_touch(
+    kept_open: Opened, tmp_path: Path, case: int, touch: str
+) -> None:
+    """Contacts found from velocities are points of the profile by its formula, before and after a change."""
+    held, side = drawn_cams.CASES[case]
+    text = drawn_cams.text_of(held, side, touch, "clockwise")
+    mechanism = lw.loads(text)
+    kept_open.open(lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "cam.html", text=text))
+    for changes in ({}, {"lobe.base_radius": 0.074}):
+        if changes:
+            kept_open.run("(s, c) => { s.take({...s.model.values, ...c}); s.view.draw(3); }", changes)
+        now = mechanism.with_dimensions(changes)
+        joint = now.joints["lobe"]
+        shape = CamShape.of(joint, now)
+        turned = lw.solve_motion(now, steps=STEPS).link("cam").angle
+        phi = joint.sense * (turned - joint.phase)
+        drawn = kept_open.run(
+            "s => { const g = s.data.glyphs.find(g => g.kind === 'cam'); return s.view.shapes.cam(g); }"
+        )
+        assert drawn["closed"]
+        curves = {"profile": shape.profile(phi)}
+        if touch == "groove":
+            curves |= {"outer": shape.profile(phi, outer=True), "pitch": shape.pitch(phi)}
+        for name, want in curves.items():
+            found = np.array(drawn[name]) @ [1, 1j] + shape.centre
+            off = np.abs(found[:, None] - want[None, :]).min(axis=1)
+            assert off.max() < 1e-11, name
+            assert len(found) == STEPS
+        if touch == "flat":
+            ends = np.subtract(*(complex(*each) for each in (now_face(now)[1], now_face(now)[0])))
+            assert drawn["face"][1] - drawn["face"][0] == pytest.approx(abs(ends), rel=0.05)
+
+
+def now_face(mechanism: Mechanism) -> tuple[Any, Any]:
+    """Ends of a flat face as drawings have it."""
+    face = next(m for m in mechanism.joints["lobe"].marks(mechanism, {}) if m.symbol == "face")
+    return face.at, face.to
+
+
+def test_teeth_mesh_and_racks_reach_as_far_as_they_are_used(kept_open: Opened, tmp_path: Path) -> None:
+    """Places of teeth against those of the drawings (by the gears' phases), after a change of the centres as well."""
+    mechanism, path = made(tmp_path, "internal_gear_pair")
+    kept_open.open(path)
+    kept_open.run("s => { s.take({...s.model.values, 'frame.Q.y': -0.012}); s.view.draw(0); }")
+    changed = mechanism.with_dimensions({"frame.Q.y": -0.012})
+    marks = [m for j in changed.joints.values() for m in j.marks(changed, {}) if m.symbol == "gear"]
+    places = kept_open.run(
+        "s => s.data.glyphs.flatMap((g, k) => g.kind === 'wheel' ? [[g.link, s.view.shapes.tooth(k),"
+        " s.view.shapes.radius(g)]] : [])"
+    )
+    own = {link: (tooth, radius) for link, tooth, radius in places}
+    pitches = []
+    for mark in marks:
+        tooth, radius = own[mark.link]
+        assert radius == pytest.approx(mark.radius, rel=1e-12)
+        pitches.append((tooth - mark.turned) * mark.teeth / (2 * math.pi))
+    # One pitch of one wheel is one of the other: both may have gone on by the same part of a pitch.
+    assert (pitches[0] - pitches[1]) % 1 == pytest.approx(0.0, abs=1e-9) or (
+        pitches[0] - pitches[1]
+    ) % 1 == pytest.approx(1.0, abs=1e-9)
+    mechanism, path = made(tmp_path, "pinion_between_racks")
+    kept_open.open(path)
+    assert kept_open.run("s => s.data.undrawn") == []
+    motion = lw.solve_motion(mechanism, steps=STEPS)
+    travel = np.ptp(motion.point("pinion.C").position[:, 0])
+    lengths = kept_open.run(
+        "s => s.data.glyphs.filter(g => g.kind === 'rack').map(g => s.view.shapes.rack(g))"
+        ".map(r => r.high - r.low)"
+    )
+    assert sorted(lengths) == pytest.approx([travel, travel], rel=1e-9)
 
 
 def test_notebooks_show_the_page_in_a_frame(opened: Opened, tmp_path: Path) -> None:

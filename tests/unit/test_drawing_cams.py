@@ -45,15 +45,20 @@ CASES = [(GUIDED, ""), (SWINGING, "left"), (SWINGING, "right")]
 BASE = 0.07
 
 
-def drawn(held: dict[str, str], side: str, touch: str, sense: str) -> tuple[lw.Motion, Mark, Mark]:
-    """A motion whose positions are among those that the drawn curves were taken at, and the marks of the joint."""
+def text_of(held: dict[str, str], side: str, touch: str, sense: str) -> str:
+    """The model file of a case."""
     roller = "roller\n    roller_radius: 10 mm"
     words = {"roller": roller, "groove": f"{roller}\n    closure: groove"}.get(touch, touch)
     words += f"\n    side: {side}" if side else ""
     text = MODEL
     for key, value in {**held, "TOUCH": words, "SENSE": sense}.items():
         text = text.replace(key, value)
-    mechanism = lw.loads(text)
+    return text
+
+
+def drawn(held: dict[str, str], side: str, touch: str, sense: str) -> tuple[lw.Motion, Mark, Mark]:
+    """A motion whose positions are among those that the drawn curves were taken at, and the marks of the joint."""
+    mechanism = lw.loads(text_of(held, side, touch, sense))
     cam, end = mechanism.joints["lobe"].marks(mechanism, {})
     return lw.solve_motion(mechanism, steps=72), cam, end
 

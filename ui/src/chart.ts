@@ -1,5 +1,5 @@
 // Curves over the input, and hodographs, as SVG paths.
-import { element } from "./view";
+import { element } from "./strokes";
 import { digits } from "./words";
 
 // Units of the picture are tenths of a pixel, so that paths are written in whole numbers.

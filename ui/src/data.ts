@@ -44,8 +44,16 @@ export interface Point {
   moved: string[];
 }
 
+/** A number of the drawing: factor times and over dimensions where the page has all of them, else its value. */
+export interface Amount {
+  value: number;
+  factor: number;
+  times: string[];
+  over: string[];
+}
+
 export interface Glyph {
-  kind: "stamp" | "bar" | "plate" | "rail" | "rod" | "stub" | "cylinder" | "passing" | "spring" | "damper" | "load" | "wheel" | "strands";
+  kind: "stamp" | "bar" | "plate" | "rail" | "rod" | "stub" | "cylinder" | "passing" | "spring" | "damper" | "load" | "wheel" | "strands" | "cam" | "rack";
   layer: string;
   at?: string;
   along?: string | number;
@@ -62,9 +70,20 @@ export interface Glyph {
   barrel?: number;
   piston?: number;
   load?: string;
-  radius?: number | null;
-  radii?: number[];
-  share?: number;
+  link?: string;
+  follower?: string;
+  carrier?: string;
+  trace?: string;
+  touch?: "roller" | "knife" | "flat";
+  groove?: boolean;
+  radius?: Amount | null;
+  radii?: Amount[];
+  base?: Amount;
+  ratio?: Amount | null;
+  turn?: Amount;
+  second?: boolean;
+  teeth?: number | null;
+  mesh?: number;
   toothed?: boolean;
   inside?: boolean;
   crossed?: boolean;
@@ -84,7 +103,8 @@ export interface ModelData {
   purpose: string;
   source: string;
   text: string;
-  module: string | null;
+  /** The module in base64, its length while a page is unpacked, or its bytes. */
+  module: string | number | Uint8Array<ArrayBuffer> | null;
   programs: Program[];
   main: number;
   stages: Stage[];
@@ -100,7 +120,7 @@ export interface ModelData {
     modes: Record<string, number>;
     time: string | null;
     arrays: Record<string, string>;
-    inputs: { name: string; turns: boolean; values: string }[];
+    inputs: { name: string; turns: boolean; values: string | null }[];
   };
   fields: Record<string, string>;
   starts: Record<string, number | string>;

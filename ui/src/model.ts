@@ -57,8 +57,8 @@ export class Model {
     this.one = kernels.call(data.main, 1);
     this.cycle = data.stages.length ? new Cycle(kernels, data.stages, this.n) : null;
     for (const name in positions.arrays) this.arrays[name] = floats(positions.arrays[name]);
-    this.inputs = positions.inputs.length ? floats(positions.inputs[0].values) : new Float64Array(1);
-    const { time, inputs } = positions;
+    const { time, inputs, steady } = positions, given = inputs[0]?.values;
+    this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
     const way = Math.sign(this.inputs[1] - this.inputs[0]);
     const forward = this.inputs.every((q, i) => i === 0 || Math.sign(q - this.inputs[i - 1]) === way);
     this.axis = forward || time === null
@@ -502,6 +502,8 @@ function size(data: ModelData): number {
 }
 
 export async function code(data: ModelData, number: number): Promise<Code> {
-  if (data.module !== null) return { module: await WebAssembly.compile(bytes(data.module)) };
+  const { module } = data;
+  if (typeof module === "string") return { module: await WebAssembly.compile(bytes(module)) };
+  if (module instanceof Uint8Array) return { module: await WebAssembly.compile(module) };
   return { functions: (globalThis as unknown as { kernels: never[][] }).kernels[number] };
 }

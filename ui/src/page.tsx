@@ -6,10 +6,12 @@ import { code } from "./model";
 import { Session } from "./session";
 
 async function open(): Promise<void> {
-  const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
+  const data = (globalThis as unknown as { packed: PageData }).packed;
   const sessions = await Promise.all(data.models.map(async (each, k) => new Session(each, await code(each, k), k)));
   const page = new Page(data, sessions);
-  render(<App page={page} />, document.getElementById("page")!);
+  const host = document.getElementById("page")!;
+  host.textContent = "";
+  render(<App page={page} />, host);
   page.follow(location.hash);
   window.addEventListener("hashchange", () => page.follow(location.hash));
   keys(page);

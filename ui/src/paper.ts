@@ -1,5 +1,5 @@
 // Drawing paper: what of a text can be drawn before it is a machine, and the tools that draw on it.
-import { element } from "./view";
+import { element } from "./strokes";
 
 export interface Picture {
   points: Record<string, [number, number]>;

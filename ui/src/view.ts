@@ -1,15 +1,16 @@
 // The machine drawn in the standard symbols: elements made once, moved at every frame.
 import type { Glyph } from "./data";
-import type { Model } from "./model";
+import type { Model, Values } from "./model";
+import { amount, Shapes, type Vec } from "./shapes";
+import {
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, round, strand, TALL, tenth, TOOTH, toothed, unit, zigzag,
+} from "./strokes";
 
-const NS = "http://www.w3.org/2000/svg";
-const LAYERS = ["ground", "paths", "ghosts", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
+const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
 const COLOURS = 4;
-const TURN = 2 * Math.PI;
 
-type Vec = [number, number];
 export interface Shown {
   paths: Set<string>;
   names: boolean;
@@ -19,22 +20,22 @@ export interface Shown {
   centres: boolean;
 }
 
-export function element(tag: string, attributes: Record<string, string | number> = {}, parent?: Element): SVGElement {
-  const made = document.createElementNS(NS, tag);
-  for (const name in attributes) made.setAttribute(name, String(attributes[name]));
-  parent?.append(made);
-  return made as SVGElement;
+/** A path of a point, m. */
+export interface Ghost {
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
 }
-
-const tenth = (x: number) => Math.round(10 * x) / 10;
-const line = (points: Vec[], closed = false) =>
-  points.map(([x, y], k) => `${k ? "L" : "M"}${tenth(x)} ${tenth(y)}`).join("") + (closed ? "Z" : "");
-const away = ([x, y]: Vec, [u, v]: Vec, far: number, side = 0): Vec => [x + far * u - side * v, y + far * v + side * u];
 
 export class View {
   readonly svg: SVGElement;
   private readonly layers: Record<string, SVGElement> = {};
   private readonly drawn: ((i: number) => void)[] = [];
+  /** What is found again when the machine or the scale has changed, not at every position. */
+  private readonly settled: (() => void)[] = [];
+  private readonly shapes: Shapes;
+  private readonly canvas: HTMLCanvasElement;
+  private ghostly: Ghost[] = [];
+  private seen: { values: Values | null; scale: number; paths: string } = { values: null, scale: 0, paths: "" };
   private readonly handles = new Map<string, SVGElement>();
   private readonly labels = new Map<string, SVGElement>();
   private readonly vectors = new Map<string, { line: SVGElement; head: SVGElement }>();
@@ -46,9 +47,12 @@ export class View {
   index = 0;
 
   constructor(readonly model: Model, host: HTMLElement, public shown: Shown) {
+    this.shapes = new Shapes(model);
+    this.canvas = host.appendChild(document.createElement("canvas"));
+    this.canvas.setAttribute("aria-hidden", "true");
     this.svg = element("svg", { class: "machine", role: "group" }, host);
     for (const name of LAYERS) this.layers[name] = element("g", { class: `lw-${name}` }, this.svg);
-    for (const glyph of model.data.glyphs) this.drawn.push(this.glyph(glyph));
+    model.data.glyphs.forEach((glyph, number) => this.drawn.push(this.glyph(glyph, number)));
     for (const { key, fixed, moved } of model.data.points) {
       const label = element("text", { class: "lw-name" }, this.layers.names);
       label.textContent = key;
@@ -67,29 +71,32 @@ export class View {
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.fit();
     this.draw(this.index);
+    this.drawGhosts();
   }
 
   /** Puts all that the points reach into the picture. */
   fit(): void {
     let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const { key } of this.model.data.points) {
-      const r = this.radius(key);
-      for (const x of this.model.main.row(`p:${key}.x`)) [left, right] = [Math.min(left, x - r), Math.max(right, x + r)];
-      for (const y of this.model.main.row(`p:${key}.y`)) [low, high] = [Math.min(low, y - r), Math.max(high, y + r)];
-    }
+    const take = (xs: ArrayLike<number>, ys: ArrayLike<number>, r = 0) => {
+      for (let i = 0; i < xs.length; i++) {
+        [left, right] = [Math.min(left, xs[i] - r), Math.max(right, xs[i] + r)];
+        [low, high] = [Math.min(low, ys[i] - r), Math.max(high, ys[i] + r)];
+      }
+    };
+    for (const { key } of this.model.data.points) take(this.model.main.row(`p:${key}.x`), this.model.main.row(`p:${key}.y`), this.radius(key));
+    for (const glyph of this.model.data.glyphs) if (glyph.kind === "rack") take(...this.shapes.reach(glyph));
     const margin = 46, size = Math.max(right - left, high - low) || 1;
     const wide = Math.max(right - left, 0.05 * size), tall = Math.max(high - low, 0.05 * size);
     this.scale = Math.min((this.width - 2 * margin) / wide, (this.height - 2 * margin) / tall);
     this.shift = [this.width / 2 - (this.scale * (left + right)) / 2, this.height / 2 + (this.scale * (low + high)) / 2];
   }
 
-  /** Radius of the largest wheel about a point, m. */
+  /** How far wheels and cams reach about a point, m. */
   private radius(key: string): number {
-    const { main } = this.model, world = (name: string): Vec => [main.row(`p:${name}.x`)[0], main.row(`p:${name}.y`)[0]];
     return this.model.data.glyphs.reduce((most, glyph) => {
-      if (glyph.kind !== "wheel" || glyph.at !== key) return most;
-      const [a, b] = glyph.points!.map(world);
-      return Math.max(most, glyph.radius ?? glyph.share! * far(a, b));
+      if (glyph.at !== key) return most;
+      if (glyph.kind === "wheel") return Math.max(most, this.shapes.radius(glyph));
+      return glyph.kind === "cam" ? this.shapes.cam(glyph).profile.reduce((far, [x, y]) => Math.max(far, Math.hypot(x, y)), most) : most;
     }, 0);
   }
 
@@ -125,10 +132,17 @@ export class View {
 
   draw(i: number): void {
     this.index = i;
+    const { values } = this.model, paths = [...this.shown.paths].join();
+    const settled = this.seen.values === values && this.seen.scale === this.scale;
+    if (!settled) {
+      this.shapes.forget();
+      for (const each of this.settled) each();
+    }
+    if (!settled || paths !== this.seen.paths) this.drawPaths();
+    this.seen = { values, scale: this.scale, paths };
     for (const each of this.drawn) each(i);
     for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key, i));
     this.writeNames(i);
-    this.drawPaths();
     this.drawVectors(i);
     this.layers.marks.classList.toggle("without-centres", !this.shown.centres);
   }
@@ -148,7 +162,7 @@ export class View {
 
   // glyphs -------------------------------------------------------------------------------
 
-  private glyph(glyph: Glyph): (i: number) => void {
+  private glyph(glyph: Glyph, number: number): (i: number) => void {
     const layer = this.layers[glyph.layer];
     const path = (style: string) => element("path", { class: style }, layer);
     switch (glyph.kind) {
@@ -186,11 +200,13 @@ export class View {
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
       case "rod": return this.rod(glyph, path("lw-bar"));
       case "cylinder": return this.cylinder(glyph, path("lw-bar"), path("lw-block"));
-      case "wheel": return this.wheel(glyph, path("lw-support"), path("lw-gear"), path("lw-pitch"));
+      case "wheel": return this.wheel(glyph, number, layer);
+      case "rack": return this.rack(glyph, layer);
+      case "cam": return this.cam(glyph, layer);
       case "strands": {
         const strands = path("lw-spring");
         return (i) => {
-          const [a, b] = glyph.points!.map((key) => this.at(key, i)), [r, s] = glyph.radii!.map((each) => each * this.scale);
+          const [a, b] = glyph.points!.map((key) => this.at(key, i)), [r, s] = glyph.radii!.map((each) => amount(each, this.model.values) * this.scale);
           strands.setAttribute("d", [1, -1].map((side) => strand(a, b, side * r, side * (glyph.crossed ? -s : s))).join(""));
         };
       }
@@ -210,16 +226,23 @@ export class View {
   }
 
   /** Where a block's point is at displacement zero, and its travel over all positions, on the paper. */
-  private track(joint: string, at: string, i: number): { base: Vec; u: Vec; low: number; high: number } {
-    const s = this.model.main.row(`s:${joint}`), u = this.way(`d:${joint}`, i);
-    let [low, high] = [Infinity, -Infinity];
-    for (const x of s) [low, high] = [Math.min(low, x), Math.max(high, x)];
-    return { base: away(this.at(at, i), u, -s[i] * this.scale), u, low: low * this.scale, high: high * this.scale };
+  private track(joint: string, at: string): (i: number) => { base: Vec; u: Vec; low: number; high: number } {
+    let [low, high] = [0, 0];
+    this.settled.push(() => {
+      const s = this.model.main.row(`s:${joint}`);
+      [low, high] = [Infinity, -Infinity];
+      for (const x of s) [low, high] = [Math.min(low, x), Math.max(high, x)];
+    });
+    return (i) => {
+      const s = this.model.main.row(`s:${joint}`)[i], u = this.way(`d:${joint}`, i);
+      return { base: away(this.at(at, i), u, -s * this.scale), u, low: low * this.scale, high: high * this.scale };
+    };
   }
 
   private rail(glyph: Glyph, rail: SVGElement, hatch: SVGElement): (i: number) => void {
+    const track = this.track(glyph.joint!, glyph.at!);
     return (i) => {
-      const { base, u, low, high } = this.track(glyph.joint!, glyph.at!, i), side = glyph.side!;
+      const { base, u, low, high } = track(i), side = glyph.side!;
       const first = low + glyph.shift! - BLOCK - STUB, last = high + glyph.shift! + BLOCK + STUB;
       const y = side * (HALF_HEIGHT + 1.3), count = Math.max(2, Math.round((last - first) / 6));
       rail.setAttribute("d", line([away(base, u, first, y), away(base, u, last, y)]));
@@ -233,8 +256,9 @@ export class View {
   }
 
   private rod(glyph: Glyph, rod: SVGElement): (i: number) => void {
+    const track = this.track(glyph.joint!, glyph.at!);
     return (i) => {
-      const { base, u, low, high } = this.track(glyph.joint!, glyph.at!, i);
+      const { base, u, low, high } = track(i);
       const along = glyph.reach!.map((key) => {
         const [x, y] = this.at(key, i);
         return (x - base[0]) * u[0] + (y - base[1]) * u[1];
@@ -255,16 +279,61 @@ export class View {
     };
   }
 
-  /** A pitch circle with teeth, or a plain one with a mark that shows how it turns. */
-  private wheel(glyph: Glyph, rim: SVGElement, teeth: SVGElement, pitch: SVGElement): (i: number) => void {
+  /** A part with a shape of its own in the axes of a link: found when the machine changes, moved at every frame. */
+  private carried(glyph: Glyph, layer: SVGElement, styles: string[], shape: (paths: SVGElement[]) => void): (i: number) => void {
+    const body = element("g", {}, layer), paths = styles.map((style) => element("path", { class: style }, body));
+    this.settled.push(() => shape(paths));
     return (i) => {
-      const [a, b] = glyph.points!.map((key) => this.at(key, i)), at = this.at(glyph.at!, i);
-      const r = glyph.radius ? glyph.radius * this.scale : glyph.share! * far(a, b);
-      const u = this.way(glyph.along!, i), turned = Math.atan2(u[1], u[0]);
-      pitch.setAttribute("d", round(at, r));
-      rim.setAttribute("d", glyph.inside ? round(at, r + 14) : "");
-      const mark = line([away(at, u, glyph.inside ? r : 0.55 * r), away(at, u, glyph.inside ? r + 12 : 0.9 * r)]);
-      teeth.setAttribute("d", (glyph.toothed ? toothed(at, r, turned, glyph.inside ? -1 : 1) : round(at, r)) + mark);
+      const [u, v] = this.way(glyph.along!, i), [x, y] = this.at(glyph.at!, i);
+      body.setAttribute("transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
+    };
+  }
+
+  /** A pitch circle with teeth, or a plain one, with a mark that shows how it turns. */
+  private wheel(glyph: Glyph, number: number, layer: SVGElement): (i: number) => void {
+    return this.carried(glyph, layer, ["lw-support", "lw-gear", "lw-pitch"], ([rim, teeth, pitch]) => {
+      const r = this.shapes.radius(glyph) * this.scale, u: Vec = [1, 0], sign = glyph.inside ? -1 : 1;
+      pitch.setAttribute("d", round([0, 0], r));
+      rim.setAttribute("d", glyph.inside ? round([0, 0], r + 14) : "");
+      const mark = line([away([0, 0], u, glyph.inside ? r : 0.55 * r), away([0, 0], u, glyph.inside ? r + 12 : 0.9 * r)]);
+      teeth.setAttribute("d", (glyph.toothed ? toothed(r, glyph.teeth ?? null, -this.shapes.tooth(number), sign) : round([0, 0], r)) + mark);
+    });
+  }
+
+  private rack(glyph: Glyph, layer: SVGElement): (i: number) => void {
+    return this.carried(glyph, layer, ["lw-gear", "lw-pitch"], ([teeth, pitch]) => {
+      const turn = -amount(glyph.turn!, this.model.values), u: Vec = [Math.cos(turn), Math.sin(turn)];
+      const found = this.shapes.rack(glyph), side = glyph.inside ? 1 : -1, fine = (found.pitch ?? 0) * this.scale;
+      const step = fine > FINEST ? fine : PITCH, begin = found.low * this.scale - 14, end = found.high * this.scale + 14;
+      const first = begin + (((found.tooth * this.scale - begin) % step) + step) % step, height = Math.min(1, step / PITCH);
+      const outline: Vec[] = [[begin, 3 * DEEP], [begin, DEEP * height]];
+      for (let x = first - step; x < end + step; x += step)
+        for (const [share, up] of TOOTH) if (x + share * step > begin && x + share * step < end) outline.push([x + share * step, (up ? -TALL : DEEP) * height]);
+      outline.push([end, DEEP * height], [end, 3 * DEEP]);
+      teeth.setAttribute("d", line(outline.map(([x, y]) => away([0, 0], u, x, -side * y)), true));
+      pitch.setAttribute("d", line([away([0, 0], u, begin), away([0, 0], u, end)]));
+    });
+  }
+
+  /** The cam on its link; what touches it on the follower. */
+  private cam(glyph: Glyph, layer: SVGElement): (i: number) => void {
+    const tip = element("path", { class: { roller: "lw-ground", knife: "lw-gear", flat: "lw-bar" }[glyph.touch!] }, this.layers.tops);
+    let face: Vec = [0, 0];
+    const body = this.carried(glyph, layer, ["lw-support", "lw-plate", "lw-pitch"], ([wall, cam, curve]) => {
+      const found = this.shapes.cam(glyph), outline = (points: Vec[]) => line(points.map(([x, y]) => [x * this.scale, -y * this.scale]), found.closed);
+      wall.setAttribute("d", outline(found.outer));
+      cam.setAttribute("d", outline(found.profile));
+      cam.classList.toggle("open", !found.closed);
+      curve.setAttribute("d", outline(found.pitch));
+      face = [found.face[0] * this.scale, found.face[1] * this.scale];
+    });
+    return (i) => {
+      body(i);
+      const at = this.at(glyph.trace!, i), [x, y] = this.shapes.line(glyph, i), u: Vec = [x, -y];
+      const open = 14 * (glyph.joint ? glyph.side! : -glyph.side!);
+      if (glyph.touch === "roller") tip.setAttribute("d", round(at, amount(glyph.radius!, this.model.values) * this.scale));
+      else if (glyph.touch === "flat") tip.setAttribute("d", line([away(at, u, face[0]), away(at, u, face[1])]));
+      else tip.setAttribute("d", line([at, away(at, u, 4.5, open), away(at, u, -4.5, open)], true));
     };
   }
 
@@ -295,16 +364,30 @@ export class View {
     });
   }
 
-  /** Paths of a point for other designs, under the machine. */
-  ghosts(rows: { x: ArrayLike<number>; y: ArrayLike<number> }[]): void {
-    let d = "";
-    for (const { x, y } of rows)
+  /** Paths of points for other designs, under the machine: on a canvas, so that they cost nothing while it moves. */
+  ghosts(rows: Ghost[]): void {
+    this.ghostly = rows;
+    this.drawGhosts();
+  }
+
+  private drawGhosts(): void {
+    const { canvas, width, height, ghostly } = this;
+    canvas.hidden = !ghostly.length;
+    if (!ghostly.length) return;
+    const dense = Math.min(devicePixelRatio || 1, 2);
+    [canvas.width, canvas.height] = [Math.round(width * dense), Math.round(height * dense)];
+    const pen = canvas.getContext("2d")!;
+    pen.scale(dense, dense);
+    pen.strokeStyle = getComputedStyle(canvas).color;
+    pen.lineWidth = 0.7;
+    pen.beginPath();
+    for (const { x, y } of ghostly)
       for (let i = 0; i < x.length; i += 2) {
         const [u, v] = this.paper(x[i], y[i]);
-        d += `${i ? "L" : "M"}${u.toFixed(1)} ${v.toFixed(1)}`;
+        if (i) pen.lineTo(u, v);
+        else pen.moveTo(u, v);
       }
-    const ghost = (this.layers.ghosts.firstElementChild as SVGElement) ?? element("path", { class: "lw-ghost" }, this.layers.ghosts);
-    ghost.setAttribute("d", d);
+    pen.stroke();
   }
 
   private drawVectors(i: number): void {
@@ -344,79 +427,4 @@ export class View {
     for (const [name, vector] of this.vectors)
       for (const each of [vector.line, vector.head]) each.setAttribute("visibility", seen.has(name) ? "visible" : "hidden");
   }
-}
-
-function place(of: SVGElement, a: string, b: string, [x, y]: Vec): void {
-  of.setAttribute(a, x.toFixed(2));
-  of.setAttribute(b, y.toFixed(2));
-}
-
-const far = (a: Vec, b: Vec) => Math.hypot(b[0] - a[0], b[1] - a[1]);
-
-function unit(a: Vec, b: Vec): Vec {
-  const d = far(a, b) || 1;
-  return [(b[0] - a[0]) / d, (b[1] - a[1]) / d];
-}
-
-function arrow(shaft: SVGElement, head: SVGElement, from: Vec, to: Vec): void {
-  const length = far(from, to), u = unit(from, to), size = Math.min(9, length);
-  shaft.setAttribute("d", line([from, away(to, u, -0.7 * size)]));
-  head.setAttribute("d", line([to, away(to, u, -size, -0.38 * size), away(to, u, -size, 0.38 * size)], true));
-}
-
-function hull(cloud: Vec[]): Vec[] {
-  const rows = [...cloud].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  const half = (ordered: Vec[]) => {
-    const chain: Vec[] = [];
-    for (const p of ordered) {
-      while (chain.length > 1) {
-        const [a, b] = chain.slice(-2);
-        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
-        chain.pop();
-      }
-      chain.push(p);
-    }
-    return chain.slice(0, -1);
-  };
-  return [...half(rows), ...half([...rows].reverse())];
-}
-
-const TOOTH: Vec[] = [[-0.5, -3.6], [-0.32, -3.6], [-0.16, 3.2], [0.16, 3.2], [0.32, -3.6]];
-
-/** Teeth that show that it is a gear; their number is not the gear's. */
-function toothed(at: Vec, r: number, turned: number, sign: number): string {
-  const count = Math.max(12, Math.round((TURN * r) / 11)), outline: Vec[] = [];
-  for (let k = 0; k < count; k++)
-    for (const [share, height] of TOOTH) {
-      const angle = turned + (TURN * (k + share)) / count, radius = r + sign * height;
-      outline.push([at[0] + radius * Math.cos(angle), at[1] + radius * Math.sin(angle)]);
-    }
-  return line(outline, true);
-}
-
-const round = ([x, y]: Vec, r: number) =>
-  `M${tenth(x - r)} ${tenth(y)}a${tenth(r)} ${tenth(r)} 0 1 0 ${tenth(2 * r)} 0a${tenth(r)} ${tenth(r)} 0 1 0 ${tenth(-2 * r)} 0Z`;
-
-/** The common tangent of two circles on one side (signed radii: on different sides it crosses). */
-function strand(a: Vec, b: Vec, r: number, s: number): string {
-  const d = far(a, b), u = unit(a, b), sine = (r - s) / d, cosine = Math.sqrt(Math.max(0, 1 - sine * sine));
-  return line([away(a, u, r * sine, r * cosine), away(b, u, s * sine, s * cosine)]);
-}
-
-function zigzag(a: Vec, b: Vec): Vec[] {
-  const length = far(a, b), u = unit(a, b), lead = Math.min(0.18 * length, 16), points: Vec[] = [a];
-  for (let k = 0; k <= 12; k++) {
-    const side = k === 0 || k === 12 ? 0 : k % 2 ? -7 : 7;
-    points.push(away(a, u, lead + ((length - 2 * lead) * k) / 12, side));
-  }
-  return [...points, b];
-}
-
-function dashpot(from: Vec, to: Vec): string {
-  const length = far(from, to), u = unit(from, to), body = Math.min(26, 0.5 * length), h = 8;
-  const a = (length - body) / 2, b = (length + body) / 2, c = length / 2 + 0.15 * body;
-  const strokes: Vec[][] = [
-    [[0, 0], [a, 0]], [[b, -h], [a, -h], [a, h], [b, h]], [[c, -0.7 * h], [c, 0.7 * h]], [[c, 0], [length, 0]],
-  ];
-  return strokes.map((stroke) => line(stroke.map(([x, y]) => away(from, u, x, y)))).join("");
 }

@@ -20,7 +20,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
     from linkwright.engine.vector import Vec
-    from linkwright.joints.marks import Mark, Wheels
+    from linkwright.joints.marks import Following, Mark
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.cycle import Floats
@@ -305,8 +305,8 @@ class Joint(ABC):
         have a tooth, rad in their axes, to which a joint adds its own."""
         return ()
 
-    def wheels(self) -> Wheels | None:
-        """The two wheels of a pair of wheels."""
+    def following(self, mechanism: Mechanism) -> Following | None:
+        """What drawings whose dimensions may change show of it in place of its marks; None where it has none."""
         return None
 
     def pulls(self, forces: Forces) -> Any:

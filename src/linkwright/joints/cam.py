@@ -17,7 +17,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.joints.cam_cuts import Geometry
-    from linkwright.joints.marks import Mark
+    from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
@@ -228,6 +228,21 @@ class CamJoint(HigherPair):
         from linkwright.joints.cam_shape import CamShape
 
         return CamShape.of(self, mechanism).marks()
+
+    def following(self, mechanism: Mechanism) -> CamContact:
+        from linkwright.joints.marks import Amount, CamContact
+
+        base, roller = (
+            Amount(value, (f"{self.name}.{key}",))
+            for key, value in (("base_radius", self.base_radius), ("roller_radius", self.roller_radius))
+        )
+        held = ("", self.holder, 1 if self.side == "left" else -1)
+        if not self.side:
+            outward = mechanism.joints[self.holder].joined[1] == self.follower
+            held = (self.holder, "", 1 if outward else -1)
+        groove = self.closure == "groove" and self.touch == "roller"
+        places = (self.cam, self.centre, self.follower, self.at, self.carrier)
+        return CamContact(*places, self.touch, base, roller, groove, *held)
 
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:

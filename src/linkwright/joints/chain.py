@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.joints.base import JOINTS
 from linkwright.joints.belt import BeltPair
+from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
 from linkwright.model.fields import Field, Quantity
 
@@ -61,6 +62,11 @@ class ChainPair(BeltPair):
         other = super().with_dimensions(value)
         assert isinstance(other, ChainPair)
         return other if self.pitch is None else replace(other, pitch=value(f"{self.name}.pitch"))
+
+    def _amount_of_radius(self, k: int, radius: float) -> Amount:
+        if self.teeth is None or self.pitch is None:
+            return super()._amount_of_radius(k, radius)
+        return Amount(radius, (f"{self.name}.pitch",), factor=self.teeth[k] / (2 * pi))
 
     def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
         if self.teeth is None or self.pitch is None:

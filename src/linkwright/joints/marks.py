@@ -8,20 +8,81 @@ Vec = tuple[float, float]
 
 
 @dataclass(frozen=True)
+class Amount:
+    """A number of a drawing whose dimensions may change: ``factor`` times and over those with the given addresses;
+    ``value`` as they are."""
+
+    value: float
+    times: tuple[str, ...] = ()
+    over: tuple[str, ...] = ()
+    factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel on a link about ``centre``, a point of ``carrier``; ``nominal``: its pitch radius (m).
+
+    ``radius`` where it does not follow from the distance of the centres; ``inside``: teeth inwards.
+    """
+
+    link: str
+    carrier: str
+    centre: str
+    nominal: float
+    radius: Amount | None = None
+    toothed: bool = False
+    teeth: int | None = None
+    inside: bool = False
+
+
+@dataclass(frozen=True)
 class Wheels:
     """Two wheels on a carrier, for drawings whose dimensions may change.
 
-    ``ratio`` i of their speeds on it; ``radii`` (m) where they do not follow from the distance of the centres, d i /
-    (i - 1) and d / (i - 1); ``wrapped``: a belt or a chain runs around them; ``toothed``: with teeth.
+    ``ratio`` i of their speeds on it: radii without an amount of their own are d i / (i - 1) and d / (i - 1), d the
+    distance of the centres; ``wrapped``: a belt or a chain runs around them, else their teeth mesh.
     """
 
-    carrier: str
-    centres: tuple[str, str]
-    links: tuple[str, str]
-    ratio: float
-    radii: tuple[float, float] | None
+    pair: tuple[Wheel, Wheel]
+    ratio: Amount
     wrapped: bool
-    toothed: bool
+
+
+@dataclass(frozen=True)
+class RackWay:
+    """A rack of the link ``rack``: its pitch line goes through ``through`` in the direction ``turn`` (rad, in its
+    axes), the pinion on the left, or ``right``."""
+
+    pinion: Wheel
+    rack: str
+    through: str
+    turn: Amount
+    right: bool
+
+
+@dataclass(frozen=True)
+class CamContact:
+    """A cam, link ``cam`` about ``centre``, and point ``at`` of the follower, held on the carrier by a ``guide``
+    (along which ``side`` tells the way out) or a ``pivot`` (``side`` 1 where the arm is on the left).
+
+    ``base``, ``roller``: radii; ``groove``: with an outer wall.
+    """
+
+    cam: str
+    centre: str
+    follower: str
+    at: str
+    carrier: str
+    touch: str
+    base: Amount
+    roller: Amount
+    groove: bool
+    guide: str
+    pivot: str
+    side: int
+
+
+Following = Wheels | RackWay | CamContact
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from linkwright.joints.base import (
 )
 from linkwright.joints.gear import STANDARD
 from linkwright.joints.lower import SlidingJoint
-from linkwright.joints.marks import Mark
+from linkwright.joints.marks import Amount, Mark, RackWay, Wheel
 from linkwright.joints.toothed import FITS, length
 from linkwright.model.fields import Field, Quantity
 from linkwright.model.reference_fields import Direction, LinkName, PointName
@@ -222,6 +222,16 @@ class RackPair(HigherPair):
             inside=self.side < 0,
             follows=(self.pinion, self.centre),
         )
+
+    def following(self, mechanism: Mechanism) -> RackWay:
+        teeth = None if self.teeth is None else int(self.teeth)
+        if self.module is None:
+            size = Amount(self.radius, (f"{self.name}.radius",))
+        else:
+            size = Amount(self.radius, (f"{self.name}.module",), factor=0.5 * (self.teeth or 0.0))
+        pinion = Wheel(self.pinion, self.pinion, self.centre, self.radius, size, True, teeth)
+        turn = Amount(self.direction, (f"{self.name}.direction",))
+        return RackWay(pinion, self.rack, self.through, turn, self.side < 0)
 
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import Angles, Cut, HigherPair, Joint, Poses, States
-from linkwright.joints.marks import Wheels
+from linkwright.joints.marks import Amount, Wheel, Wheels
 from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.model.reference_fields import LinkName, LinkNames
 from linkwright.units import number
@@ -191,11 +191,32 @@ class WheelPair(HigherPair):
         a, b = (complex(*points[each]) for each in self.centres)
         return b - a
 
-    def wheels(self) -> Wheels:
+    def following(self, mechanism: Mechanism) -> Wheels:
         radii = self.running_radii()
-        return Wheels(
-            self.carrier, self.centres, self.links, self.transmission, radii, radii is not None, self.toothed
-        )
+        nominal = [abs(each) for each in self.arms(mechanism)]
+        wheels = [
+            Wheel(
+                link,
+                self.carrier,
+                self.centres[k],
+                nominal[k],
+                None if radii is None else self._amount_of_radius(k, radii[k]),
+                self.toothed,
+                None if self.teeth is None else int(self.teeth[k]),
+                radii is None and self.sense > 0 and nominal[k] == max(nominal),
+            )
+            for k, link in enumerate(self.links)
+        ]
+        return Wheels((wheels[0], wheels[1]), self._amount_of_ratio(), radii is not None)
+
+    def _amount_of_ratio(self) -> Amount:
+        if self.ratio is not None:
+            return Amount(self.ratio, (f"{self.name}.ratio",))
+        key = "teeth" if self.teeth is not None else "radii"
+        return Amount(self.transmission, (f"{self.name}.{key}.0",), (f"{self.name}.{key}.1",), self.sense)
+
+    def _amount_of_radius(self, k: int, radius: float) -> Amount:
+        return Amount(radius, (f"{self.name}.radii.{k}",))
 
     def running_radii(self) -> Pair | None:
         """Radii (m) that do not follow from the distance of the centres, as those of a belt."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import zlib
 from collections.abc import Sequence
 from functools import cache
 from html import escape
@@ -138,8 +139,12 @@ def _positions(programs: PagePrograms) -> Plain:
     found["time"] = None if found["steady"] else _packed(positions.time)
     found["arrays"] = {name: _packed(row) for name, row in arrays.items()}
     found["inputs"] = [
-        {"name": name, "turns": positions.rotary[name], "values": _packed(rows[0])}
-        for name, rows in positions.coordinates.items()
+        {
+            "name": each,
+            "turns": positions.rotary[each],
+            "values": None if found["steady"] else _packed(rows[0]),
+        }
+        for each, rows in positions.coordinates.items()
     ]
     return found
 
@@ -154,23 +159,35 @@ def _groups(programs: PagePrograms) -> list[Plain]:
 
 
 def document(data: Plain, kernels: str, title: str, language: str) -> str:
-    """The page's text; its own scripts and styles are the only ones that may run, by their hashes."""
-    script, style = _built("page.js"), _built("page.css")
-    scripts = [each for each in (kernels, script) if each]
-    hashes = " ".join(f"'sha256-{_hash(each)}'" for each in scripts)
+    """The page's text; its own scripts and styles are the only ones that may run, by their hashes.
+
+    All but the script that unpacks the rest is compressed: the length of a JSON text (4 bytes, little-endian), that
+    text, and the modules of the models one after the other.
+    """
+    style = _built("page.css")
+    scripts = [each for each in (kernels, _built("page.js")) if each]
+    modules = [base64.b64decode(each["module"] or "") for each in data["models"]]
+    models = [
+        {**each, "module": each["module"] and len(module)}
+        for each, module in zip(data["models"], modules, strict=True)
+    ]
+    content = {"style": style, "scripts": scripts, "data": {**data, "models": models}}
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":")).encode()
+    packed = zlib.compress(b"".join([len(text).to_bytes(4, "little"), text, *modules]), 9)
+    unpack = _built("unpack.js")
+    hashes = " ".join(f"'sha256-{_hash(each)}'" for each in (unpack, *scripts))
     policy = (
         f"default-src 'none'; script-src {hashes} 'wasm-unsafe-eval'; style-src 'sha256-{_hash(style)}'; "
         "img-src data: blob:; base-uri 'none'; form-action 'none'"
     )
-    content = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
-    marks = "\n".join(f"<script>{each}</script>" for each in scripts)
     return (
         f'<!doctype html>\n<html lang="{_TAGS[language]}">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta name="color-scheme" content="light dark">\n<title>{escape(title)}</title>\n'
-        f'<style>{style}</style>\n</head>\n<body>\n<div id="page"></div>\n'
-        f'<script type="application/json" id="data">{content}</script>\n{marks}\n</body>\n</html>\n'
+        f'</head>\n<body>\n<div id="page">{escape(say("page.opening", language))}</div>\n'
+        f'<script type="text/plain" id="packed">{base64.b64encode(packed).decode()}</script>\n'
+        f"<script>{unpack}</script>\n</body>\n</html>\n"
     )
 
 

@@ -10,10 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.model.mechanism import Link
@@ -29,7 +32,8 @@ _LENGTHS = 2
 
 def glyphs(machine: Machine, index: int) -> list[Plain]:
     """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
-    found = [*_wheels(machine), *_links(machine), *_guides(machine), *_pins(machine), *_welds(machine)]
+    found = [*_Following(machine).all, *_links(machine), *_guides(machine)]
+    found += [*_pins(machine), *_welds(machine)]
     found += [_tied(machine, part) for part in input_arrows(machine, index)]
     found += [glyph for load in machine.motion.mechanism.loads.values() for glyph in _load(machine, load)]
     found += [
@@ -135,38 +139,104 @@ def _pins(machine: Machine) -> Iterator[Plain]:
                        "length": 1.3 * PIN}  # fmt: skip
 
 
-def _wheels(machine: Machine) -> Iterator[Plain]:
-    """Wheels of gears, rolling pairs, belts and chains: pitch circles with teeth, sizes in m or as shares of the
-    distance between the centres."""
-    for joint in machine.motion.mechanism.joints.values():
-        wheels = joint.wheels()
-        if wheels is None:
-            continue
-        ratio, radii = wheels.ratio, wheels.radii or (None, None)
-        shares = (abs(ratio / (ratio - 1.0)), abs(1.0 / (ratio - 1.0))) if ratio != 1.0 else (0.5, 0.5)
-        ends = [key_of(machine, wheels.carrier, centre) for centre in wheels.centres]
-        for place, link in enumerate(wheels.links):
-            yield {
-                "kind": "wheel", "layer": "ground", "at": ends[place],
-                "points": ends, "along": 0.0 if link == "frame" else f"e:{link}", "radius": radii[place],
-                "share": shares[place], "toothed": wheels.toothed,
-                "inside": ratio > 0 and not wheels.wrapped and shares[place] == max(shares),
-            }  # fmt: skip
+def _along(link: str) -> str | float:
+    """The output that a part of a link is turned by."""
+    return 0.0 if link == "frame" else f"e:{link}"
+
+
+class _Following:
+    """Wheels, each once, then belts, racks and cams: by what the joints say of shapes that follow the dimensions."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.machine = machine
+        self._wheels: list[tuple[Wheel, Plain]] = []
+        self._after: list[Plain] = []
+        mechanism = machine.motion.mechanism
+        for joint in mechanism.joints.values():
+            match joint.following(mechanism):
+                case Wheels() as found:
+                    self._pair(found)
+                case RackWay() as found:
+                    self._rack(found)
+                case CamContact() as found:
+                    self._after.append(self._cam(found))
+
+    @property
+    def all(self) -> list[Plain]:
+        """Rings and large wheels first; ``mesh`` is a wheel's place in this list."""
+        order = sorted(
+            range(len(self._wheels)),
+            key=lambda k: (not self._wheels[k][0].inside, -self._wheels[k][0].nominal),
+        )
+        place = {number: k for k, number in enumerate(order)}
+        found = [*(self._wheels[number][1] for number in order), *self._after]
+        return [{**each, "mesh": place[each["mesh"]]} if "mesh" in each else each for each in found]
+
+    def _wheel(self, wheel: Wheel, **more: Any) -> tuple[int, bool]:
+        """Number of a wheel, and whether it is a new one."""
+        at = key_of(self.machine, wheel.carrier, wheel.centre)
+        for number, (known, glyph) in enumerate(self._wheels):
+            same = (known.link, glyph["at"], round(known.nominal, 9)) == (
+                wheel.link,
+                at,
+                round(wheel.nominal, 9),
+            )
+            if same:
+                return number, False
+        radius = None if wheel.radius is None else asdict(wheel.radius)
+        glyph = {
+            "kind": "wheel", "layer": "ground", "link": wheel.link, "at": at, "along": _along(wheel.link),
+            "radius": radius, "toothed": wheel.toothed, "teeth": wheel.teeth, "inside": wheel.inside, **more,
+        }  # fmt: skip
+        self._wheels.append((wheel, glyph))
+        return len(self._wheels) - 1, True
+
+    def _pair(self, wheels: Wheels) -> None:
+        ends = [key_of(self.machine, each.carrier, each.centre) for each in wheels.pair]
+        sizes = {"points": ends, "ratio": asdict(wheels.ratio)}
+        (a, a_new), (b, b_new) = (
+            self._wheel(each, **sizes, second=k == 1) for k, each in enumerate(wheels.pair)
+        )
         if wheels.wrapped:
-            yield {
-                "kind": "strands",
-                "layer": "ground",
-                "points": ends,
-                "radii": list(radii),
-                "crossed": ratio < 0,
-            }
+            radii = [asdict(each.radius) for each in wheels.pair if each.radius is not None]
+            crossed = wheels.ratio.value < 0
+            self._after.append(
+                {"kind": "strands", "layer": "ground", "points": ends, "radii": radii, "crossed": crossed}
+            )
+        elif b_new or a_new:
+            mine, other = (b, a) if b_new else (a, b)
+            self._wheels[mine][1]["mesh"] = other
+
+    def _rack(self, way: RackWay) -> None:
+        """The pinion, and the rack as far as it is used."""
+        number, _ = self._wheel(way.pinion)
+        self._after.append({
+            "kind": "rack", "layer": "ground", "link": way.rack, "along": _along(way.rack), "mesh": number,
+            "at": key_of(self.machine, way.rack, way.through), "inside": way.right, "turn": asdict(way.turn),
+        })  # fmt: skip
+
+    def _cam(self, contact: CamContact) -> Plain:
+        """A cam by what its follower touches."""
+        key = partial(key_of, self.machine)
+        return {
+            "kind": "cam", "layer": "ground", "link": contact.cam, "along": _along(contact.cam),
+            "at": key(contact.cam, contact.centre), "trace": key(contact.follower, contact.at),
+            "follower": contact.follower, "carrier": contact.carrier, "touch": contact.touch,
+            "groove": contact.groove, "radius": asdict(contact.roller), "base": asdict(contact.base),
+            "side": contact.side,
+            **({"joint": contact.guide} if contact.guide else {"tie": key(contact.follower, contact.pivot)}),
+        }  # fmt: skip
 
 
 def undrawn(machine: Machine) -> list[str]:
     """Joints that the page shows by their numbers only."""
     mechanism = machine.motion.mechanism
     known = {*mechanism.pins, *mechanism.guides, *mechanism.welds}
-    return [name for name, joint in mechanism.joints.items() if name not in known and joint.wheels() is None]
+    return [
+        name
+        for name, joint in mechanism.joints.items()
+        if name not in known and joint.following(mechanism) is None
+    ]
 
 
 def _welds(machine: Machine) -> Iterator[Plain]:

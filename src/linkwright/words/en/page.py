@@ -22,6 +22,7 @@ WORDS = {
     "least": "smallest {name}",
     "largest": "largest {name}",
     "rms": "root mean square of the {name}",
+    "opening": "Opening … This page needs scripts, and a browser of 2023 or later.",
     "play": "Play",
     "pause": "Pause",
     "speed": "Playing speed",

@@ -22,6 +22,7 @@ WORDS = {
     "least": "最小{name}",
     "largest": "最大{name}",
     "rms": "{name}的均方根值",
+    "opening": "正在打开……此页面需要启用脚本，并使用 2023 年或更新的浏览器。",
     "play": "播放",
     "pause": "暂停",
     "speed": "播放速度",
