@@ -20,7 +20,7 @@ Law = Callable[[float], tuple[Array, Array, Array]]
 CORRECTION = 0.05  # of a step's length: largest distance from the Taylor value
 HERMITE = 2e-3  # of a step's length: largest gap of the Hermite rule
 LONGEST = 0.08  # rad, or share of the mechanism's reach, that one step may move a coordinate
-FARTHEST = 100.0  # of the mechanism's size: a block that runs away on its guide is at its limit
+FARTHEST = 1e4  # of the mechanism's size: a block that runs away on its guide is at its limit
 FLOOR = 1e-9  # of the whole time: below it the branch is given up
 
 

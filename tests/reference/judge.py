@@ -151,16 +151,27 @@ def _expected(mechanism: Any, system: Multibody, time: Array, care: float) -> Ex
 
 
 def _first_position(mechanism: Any, system: Multibody, begin: float, care: float) -> Array | None:
-    """The position at the cycle's beginning, on the straight way from the drawn driver coordinates."""
+    """The position at the cycle's beginning, on the straight way from the drawn driver coordinates.
+
+    A single turning driver goes the shorter way or, where the branch ends on it, the other way round.
+    """
     goal = driver_values(mechanism, np.array([begin]))[0][0]
     q, u0 = starting_position(mechanism, system, goal)
-    zero = np.zeros_like(goal)
     if np.abs(goal - u0).max(initial=0.0) < 1e-14:
         return q
-    branch = Follower(system, lambda s: (u0 + s * (goal - u0), goal - u0, zero), care).follow(
-        q, 0.0, [1.0], 1.0
-    )
-    return branch.q[0] if branch.q else None
+    turning = np.array([mechanism.joints[d.joint].kind == "revolute" for d in mechanism.drivers.values()])
+    ways = [goal - u0]
+    if turning.sum() == 1:
+        ways.append(ways[0] - np.where(turning, 2 * np.pi * np.sign(ways[0]), 0.0))
+    for way in ways:
+        branch = Follower(system, _straight(u0, way), care).follow(q, 0.0, [1.0], 1.0)
+        if branch.q:
+            return branch.q[0]
+    return None
+
+
+def _straight(begin: Array, way: Array) -> Law:
+    return lambda s: (begin + s * way, way, np.zeros_like(way))
 
 
 def _along(
@@ -350,10 +361,20 @@ def _compare_forces(
         found = forces_comparison(mechanism, forces, expected)
     size = max(float(np.nanmax(np.abs(reference.q[:, 1:, :2]))), 1e-3)
     sizes = [np.abs(w.force).max(axis=1) + np.abs(w.torque) / size for w in expected.wrenches]
-    sizes.append(np.abs(expected.inertial[..., :2]).max(axis=(1, 2)))
+    sizes.append(_inertia_scale(mechanism, reference, size))
     largest = np.max(sizes, axis=0) + 1e-6
     _judge_numbers(found, where, condition, {"force": largest, "moment": largest * size}, verdict)
     _judge_checks(forces, reference, where, condition, largest, verdict)
+
+
+def _inertia_scale(mechanism: Any, reference: Motion, size: float) -> Array:
+    """Largest force that accelerations of this mechanism's scale demand, (n,).
+
+    An acceleration that is zero for one link is known as exactly as those of the others.
+    """
+    links = mechanism.links.values()
+    heaviest = max((max(link.mass, (link.inertia or 0.0) / size**2) for link in links), default=0.0)
+    return np.asarray(heaviest * _motion_floors(reference)["acceleration"])
 
 
 def _judge_checks(
