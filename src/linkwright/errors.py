@@ -11,6 +11,9 @@ from linkwright.words.sentence import Sentence, in_language
 
 Severity = Literal["error", "warning", "note"]
 
+#: Codes of findings that say that there is no such file.
+NO_FILE = frozenset({"no-file", "not-a-file"})
+
 
 @dataclass(frozen=True)
 class Finding:

@@ -2,6 +2,8 @@
 
 import math
 import re
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +16,8 @@ from linkwright.export.results import Results
 from linkwright.model.expressions import parse
 
 NAMES = lw.gallery_names()
+#: Pictures of every model are made in test_drawing_gallery.
+PICTURES = ("png", "pdf", "svg")
 NEEDS = {"xlsx": "xlsxwriter", "parquet": "pyarrow", "dxf": "ezdxf", "png": "resvg_py", "pdf": "typst"}
 
 
@@ -22,35 +26,43 @@ def results(request: pytest.FixtureRequest) -> Results:
     return Results.of(lw.load(f"gallery:{request.param}"), 24)
 
 
+@pytest.fixture(scope="module")
+def content(results: Results) -> Callable[[str], bytes]:
+    """What a format holds, made once for all tests of a model."""
+    return cache(lambda form: FORMATS[form].content(results))
+
+
 def has_cams(results: Results) -> bool:
     """Whether the model has a joint that MuJoCo's and Modelica's texts do not carry."""
     return any(joint.kind == "cam" for joint in results.mechanism.joints.values())
 
 
-@pytest.mark.parametrize("form", [name for name in FORMATS if name not in ("png", "pdf")])
-def test_every_model_has_content_in_every_format(results: Results, form: str) -> None:
+@pytest.mark.parametrize("form", [name for name in FORMATS if name not in PICTURES])
+def test_every_model_has_content_in_every_format(
+    results: Results, content: Callable[[str], bytes], form: str
+) -> None:
     if form in NEEDS:
         pytest.importorskip(NEEDS[form])
     if form in ("mjcf", "modelica") and has_cams(results):
         with pytest.raises(LinkwrightError, match="lift of a cam is no sum"):
-            FORMATS[form].content(results)
+            content(form)
         return
-    assert len(FORMATS[form].content(results)) > 500
+    assert len(content(form)) > 500
 
 
-def test_dxf_passes_the_audit(results: Results, tmp_path: Path) -> None:
+def test_dxf_passes_the_audit(content: Callable[[str], bytes], tmp_path: Path) -> None:
     ezdxf = pytest.importorskip("ezdxf")
     path = tmp_path / "a.dxf"
-    path.write_bytes(FORMATS["dxf"].content(results))
+    path.write_bytes(content("dxf"))
     audit = ezdxf.readfile(path).audit()
     assert (audit.errors, audit.fixes) == ([], [])
 
 
-def test_mujoco_starts_closed_at_our_places(results: Results) -> None:
+def test_mujoco_starts_closed_at_our_places(results: Results, content: Callable[[str], bytes]) -> None:
     if has_cams(results):
         pytest.skip("a cam is not carried, and said so")
     mujoco = pytest.importorskip("mujoco")
-    model = mujoco.MjModel.from_xml_string(FORMATS["mjcf"].content(results).decode())
+    model = mujoco.MjModel.from_xml_string(content("mjcf").decode())
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)

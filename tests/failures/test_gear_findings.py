@@ -48,6 +48,18 @@ CASES = {
         "  m: {kind: gear, links: [b, bar], ratio: -1}",
         ("joints.m.links", "no link carries the pins of both wheels", "give one link"),
     ),
+    "sprockets and radii": (
+        "  m: {kind: chain, links: [a, b], teeth: [17, 51], radii: [30 mm, 60 mm], pitch: 5 mm}",
+        ("joints.m.radii", "pitch with teeth already gives the radii", "leave one of them out"),
+    ),
+    "wheels of two sizes": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], radii: [10 mm, 30 mm]}",
+        ("joints.m.radii", "different ratios", "leave one of them out"),
+    ),
+    "chain without pitch": (
+        "  m: {kind: chain, links: [a, b], teeth: [17, 51]}",
+        ("joints.m", "pitch is missing", "give pitch"),
+    ),
     "belt without turning": (
         "  m: {kind: belt, links: [a, rack], radii: [10 mm, 10 mm]}",
         ("joints.m.links", '"rack" does not turn about a pin', "its centre"),

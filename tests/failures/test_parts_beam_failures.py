@@ -1,9 +1,14 @@
 """Beams and links that cannot be calculated say why, with the motion that is left."""
 
+import re
+from importlib.resources import files
+from pathlib import Path
+
 import pytest
 
 import linkwright as lw
 from linkwright import parts
+from linkwright.parts.file import check as parts_check
 
 STEEL, SECTION = parts.Material(210e9), parts.Section(1e-6)
 
@@ -101,3 +106,12 @@ def test_an_axis_runs_through_points_of_the_link(axis: tuple[str, ...], words: s
     problem = parts.LinkBending(mechanism, "coupler", STEEL, section, axis=axis)
     with pytest.raises(lw.ModelError, match=words):
         problem.solve()
+
+
+def test_a_mechanism_whose_file_is_not_there_is_a_finding_of_the_calculation(tmp_path: Path) -> None:
+    text = (files("linkwright.gallery") / "parts/pitman_bending.yaml").read_text("utf-8")
+    file = tmp_path / "bending.yaml"
+    file.write_text(re.sub("(?m)^mechanism: .*", "mechanism: nowhere.yaml", text))
+    (missing,) = parts_check(file)
+    assert (missing.where, missing.key, missing.code) == ("bending.yaml:6:12", "mechanism", "reference")
+    assert "nowhere.yaml: there is no such file" in str(missing)

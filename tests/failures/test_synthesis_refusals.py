@@ -80,6 +80,7 @@ def test_all_findings_at_once() -> None:
         ("motion", {"poses": [(0, 0, 0), (0, 0, 0)]}, "poses 1 and 2 are the same"),
         ("crank_rocker", {"swing_angle": 4.0, "quick_return_ratio": 1.1, "frame": 1.0}, "180 deg"),
         ("crank_rocker", {"swing_angle": 1.0, "quick_return_ratio": 0.5, "frame": 1.0}, "below 1"),
+        ("quick_return", {"quick_return_ratio": 1e308, "frame": 0.3}, "crank as long as"),
         ("toggle", {"force_ratio": -1.0, "distance": 1.0, "stroke": 2.0}, "positive"),
         ("toggle", {"force_ratio": 1.0}, 'needs "distance"'),
         ("nothing", {}, "there is no task"),

@@ -13,12 +13,10 @@ from linkwright.cli.errors import OutputError, UsageError
 from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import nearest_of
 from linkwright.cli.session import Session
-from linkwright.errors import LinkwrightError, ModelError, RequestError
+from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError
 from linkwright.words import LANGUAGES, Say, speaker
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
-#: Codes of findings that say that there is no such file: a slip in the command, not in a model.
-_NO_FILE = frozenset({"no-file", "not-a-file"})
 
 
 def run(argv: Sequence[str]) -> int:
@@ -130,7 +128,7 @@ def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
 
 def _refused(error: LinkwrightError, session: Session) -> int:
     """Tells what is wrong; with ``--json`` as data as well."""
-    missing = isinstance(error, ModelError) and all(found.code in _NO_FILE for found in error.findings)
+    missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
     said = error.say(session.language)
     session.tell(said if isinstance(error, ModelError) else _headed(said, session))
     if session.json:

@@ -8,14 +8,19 @@ from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
-from linkwright.joints.base import JOINTS
+from linkwright.joints.base import JOINTS, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
 from linkwright.model.fields import Field, Quantity
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.model.mechanism import Link
+    from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.plain_reader import Place as Where
+    from linkwright.model.reader import Reader
 
 
 @JOINTS.register("chain")
@@ -39,6 +44,32 @@ class ChainPair(BeltPair):
             "teeth": Numbers(doc="their numbers of teeth [a, b]"),
             "pitch": Quantity("length", above=0, doc="pitch of the chain, with teeth"),
         }
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        node: MappingNode,
+        place: Where,
+        name: str,
+        values: dict[str, Any],
+        links: Mapping[str, Link],
+    ) -> Joint | None:
+        if values.get("teeth") is not None and values.get("pitch") is None:
+            reader.error(
+                node, place, Sentence("joints.no_pitch"), Sentence("joints.give_pitch"), "missing-key"
+            )
+            return None
+        if values.get("pitch") is not None and values.get("radii") is not None:
+            reader.error(
+                node.get("radii") or node,
+                place.child("radii"),
+                Sentence("joints.radii_and_pitch"),
+                Sentence("joints.leave_radii"),
+                "choice",
+            )
+            return None
+        return super().read(reader, node, place, name, values, links)
 
     @classmethod
     def sizes(cls) -> tuple[str, ...]:

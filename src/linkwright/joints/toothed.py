@@ -327,6 +327,17 @@ def _one_size(
             "range",
         )
         return False
+    if {"teeth", "radii"} <= set(given):
+        (a, b), (c, d) = values["teeth"], values["radii"]
+        if abs(a * d - b * c) > FITS * abs(b * c):
+            reader.error(
+                node.get("radii") or node,
+                place.child("radii"),
+                Sentence("joints.sizes_misfit"),
+                Sentence("joints.leave_radii"),
+                "choice",
+            )
+            return False
     return True
 
 

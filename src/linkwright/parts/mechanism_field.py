@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.errors import NO_FILE, Finding, ModelError
 from linkwright.model.fields import Text
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.source import GALLERY
 from linkwright.parts.base import Problem
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from typing import Self
@@ -18,11 +20,20 @@ if TYPE_CHECKING:
 MECHANISM = Text(required=True, doc="model file of the mechanism, beside this file, or gallery:NAME")
 
 
-def load_beside(name: str, folder: Path) -> Mechanism:
-    """The mechanism that a file in ``folder`` names; raises ModelError."""
-    if name.startswith(GALLERY):
-        return load(name)
-    return load(folder / name)
+def load_beside(name: str, folder: Path, key: str = "mechanism") -> Mechanism:
+    """The mechanism that a file in ``folder`` names under ``key``.
+
+    Raises:
+        ModelError: there is no such file, with a finding at ``key``; or what is wrong with it, at its own places.
+    """
+    try:
+        return load(name if name.startswith(GALLERY) else folder / name)
+    except ModelError as error:
+        if error.findings[0].code not in NO_FILE:
+            raise
+        missing = error.findings[0]
+        message = Sentence("part.mechanism_file", name=name, message=missing.message)
+        raise ModelError([Finding("error", "", key, message, missing.remedy, "reference")]) from None
 
 
 class OfMechanism(Problem):

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.session import Session
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         for name, found, fact in results:
             _show(name, found, fact, session)
     everything = [finding for _, found, _ in results for finding in found]
-    if any(finding.code in ("no-file", "not-a-file") for finding in everything):
+    if any(finding.code in NO_FILE for finding in everything):
         return 2
     grave = {"error", "warning"} if options.strict else {"error"}
     return int(any(finding.severity in grave for finding in everything))

@@ -118,13 +118,15 @@ def quick_return(
     largest pressure angle smallest. ``frame``: distance of the pivots, m.
 
     Raises:
-        SynthesisError: K ≤ 1.
+        SynthesisError: K ≤ 1, or so large that the crank is as long as the frame.
     """
     positive(frame=frame)
     not_negative(stroke=stroke, rod=rod)
     theta = angle_between_limits(quick_return_ratio)
     if theta <= 0:
         raise refuse("quick_return.one")
+    if math.cos(theta / 2) < 1e-6:
+        raise refuse("quick_return.most", given=f"{quick_return_ratio:g}")
     crank = frame * math.sin(theta / 2)
     points = {"O1": 0j, "O3": -1j * frame, "A": complex(crank)}
     lever = (complex(crank) + 1j * frame) / abs(complex(crank) + 1j * frame)

@@ -94,10 +94,11 @@ def slider_crank_from_transmission(
 
 
 def angle_between_limits(quick_return_ratio: float) -> float:
-    """θ = π (K - 1)/(K + 1), rad; raises SynthesisError for K < 1."""
+    """θ = π (K - 1)/(K + 1), rad; raises SynthesisError for K < 1 and infinite K."""
+    positive(quick_return_ratio=quick_return_ratio)
     if not quick_return_ratio >= 1:
         raise refuse("quick_return_below_one", given=f"{quick_return_ratio:g}")
-    return math.pi * (quick_return_ratio - 1) / (quick_return_ratio + 1)
+    return math.pi * ((quick_return_ratio - 1) / (quick_return_ratio + 1))
 
 
 def positive(**values: float) -> None:

@@ -14,6 +14,7 @@ WORDS = {
     "no_values_remedy": "add it: values: [20.1, 19.9]",
     "kinds_differ": "the values differ in kind: {first} and {second}",
     "kinds_differ_remedy": "give all of one kind",
+    "mechanism_file": "{name}: {message}",
     "no_kind": "the file does not say what is calculated",
     "no_kind_remedy": "add kind: (one of {known})",
     "known": "(known: {known})",

@@ -95,6 +95,8 @@ linkwright synthesize press.yaml --json""",
     "K or change "
     "the swing",
     "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio",
+    "quick_return.most": "K = {given} asks for a crank as long as its distance from the lever's pivot; "
+    "ask for a smaller quick-return ratio",
     "quick_return.rod": "the rod cannot reach the guide; it must be longer than {least} m",
     "drag_link.one": "a drag link for quick return has K > 1; ask for a larger quick-return ratio",
     "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or "

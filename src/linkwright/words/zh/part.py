@@ -14,6 +14,7 @@ WORDS = {
     "no_values_remedy": "请加上：values: [20.1, 19.9]",
     "kinds_differ": "各值的量纲不同：{first}与{second}",
     "kinds_differ_remedy": "请给同一种量",
+    "mechanism_file": "{name}：{message}",
     "no_kind": "文件没有说明计算什么",
     "no_kind_remedy": "请加 kind:（{known} 之一）",
     "known": "（已知：{known}）",
