@@ -60,14 +60,22 @@ def linkage_curves(count: int, seed: int) -> Iterator[Curve]:
             count -= 1
 
 
-def curves(names: Sequence[str]) -> Iterator[Curve]:
-    """All curves, or the letters of these names."""
-    for name, strokes in STROKES.items():
-        if not names or name in names:
-            points = letter(strokes)
-            yield name, points[:-1] if name == "O" else points, name == "O"
-    if not names:
-        yield from linkage_curves(8, 5)
+def outline(character: str) -> NDArray[np.complex128]:
+    """The longest closed outline of a character of the typeface DejaVu Sans."""
+    from matplotlib.textpath import TextPath
+
+    rings = [each[:-1] @ [1, 1j] for each in TextPath((0, 0), character, size=10).to_polygons()]
+    return np.asarray(max(rings, key=lambda ring: float(np.abs(np.diff(ring)).sum())))
+
+
+def curves(names: Sequence[str], outlines: str, linkages: int) -> Iterator[Curve]:
+    """Letters drawn in one stroke, outlines of characters, curves of random linkages."""
+    for name in names:
+        points = letter(STROKES[name])
+        yield name, points[:-1] if name == "O" else points, name == "O"
+    for name in outlines:
+        yield f"<{name}>", outline(name), True
+    yield from linkage_curves(linkages, 5)
 
 
 class _Cores:
@@ -82,7 +90,11 @@ class _Cores:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Prints a row for each curve and the means."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.free_curves", description=__doc__)
-    parser.add_argument("letters", nargs="*", help="letters; none: all, and curves of random linkages")
+    parser.add_argument(
+        "letters", nargs="*", default=list(STROKES), help="letters drawn in one stroke; none: all"
+    )
+    parser.add_argument("--outlines", default="", help="characters whose outlines are drawn")
+    parser.add_argument("--linkages", type=int, default=0, help="number of curves of random linkages")
     parser.add_argument("--seconds", type=float, default=15.0, help="time for each curve")
     parser.add_argument("--angle", type=float, default=20.0, help="least transmission angle, deg")
     parser.add_argument("--size", type=float, default=6.0, help="farthest joint, rms radii")
@@ -93,7 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for level in range(len(LEVELS)):
         atlas(level)
     table = []
-    for name, curve, closed in curves(options.letters):
+    for name, curve, closed in curves(options.letters, options.outlines, options.linkages):
         row, text = measured(curve, closed, options)
         table.append(row)
         print(f"{name:8s}", text, flush=True)

@@ -9,8 +9,8 @@ import pytest
 import linkwright as lw
 from linkwright.engine import machine_code
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
-from linkwright.synthesis.free_curve.kernels import kernels
-from linkwright.synthesis.free_curve.nodes import random_structure
+from linkwright.synthesis.free_curve.kernels import POINT, kernels
+from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure
 from linkwright.synthesis.free_curve.target import MIDDLE, Target, curve_distance
 
 pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
@@ -44,6 +44,27 @@ def test_gradients_are_slopes(closed: bool) -> None:
         numeric = np.array([(value(x + h, unused) - value(x - h, unused)) / 2e-6 for h in steps])
         assert slope == pytest.approx(numeric, abs=2e-6 * max(1.0, np.abs(numeric).max()))
         checked += 1
+
+
+def test_one_more_dyad_leaves_the_curve() -> None:
+    draw = np.random.default_rng(8)
+    target, turn = Target(FOUR, False, math.radians(20), 6.0), np.linspace(0, 2 * np.pi, 145)
+    inserted = 0
+    while inserted < 20:
+        nodes = random_structure(2, 8, draw)
+        design = Design(
+            nodes, np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]]), False
+        )
+        if target.descend(design, 0).value > 1e3:
+            continue
+        before, _ = node_paths(design.nodes, design.x, turn)
+        for each in target.grown(design, draw.random((96, 9)), 12)[:6]:
+            after, least = node_paths(each.nodes, each.x, turn)
+            assert np.abs(after[-1] - before[-1]).max() < 1e-12
+            assert each.links == design.links + 2 and each.joints - design.joints in (2, 3)
+            own = node_paths(design.nodes, design.x, turn)[1]
+            assert least >= 0.999 * min(own, 0.7 * math.sin(target.least) ** 2)
+            inserted += each.nodes[-4] != POINT or each.nodes[-3] != design.joints - 1
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

@@ -63,7 +63,13 @@ class Reals:
 class Wholes:
     """Address of 64-bit integers inside a kernel."""
 
+    def __add__(self, entries: int) -> Wholes:
+        raise NotImplementedError
+
     def __getitem__(self, index: int) -> int:
+        raise NotImplementedError
+
+    def __setitem__(self, index: int, value: int) -> None:
         raise NotImplementedError
 
 

@@ -29,7 +29,6 @@ from linkwright.engine.kernel import (
     lower,
     mark_of,
     marked,
-    ramp,
     root,
     spread,
     store,
@@ -125,116 +124,147 @@ def place(nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, X: R
 
 def weigh(x: Reals, y: Reals, n: int, closed: int, steps: Reals, w: Reals) -> float:
     """Lengths of the curve's steps and the shares of its length that belong to its points; gives its length."""
-    length = 0.0
-    last = n - 1 + closed
-    steps[n - 1] = 0.0
-    for t in range(last):
-        u = t + 1 if t + 1 < n else 0
-        dx, dy = x[u] - x[t], y[u] - y[t]
-        steps[t] = sqrt(dx * dx + dy * dy) + 1e-12
-        length += steps[t]
-    before = steps[n - 1]
-    for t in range(n):
-        w[t] = (before + steps[t]) / (2.0 * length)
-        before = steps[t]
+    for t in range(0, n, 8):
+        dx = load(x, t + 1) - load(x, t)
+        dy = load(y, t + 1) - load(y, t)
+        store(steps, t, root(dx * dx + dy * dy) + 1e-12)
+    ex, ey = x[0] - x[n - 1], y[0] - y[n - 1]
+    steps[n - 1] = closed * (sqrt(ex * ex + ey * ey) + 1e-12)
+    sum_ = spread(0.0)
+    for t in range(0, n, 8):
+        sum_ += load(steps, t)
+    length = total(sum_)
+    half = 0.5 / length
+    for t in range(0, n, 8):
+        store(w, t, (load(steps, t - 1) + load(steps, t)) * half)
+    w[0] = (steps[n - 1] + steps[0]) * half
     return length
 
 
 def middle(x: Reals, y: Reals, w: Reals, n: int, out: Reals) -> None:
     """Centroid and rms radius: out[0:3]."""
-    cx, cy, square = 0.0, 0.0, 0.0
-    for t in range(n):
-        cx += w[t] * x[t]
-        cy += w[t] * y[t]
-    for t in range(n):
-        square += w[t] * ((x[t] - cx) * (x[t] - cx) + (y[t] - cy) * (y[t] - cy))
+    sx, sy, square = spread(0.0), spread(0.0), spread(0.0)
+    for t in range(0, n, 8):
+        sx += load(w, t) * load(x, t)
+        sy += load(w, t) * load(y, t)
+    cx, cy = total(sx), total(sy)
+    for t in range(0, n, 8):
+        ux = load(x, t) - cx
+        uy = load(y, t) - cy
+        square += load(w, t) * (ux * ux + uy * uy)
     out[0] = cx
     out[1] = cy
-    out[2] = sqrt(square)
+    out[2] = sqrt(total(square))
 
 
-def foot(px: float, py: float, ax: float, ay: float, bx: float, by: float) -> float:
-    """Where the nearest point of a segment lies, 0 to 1."""
-    ex, ey = bx - ax, by - ay
-    return min(max((ex * (px - ax) + ey * (py - ay)) / (ex * ex + ey * ey + 1e-30), 0.0), 1.0)
+def align(x: Reals, y: Reals, n: int, at: Reals, turn: float, yx: Reals, yy: Reals) -> None:
+    """The curve moved to the origin, made the target's size and turned."""
+    kx, ky = cos(turn) / at[2], sin(turn) / at[2]
+    for t in range(0, n, 8):
+        dx = load(x, t) - at[0]
+        dy = load(y, t) - at[1]
+        store(yx, t, kx * dx - ky * dy)
+        store(yy, t, kx * dy + ky * dx)
+
+
+def ends(k: int, j: int, count: int, closed: int, x: Reals, y: Reals, work: Reals) -> None:
+    """Gathers entry k of a curve of ``count`` points and both its neighbours: work[j], blocks 0 to 5."""
+    a, b = k - 1, k + 1
+    if a < 0:
+        a = count - 1 if closed == 1 else 0
+    if b == count:
+        b = 0 if closed == 1 else count - 1
+    work[j] = x[a]
+    work[WIDE + j] = y[a]
+    work[2 * WIDE + j] = x[k]
+    work[3 * WIDE + j] = y[k]
+    work[4 * WIDE + j] = x[b]
+    work[5 * WIDE + j] = y[b]
+
+
+def feet(px: Reals, py: Reals, count: int, soft: float, work: Reals) -> None:
+    """Nearest points on two joined segments each (blocks 0 to 5 of ``work``), from points p.
+
+    Blocks 6, 7: from there to p, over the smoothed distance; 8: that distance; 9 to 11: shares of the three ends.
+    """
+    for t in range(0, count, 8):
+        x, y = load(px, t), load(py, t)
+        kx, ky = load(work, 2 * WIDE + t), load(work, 3 * WIDE + t)
+        ax, ay = load(work, t), load(work, WIDE + t)
+        bx, by = load(work, 4 * WIDE + t), load(work, 5 * WIDE + t)
+        ex, ey, fx, fy = kx - ax, ky - ay, bx - kx, by - ky
+        s = (ex * (x - ax) + ey * (y - ay)) / (ex * ex + ey * ey + 1e-30)
+        r = (fx * (x - kx) + fy * (y - ky)) / (fx * fx + fy * fy + 1e-30)
+        s, r = lower(higher(s, 0.0), 1.0), lower(higher(r, 0.0), 1.0)
+        qx, qy, ox, oy = x - ax - s * ex, y - ay - s * ey, x - kx - r * fx, y - ky - r * fy
+        near, other = qx * qx + qy * qy, ox * ox + oy * oy
+        first = near < other
+        d = root(lower(near, other) + soft)
+        store(work, 6 * WIDE + t, (qx if first else ox) / d)
+        store(work, 7 * WIDE + t, (qy if first else oy) / d)
+        store(work, 8 * WIDE + t, d)
+        store(work, 9 * WIDE + t, (1.0 - s) if first else 0.0 * s)
+        store(work, 10 * WIDE + t, s if first else 1.0 - r)
+        store(work, 11 * WIDE + t, 0.0 * r if first else r)
 
 
 def curve_to_target(
     x: Reals, y: Reals, w: Reals, n: int, closed: int, tx: Reals, ty: Reals, m: int, near: Wholes,
-    soft: float, gx: Reals, gy: Reals, gw: Reals,
+    soft: float, work: Reals,
 ) -> float:  # fmt: skip
-    """Mean distance of the curve's points from the target; its slopes by the points and by their weights."""
-    mean = 0.0
+    """Mean distance of the curve's points from the target; ``work`` as from :func:`feet`."""
     scale = GRID / (2.0 * HALF)
     for t in range(n):
         ux, uy = min(max(x[t], -2.99), 2.99), min(max(y[t], -2.99), 2.99)
-        j = near[int((uy + HALF) * scale) * GRID + int((ux + HALF) * scale)]
-        best, bx, by = 1e18, 0.0, 0.0
-        for o in range(2):
-            a, b = j - 1 + o, j + o
-            if a < 0:
-                a = m - 1 if closed == 1 else 0
-            if b == m:
-                b = 0 if closed == 1 else m - 1
-            s = foot(x[t], y[t], tx[a], ty[a], tx[b], ty[b])
-            qx, qy = x[t] - tx[a] - s * (tx[b] - tx[a]), y[t] - ty[a] - s * (ty[b] - ty[a])
-            square = qx * qx + qy * qy
-            if square < best:
-                best = square
-                bx = qx
-                by = qy
-        d = sqrt(best + soft)
-        mean += w[t] * d
-        gw[t] = d
-        gx[t] = w[t] * bx / d
-        gy[t] = w[t] * by / d
-    return mean
-
-
-def nearest(x: Reals, y: Reals, n: int, px: float, py: float) -> int:
-    """The nearest of the curve's points; the eight entries after the last one lie far away."""
-    low = spread(1e18)
+        k = near[int((uy + HALF) * scale) * GRID + int((ux + HALF) * scale)]
+        ends(k, t, m, closed, tx, ty, work)
+    feet(x, y, n, soft, work)
+    mean = spread(0.0)
     for t in range(0, n, 8):
-        ux = load(x, t) - px
-        uy = load(y, t) - py
-        low = lower(low, marked(ux * ux + uy * uy, ramp(t)))
-    return mark_of(least(low))
+        mean += load(w, t) * load(work, 8 * WIDE + t)
+    return total(mean)
 
 
 def target_to_curve(
-    x: Reals, y: Reals, n: int, closed: int, tx: Reals, ty: Reals, m: int, soft: float, gx: Reals, gy: Reals
+    x: Reals, y: Reals, n: int, closed: int, tx: Reals, ty: Reals, m: int, soft: float, work: Reals
 ) -> float:
-    """Mean distance of the target's points from the curve; its slopes are added to gx, gy."""
-    mean = 0.0
-    for t in range(n, n + 8):
-        x[t] = 1e3
-        y[t] = 1e3
+    """Mean distance of the target's points from the curve; ``work`` as from :func:`feet`, block 12: nearest point."""
+    for j in range(0, m, 8):
+        px, py = load(tx, j), load(ty, j)
+        low, mark = spread(1e18), spread(0.0)
+        for t in range(n):
+            ux = px - x[t]
+            uy = py - y[t]
+            low = lower(low, marked(ux * ux + uy * uy, mark))
+            mark += 1.0
+        store(work, 12 * WIDE + j, low)
     for j in range(m):
-        k = nearest(x, y, n, tx[j], ty[j])
-        best, bx, by, bs, first, second = 1e18, 0.0, 0.0, 0.0, 0, 0
-        for o in range(2):
-            a, b = k - 1 + o, k + o
-            if a < 0:
-                a = n - 1 if closed == 1 else 0
-            if b == n:
-                b = 0 if closed == 1 else n - 1
-            s = foot(tx[j], ty[j], x[a], y[a], x[b], y[b])
-            qx, qy = tx[j] - x[a] - s * (x[b] - x[a]), ty[j] - y[a] - s * (y[b] - y[a])
-            square = qx * qx + qy * qy
-            if square < best:
-                best = square
-                bx = qx
-                by = qy
-                bs = s
-                first = a
-                second = b
-        d = sqrt(best + soft)
-        mean += d / m
-        gx[first] -= (1.0 - bs) * bx / (d * m)
-        gy[first] -= (1.0 - bs) * by / (d * m)
-        gx[second] -= bs * bx / (d * m)
-        gy[second] -= bs * by / (d * m)
-    return mean
+        ends(mark_of(work[12 * WIDE + j]), j, n, closed, x, y, work)
+    feet(tx, ty, m, soft, work)
+    mean = spread(0.0)
+    for j in range(0, m, 8):
+        mean += load(work, 8 * WIDE + j)
+    return total(mean) / m
+
+
+def pulled(n: int, closed: int, m: int, work: Reals, gx: Reals, gy: Reals) -> None:
+    """Slopes of the mean that :func:`target_to_curve` gives, added by the curve's points."""
+    share = 1.0 / m
+    for j in range(m):
+        k = mark_of(work[12 * WIDE + j])
+        a, b = k - 1, k + 1
+        if a < 0:
+            a = n - 1 if closed == 1 else 0
+        if b == n:
+            b = 0 if closed == 1 else n - 1
+        vx, vy = work[6 * WIDE + j] * share, work[7 * WIDE + j] * share
+        ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
+        gx[a] -= ra * vx
+        gy[a] -= ra * vy
+        gx[k] -= rk * vx
+        gy[k] -= rk * vy
+        gx[b] -= rb * vx
+        gy[b] -= rb * vy
 
 
 def too_large(
@@ -263,35 +293,56 @@ def too_large(
 
 
 def align_back(
-    zx: Reals, zy: Reals, yx: Reals, yy: Reals, n: int, last: int, at: Reals, w: Reals, steps: Reals,
-    kx: float, ky: float, length: float, gx: Reals, gy: Reals, gw: Reals, g: Reals,
+    zx: Reals, zy: Reals, yx: Reals, yy: Reals, n: int, closed: int, at: Reals, w: Reals, steps: Reals,
+    angle: float, length: float, gx: Reals, gy: Reals, gw: Reals, g: Reals, room: Reals,
 ) -> float:  # fmt: skip
     """Slopes by the aligned curve become slopes by the curve itself; gives the slope by the picture's turn."""
-    rho, turn, gr, gcx, gcy, even = at[2], 0.0, g[2] * at[2], g[0], g[1], 0.0
-    for t in range(n):
-        turn += gy[t] * yx[t] - gx[t] * yy[t]
-        gr -= gx[t] * yx[t] + gy[t] * yy[t]
-        vx, vy = kx * gx[t] + ky * gy[t], kx * gy[t] - ky * gx[t]
-        gx[t] = vx
-        gy[t] = vy
-        gcx -= vx
-        gcy -= vy
-    gr = gr / rho
-    for t in range(n):
-        dx, dy = zx[t] - at[0], zy[t] - at[1]
-        gx[t] += w[t] * (gr * dx / rho + gcx)
-        gy[t] += w[t] * (gr * dy / rho + gcy)
-        gw[t] += gr * (dx * dx + dy * dy) / (2.0 * rho) + gcx * zx[t] + gcy * zy[t]
-        even += gw[t] * w[t]
-    for t in range(last):
-        u = t + 1 if t + 1 < n else 0
-        v = ((gw[t] + gw[u]) * 0.5 - even) / (length * steps[t])
-        ex, ey = v * (zx[u] - zx[t]), v * (zy[u] - zy[t])
-        gx[u] += ex
-        gy[u] += ey
-        gx[t] -= ex
-        gy[t] -= ey
-    return turn
+    rho = at[2]
+    kx, ky = cos(angle) / rho, sin(angle) / rho
+    turn, wide, sx, sy, even = spread(0.0), spread(0.0), spread(0.0), spread(0.0), spread(0.0)
+    for t in range(0, n, 8):
+        hx, hy = load(gx, t), load(gy, t)
+        turn += hy * load(yx, t) - hx * load(yy, t)
+        wide += hx * load(yx, t) + hy * load(yy, t)
+        vx, vy = kx * hx + ky * hy, kx * hy - ky * hx
+        store(gx, t, vx)
+        store(gy, t, vy)
+        sx += vx
+        sy += vy
+    gr, gcx, gcy = g[2] - total(wide) / rho, g[0] - total(sx), g[1] - total(sy)
+    for t in range(0, n, 8):
+        dx, dy = load(zx, t) - at[0], load(zy, t) - at[1]
+        store(gx, t, load(gx, t) + load(w, t) * ((gr / rho) * dx + gcx))
+        store(gy, t, load(gy, t) + load(w, t) * ((gr / rho) * dy + gcy))
+        own = load(gw, t) + (gr * 0.5 / rho) * (dx * dx + dy * dy) + gcx * load(zx, t) + gcy * load(zy, t)
+        store(gw, t, own)
+        even += own * load(w, t)
+    lengths_back(zx, zy, n, closed, steps, length, total(even), gx, gy, gw, room)
+    return total(turn)
+
+
+def lengths_back(
+    zx: Reals, zy: Reals, n: int, closed: int, steps: Reals, length: float, even: float, gx: Reals, gy: Reals,
+    gw: Reals, room: Reals,
+) -> None:  # fmt: skip
+    """Slopes by the points' shares of the length become slopes by the points."""
+    ex, ey, inverse, last = room, room + WIDE, 1.0 / length, n - 1
+    for t in range(0, n, 8):
+        v = ((load(gw, t) + load(gw, t + 1)) * 0.5 - even) * inverse / load(steps, t)
+        store(ex, t, v * (load(zx, t + 1) - load(zx, t)))
+        store(ey, t, v * (load(zy, t + 1) - load(zy, t)))
+    ex[last] = 0.0
+    ey[last] = 0.0
+    if closed == 1:
+        v_ = ((gw[last] + gw[0]) * 0.5 - even) * inverse / steps[last]
+        ex[last] = v_ * (zx[0] - zx[last])
+        ey[last] = v_ * (zy[0] - zy[last])
+    fx, fy, sx, sy = gx[0], gy[0], ex[last] - ex[0], ey[last] - ey[0]
+    for t in range(0, n, 8):
+        store(gx, t, load(gx, t) + load(ex, t - 1) - load(ex, t))
+        store(gy, t, load(gy, t) + load(ey, t - 1) - load(ey, t))
+    gx[0] = fx + sx
+    gy[0] = fy + sy
 
 
 def dyad_back(
@@ -398,27 +449,28 @@ def deviation(
     X, Y, gX, gY = room, room + count * N, room + 2 * count * N, room + 3 * count * N
     if place(nodes, count, n, N, closed, x, X, Y) < 0.0:
         return FAR
-    s = room + 4 * count * N
+    s = room + 4 * count * N + 8
     steps, w, gw, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE, s + 4 * WIDE
-    gx, gy, at, gat = s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 7 * WIDE + 8
+    gx, gy, at, gat, work = s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 7 * WIDE + 8, s + 8 * WIDE
     own = (count - 1) * N
     zx, zy = X + own, Y + own
     length = weigh(zx, zy, n, closed, steps, w)
     middle(zx, zy, w, n, at)
     if at[2] < 1e-3:
         return FAR
-    kx, ky = cos(x[e]) / at[2], sin(x[e]) / at[2]
-    for t in range(n):
-        dx, dy = zx[t] - at[0], zy[t] - at[1]
-        yx[t] = kx * dx - ky * dy
-        yy[t] = kx * dy + ky * dx
-    found = curve_to_target(yx, yy, w, n, closed, target, target + m, m, near, options[3], gx, gy, gw)
-    found += target_to_curve(yx, yy, n, closed, target, target + m, m, options[3], gx, gy)
+    align(zx, zy, n, at, x[e], yx, yy)
+    found = curve_to_target(yx, yy, w, n, closed, target, target + m, m, near, options[3], work)
+    for t in range(0, n, 8):
+        store(gx, t, load(w, t) * load(work, 6 * WIDE + t))
+        store(gy, t, load(w, t) * load(work, 7 * WIDE + t))
+        store(gw, t, load(work, 8 * WIDE + t))
+    found += target_to_curve(yx, yy, n, closed, target, target + m, m, options[3], work)
+    pulled(n, closed, m, work, gx, gy)
     found += too_large(X, Y, count * N, at, options[1], options[2] / (count * N), gX, gY, gat)
-    g[e] = align_back(zx, zy, yx, yy, n, n - 1 + closed, at, w, steps, kx, ky, length, gx, gy, gw, gat)
-    for t in range(n):
-        gX[own + t] += gx[t]
-        gY[own + t] += gy[t]
+    g[e] = align_back(zx, zy, yx, yy, n, closed, at, w, steps, x[e], length, gx, gy, gw, gat, work)
+    for t in range(0, n, 8):
+        store(gX, own + t, load(gX, own + t) + load(gx, t))
+        store(gY, own + t, load(gY, own + t) + load(gy, t))
     found += nodes_back(nodes, count, N, x, X, Y, gX, gY, options[2], options[0], g)
     range_back(n, N, closed, X, Y, gX, gY, g + (e + 1))
     return found
@@ -514,12 +566,13 @@ def descend(
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
+    from linkwright.synthesis.free_curve.promise import PROMISES
     from linkwright.synthesis.free_curve.sample import SAMPLING
 
     return Kernels(
         [
-            turn_crank, place_crank, place_dyad, place_point, place, weigh, middle, foot, curve_to_target, nearest,
-            target_to_curve, too_large, align_back, dyad_back, point_back, nodes_back, range_back, deviation,
-            restart, update, descend, *SAMPLING,
+            turn_crank, place_crank, place_dyad, place_point, place, weigh, middle, align, ends, feet,
+            curve_to_target, target_to_curve, pulled, too_large, lengths_back, align_back, dyad_back, point_back,
+            nodes_back, range_back, deviation, restart, update, descend, *SAMPLING, *PROMISES,
         ]
     )  # fmt: skip

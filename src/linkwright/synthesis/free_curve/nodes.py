@@ -31,12 +31,14 @@ class Design:
         x: two numbers of every node after the crank's, then turn of the picture, first crank angle and range, rad.
         mirror: it draws the target's mirror image.
         value: the objective, or FAR.
+        misses: where its curve misses the target (unit vector), once it was examined.
     """
 
     nodes: Whole
     x: Floats
     mirror: bool
     value: float = FAR
+    misses: Floats | None = None
 
     @property
     def joints(self) -> int:

@@ -1,17 +1,18 @@
 """The search: fewest links first, each level from its atlas and from the designs of the levels below.
 
 A level looks its atlas up, lets many starts descend a little, the best of them on, and keeps a pool of good designs
-of different structure. Until its share of the time is over, an attempt shakes a member of the pool, or hangs one more
-dyad on a member of the pools below, and descends. At the end the best are polished at fine positions, with the
-penalties weighted so that the demands hold.
+of different structure that err in different places. Until its share of the time is over, an attempt shakes a member
+of the pool, or hangs one more dyad on a member of the pools below, and descends. At the end the best are polished at
+fine positions, with the penalties weighted so that the demands hold.
 """
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,30 +28,45 @@ JOINTS = (5, 8, 10, 12)
 SHARES = {1: (1.0,), 2: (0.2, 1.0), 3: (0.1, 0.45, 1.0), 4: (0.06, 0.28, 0.55, 1.0)}
 #: Starts from an atlas; those that descend on, and further on; iterations of each step.
 STARTS, HALVED, CHOSEN = 2000, 250, 50
-POOL, ATTEMPTS = 30, 48
+POOL, BATCH = 30, 0.2
+#: Dyads drawn of which a promising one is taken.
+DRAWS = 96
+#: Designs err alike whose misses have a product above this; as many of them stay in a pool.
+NICHE, CROWD = 0.9, 4
 #: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
 POLISH = ((10.0, 0.005), (300.0, 0.005), (10000.0, 0.004))
 
 
 @dataclass
 class Pool:
-    """The best designs so far, few of one structure, none twice."""
+    """The best designs so far, few of one structure or erring alike, none twice."""
 
     designs: list[Design] = field(default_factory=list)
 
     def add(self, design: Design) -> None:
-        """Takes a design in where it is good and different enough."""
+        """Takes a design in where it is good and different enough in structure and in where it errs."""
         if not design.value < self.worst:
             return
         kept: list[Design] = []
         alike: dict[tuple[bytes, bool], int] = {}
-        for each in sorted([*self.designs, design], key=lambda one: one.value):
+        order = sorted([*self.designs, design], key=lambda one: one.value)
+        errs = np.array([each.misses for each in order])
+        near = errs @ errs.T > NICHE
+        rows: list[int] = []
+        for row, each in enumerate(order):
             key = each.nodes.tobytes(), each.mirror
             most = 12 if each.joints == JOINTS[0] else 3
-            if alike.get(key, 0) < most and not any(_same(one, each) for one in kept):
+            if (
+                alike.get(key, 0) < most
+                and near[row, rows].sum() < CROWD
+                and not any(_same(one, each) for one in kept)
+            ):
                 kept.append(each)
+                rows.append(row)
                 alike[key] = alike.get(key, 0) + 1
-        self.designs = kept[:POOL]
+                if len(kept) == POOL:
+                    break
+        self.designs = kept
 
     @property
     def worst(self) -> float:
@@ -85,6 +101,7 @@ class Search:
     seed: int
     progress: Callable[[float, float], None] | None = None
     attempts: int = 0
+    lock: threading.Lock = field(default_factory=threading.Lock)
 
     def run(self) -> list[Design]:
         """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
@@ -115,15 +132,18 @@ class Search:
                 pool.add(each)
         for one in below[-1].designs[:10] if below else []:
             pool.add(one)
-        end = self.begin + share * self.seconds
+        end = self.begin + share * self.seconds - 0.03 * self.seconds
 
-        def attempt(seed: int) -> Design:
-            return self._attempt(np.random.default_rng(seed), most, pool, below)
+        def work(seed: int) -> None:
+            draw, stop = np.random.default_rng(seed), min(time.perf_counter() + BATCH, end)
+            while time.perf_counter() < stop:
+                found = self._attempt(draw, most, pool, below)
+                with self.lock:
+                    self.attempts += 1
+                    pool.add(found)
 
-        while pool.designs and time.perf_counter() < end - 0.03 * self.seconds:
-            self.attempts += ATTEMPTS
-            for found in self.workers.map(attempt, self.draw.integers(1 << 60, size=ATTEMPTS)):
-                pool.add(found)
+        while pool.designs and time.perf_counter() < end:
+            list(self.workers.map(work, self.draw.integers(1 << 60, size=cores())))
             if self.progress is not None:
                 over = (time.perf_counter() - self.begin) / self.seconds
                 self.progress(min(over, 1.0), pool.designs[0].value)
@@ -144,16 +164,28 @@ class Search:
 
     def _attempt(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
         """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
-        design = None
-        if below and draw.random() < 0.5:
-            design = with_dyad(below[int(draw.integers(len(below)))].pick(draw), draw, most)
-        design = self.target.descend(design or shaken(pool.pick(draw), draw), 25, COARSE)
-        design = self.target.descend(design, 10)
+        design = self._next(draw, most, pool, below)
+        design = self.target.descend(self.target.descend(design, 25, COARSE), 10)
         if design.value < 2 * pool.worst:
             design = self.target.eased(design, 60)
         if design.value < 1.2 * pool.worst:
             return self.target.checked(self.target.eased(design, 200))
-        return Design(design.nodes, design.x, design.mirror)
+        return replace(design, value=FAR)
+
+    def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+        """Half shaken; a quarter each with a dyad drawn at the drawing point, and with a promising one anywhere."""
+        kind = draw.random()
+        if below and kind < 0.5:
+            base = below[int(draw.integers(len(below)))].pick(draw)
+            if kind < 0.25:
+                design = with_dyad(base, draw, most)
+                if design is not None:
+                    return design
+            elif most - base.joints > 1:
+                found = self.target.grown(base, draw.random((DRAWS, 9)), most)
+                if found:
+                    return found[min(int(draw.exponential(3)), len(found) - 1)]
+        return shaken(pool.pick(draw), draw)
 
     def _polished(self, pool: Pool) -> list[Design]:
         """The best of a pool, polished; the demands hold with a small margin."""

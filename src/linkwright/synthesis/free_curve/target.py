@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 
 from linkwright.synthesis.free_curve.kernels import FAR, GRID, HALF, kernels
 from linkwright.synthesis.free_curve.nodes import Complexes, Design, Floats, Whole, node_paths
+from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
 
+#: Positions of a turn at which a design is examined.
+TURN = 360
 #: Points of a curve where two are compared as the measure says.
 EVEN = 2000
 
@@ -82,6 +85,38 @@ class Target:
         )  # fmt: skip
         return replace(design, x=x, value=value)
 
+    def misses(self, design: Design) -> Floats:
+        """Where the curve misses the target, as a unit vector: designs that err alike have a product near 1."""
+        points, _ = self._tables[COARSE.points, design.mirror]
+        found = np.zeros(2 * COARSE.points)
+        arrays = [each.ctypes.data for each in (design.x, points)]
+        kernels()(
+            "misses", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, int(self.closed), *arrays, COARSE.points,
+            _ROOM.array.ctypes.data, found.ctypes.data,
+        )  # fmt: skip
+        if design.mirror:
+            found[COARSE.points :] *= -1
+        return np.asarray(found / (np.linalg.norm(found) + 1e-300))
+
+    def grown(self, design: Design, numbers: Floats, most: int) -> list[Design]:
+        """Designs with one more dyad after rows of nine uniform numbers, the most promising first."""
+        draws, (points, near) = len(numbers), self._tables[COARSE.points, design.mirror]
+        poses = MIDDLE.drawn + (0 if self.closed else MIDDLE.rest)
+        options = np.array([np.sin(self.least) ** 2])
+        made, x = np.zeros((draws, ROWS), np.int64), np.zeros((draws, NUMBERS))
+        counts, gains, own = np.zeros(draws, np.int64), np.zeros(draws), design.x.copy()
+        arrays = [each.ctypes.data for each in (near, options, _ROOM.array)]
+        results = [each.ctypes.data for each in (made, x, counts, gains)]
+        kernels()(
+            "promises", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, poses, int(self.closed),
+            own.ctypes.data, points.ctypes.data, COARSE.points, *arrays, draws, numbers.ctypes.data, most, *results,
+        )  # fmt: skip
+        return [
+            Design(made[k, : 4 * counts[k]].copy(), x[k, : 2 * counts[k] - 1].copy(), design.mirror)
+            for k in np.argsort(-gains, kind="stable")
+            if gains[k] > 0
+        ]
+
     def eased(self, design: Design, iterations: int) -> Design:
         """The design after a descent that begins smooth, with the objective of ``MIDDLE``."""
         return self.descend(self.descend(design, iterations // 2, ROUND), iterations - iterations // 2)
@@ -91,9 +126,13 @@ class Target:
         if design.value >= FAR:
             return design
         fine = self.descend(design, 0, FINE)
-        turn = np.linspace(0, 2 * np.pi, 361)[:-1]
-        least = node_paths(design.nodes, design.x, turn)[1]
-        return fine if least > np.sin(self.least / 2) ** 2 else replace(fine, value=FAR)
+        nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
+        least = kernels()(
+            "place", nodes, design.joints, TURN, TURN, 1, x, room, room + 8 * TURN * design.joints
+        )
+        if least < np.sin(self.least / 2) ** 2:
+            return replace(fine, value=FAR)
+        return replace(fine, misses=self.misses(design))
 
     def curve(self, design: Design, count: int = 4 * EVEN) -> Complexes:
         """The drawn curve at even crank angles, in units of the crank."""

@@ -1,0 +1,318 @@
+"""What one more dyad promises before any descent (kernels).
+
+A node k of a linkage becomes k + w (G - k), a point of the new link from k to G, where G = dyad(k, F) and w = 0 at
+first: the curve stays, and everything that hung on k hangs on the new point. F is a node before it, a new pivot or a
+new point of a link. To first order a change δx of the linkage's numbers and w changes the distances d between curve
+and target by J δx + c w. The objective's mean of d is a sum of squares with weights 1/d; of its residual r, the part
+outside the columns of J is what the linkage alone cannot mend, and the share of it along c, without what J can do as
+well, is the promise (orthogonal matching pursuit: Pati, Rezaiifar and Krishnaprasad 1993).
+"""
+
+from __future__ import annotations
+
+from math import cos, log, sin, sqrt
+
+from linkwright.engine.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
+from linkwright.synthesis.free_curve.kernels import (
+    DYAD,
+    PIVOT,
+    POINT,
+    TURN,
+    WIDE,
+    align,
+    curve_to_target,
+    middle,
+    place,
+    place_dyad,
+    place_point,
+    target_to_curve,
+    weigh,
+)
+from linkwright.synthesis.free_curve.sample import spans
+
+#: Steps of differences; smoothing ε² of the distances; share of the demanded sin² of a transmission angle.
+STEP, SOFT, SLACK = 1e-5, 4e-4, 0.7
+#: Entries of a design with one more dyad.
+ROWS, NUMBERS = 64, 32
+
+
+def dot(a: Reals, b: Reals, rows: int) -> float:
+    """Sum of products."""
+    sum_ = spread(0.0)
+    for t in range(0, rows, 8):
+        sum_ += load(a, t) * load(b, t)
+    return total(sum_)
+
+
+def take_off(a: Reals, share: float, b: Reals, rows: int) -> None:
+    """a - share b."""
+    for t in range(0, rows, 8):
+        store(a, t, load(a, t) - share * load(b, t))
+
+
+def lay(
+    nodes: Wholes, count: int, n: int, closed: int, x: Reals, room: Reals, steps: Reals, w: Reals, at: Reals,
+    yx: Reals, yy: Reals,
+) -> float:  # fmt: skip
+    """The drawn curve laid on the target (yx, yy); negative where it does not close."""
+    own, e = (count - 1) * n, 2 * (count - 2)
+    X, Y = room, room + count * n
+    if place(nodes, count, n, n, closed, x, X, Y) < 0.0:
+        return -1.0
+    weigh(X + own, Y + own, n, closed, steps, w)
+    middle(X + own, Y + own, w, n, at)
+    if at[2] < 1e-3:
+        return -1.0
+    align(X + own, Y + own, n, at, x[e], yx, yy)
+    return 1.0
+
+
+def column(
+    yx: Reals, yy: Reals, bx: Reals, by: Reals, n: int, closed: int, m: int, ux: Reals, uy: Reals, work: Reals,
+    scale: Reals, c: Reals,
+) -> None:  # fmt: skip
+    """Slopes of all weighted distances by one number, from the curve after a ``STEP`` of it."""
+    for t in range(0, n, 8):
+        moved = load(ux, t) * (load(yx, t) - load(bx, t)) + load(uy, t) * (load(yy, t) - load(by, t))
+        store(c, t, load(scale, t) * moved * (1.0 / STEP))
+        store(yx, t, load(yx, t) - load(bx, t))
+        store(yy, t, load(yy, t) - load(by, t))
+    for j in range(m):
+        k = mark_of(work[12 * WIDE + j])
+        a, b = k - 1, k + 1
+        if a < 0:
+            a = n - 1 if closed == 1 else 0
+        if b == n:
+            b = 0 if closed == 1 else n - 1
+        ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
+        dx = ra * yx[a] + rk * yx[k] + rb * yx[b]
+        dy = ra * yy[a] + rk * yy[k] + rb * yy[b]
+        c[n + j] = 0.0 - scale[n + j] * (work[6 * WIDE + j] * dx + work[7 * WIDE + j] * dy) * (1.0 / STEP)
+
+
+def remainder(c: Reals, Q: Reals, known: int, rows: int) -> float:
+    """Takes the part along Q's unit columns off a column and scales the rest to 1; gives 0 where none is left."""
+    before = dot(c, c, rows)
+    for k in range(known):
+        take_off(c, dot(c, Q + k * rows, rows), Q + k * rows, rows)
+    left = dot(c, c, rows)
+    inverse = 1.0 / sqrt(left) if left > 1e-8 * before + 1e-30 else 0.0
+    for t in range(0, rows, 8):
+        store(c, t, inverse * load(c, t))
+    return inverse
+
+
+def first_use(nodes: Wholes, count: int, k: int) -> int:
+    """The first row that hangs on a node; ``count`` where none does."""
+    for row in range(2, count):
+        kind = nodes[4 * row]
+        if kind != PIVOT and nodes[4 * row + 1] == k:
+            return row
+        if kind == DYAD and nodes[4 * row + 2] == k:
+            return row
+    return count
+
+
+def grow(
+    nodes: Wholes, count: int, x: Reals, at: int, hung: int, far: int, new: int, side: int, more: Reals,
+    made: Wholes, numbers: Reals,
+) -> int:  # fmt: skip
+    """The linkage with the dyad: ``made`` and ``numbers``; gives its count. ``new``: 1 where F (in row ``at`` of
+    ``made`` already) is new; ``more``: F's two numbers and the logarithms of both lengths; w = 0."""
+    shift = 2 + new
+    for row in range(count):
+        to = row if row < at else row + shift
+        for each in range(4):
+            made[4 * to + each] = nodes[4 * row + each]
+        if row >= at:
+            i, j = nodes[4 * row + 1], nodes[4 * row + 2]
+            made[4 * to + 1] = at + shift - 1 if i == hung else i if i < at else i + shift
+            made[4 * to + 2] = j if j < at else j + shift
+            if nodes[4 * row] == DYAD and j == hung:
+                made[4 * to + 2] = at + shift - 1
+            if nodes[4 * row] == PIVOT:
+                made[4 * to + 1] = 0
+                made[4 * to + 2] = 0
+        if row > 1:
+            numbers[2 * to - 4] = x[2 * row - 4]
+            numbers[2 * to - 3] = x[2 * row - 3]
+    joint = at + new
+    if new == 1:
+        numbers[2 * at - 4] = more[0]
+        numbers[2 * at - 3] = more[1]
+    made[4 * joint] = DYAD
+    made[4 * joint + 1] = hung
+    made[4 * joint + 2] = far
+    made[4 * joint + 3] = side
+    made[4 * joint + 4] = POINT
+    made[4 * joint + 5] = hung
+    made[4 * joint + 6] = joint
+    made[4 * joint + 7] = 1
+    numbers[2 * joint - 4] = more[2]
+    numbers[2 * joint - 3] = more[3]
+    numbers[2 * joint - 2] = 0.0
+    numbers[2 * joint - 1] = 0.0
+    for each in range(3):
+        numbers[2 * (count + shift - 2) + each] = x[2 * (count - 2) + each]
+    return count + shift
+
+
+def lengths(
+    N: int, px: Reals, py: Reals, qx: Reals, qy: Reals, side: float, u: float, v: float, limit: float,
+    room: Reals, more: Reals,
+) -> float:  # fmt: skip
+    """Lengths of a dyad that closes between two nodes with a good transmission angle, by two uniform numbers."""
+    spans(N, px, py, qx, qy, room)
+    low, high = room[0], room[1]
+    if low < 0.02 * high or high - low < 1e-4 * high:
+        return -1.0
+    both, apart = high * (1.03 + 1.2 * u * u), low * 0.95 * (2.0 * v - 1.0)
+    first, second = 0.5 * (both + apart), 0.5 * (both - apart)
+    more[2] = log(first)
+    more[3] = log(second)
+    found = place_dyad(N, first, second, side, px, py, qx, qy, room, room + N)
+    return -1.0 if found < limit else found
+
+
+def drawn_dyad(
+    nodes: Wholes, count: int, N: int, x: Reals, X: Reals, Y: Reals, r: Reals, most: int, reach: Reals,
+    limit: float, room: Reals, made: Wholes, numbers: Reals,
+) -> int:  # fmt: skip
+    """One more dyad after nine uniform numbers r: ``made``, ``numbers``; gives the row of its point, -1: none."""
+    hung = count - 1 if r[0] < 0.5 else 1 + int((r[0] - 0.5) * 2.0 * (count - 2))
+    at = count if hung == count - 1 else first_use(nodes, count, hung)
+    if at == count and hung < count - 1:
+        return -1
+    far, new, side, more = int(r[2] * at), 0, 1, room
+    if r[8] < 0.5:
+        side = -1
+    fx, fy, rest = room + 8, room + 8 + N, room + 8 + 2 * N
+    choice = int(r[1] * 4.0) if most - count > 2 else int(r[1] * 2.0)
+    if choice == 0:  # a pivot: the next one from a random row on
+        for _ in range(count):
+            if nodes[4 * far] == PIVOT and far != 1:
+                break
+            far = far - 1 if far > 0 else at - 1
+    if choice > 1:
+        new = 1
+        made[4 * at] = PIVOT
+        made[4 * at + 1] = 0
+        made[4 * at + 2] = 0
+        made[4 * at + 3] = 1
+        size = reach[2] * (0.4 + 4.6 * r[4])
+        more[0] = reach[0] + size * cos(TURN * r[5])
+        more[1] = reach[1] + size * sin(TURN * r[5])
+        i, j = 0, 1
+        if choice == 3:
+            if nodes[4 * far] == DYAD:
+                j = far
+                i = nodes[4 * far + 1] if r[3] < 0.5 else nodes[4 * far + 2]
+            made[4 * at] = POINT
+            made[4 * at + 1] = i
+            made[4 * at + 2] = j
+            more[0] = (0.2 + 1.8 * r[4]) * cos(TURN * r[5])
+            more[1] = (0.2 + 1.8 * r[4]) * sin(TURN * r[5])
+            place_point(N, more[0], more[1], X + i * N, Y + i * N, X + j * N, Y + j * N, fx, fy)
+        else:
+            for t in range(0, N, 8):
+                store(fx, t, more[0])
+                store(fy, t, more[1])
+        far = at
+    else:
+        for t in range(0, N, 8):
+            store(fx, t, load(X, far * N + t))
+            store(fy, t, load(Y, far * N + t))
+    own = hung * N
+    if far == hung:
+        return -1
+    if lengths(N, X + own, Y + own, fx, fy, 1.0 * side, r[6], r[7], limit, rest, more) < 0.0:
+        return -1
+    made[ROWS - 1] = grow(nodes, count, x, at, hung, far, new, side, more, made, numbers)
+    return at + new + 1
+
+
+def promises(
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
+    options: Reals, room: Reals, draws: int, r: Reals, most: int, made: Wholes, numbers: Reals, counts: Wholes,
+    gains: Reals,
+) -> float:  # fmt: skip
+    """Draws dyads and says what each promises, as a share of the residual; gives the residual's share outside J.
+
+    ``made`` (draws, ROWS), ``numbers`` (draws, NUMBERS), ``counts``: the linkages with them; ``gains`` -1: none.
+    ``n``, ``N``, ``m``: multiples of 8.
+    """
+    rows, d = n + m, 2 * (count - 2) + 1
+    if closed == 0:
+        d += 2
+    X, Y, s = room, room + count * N, room + 2 * count * N + 8
+    bx, by, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE
+    steps, w, ux, uy, scale = s + 4 * WIDE, s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 8 * WIDE
+    rest, at, gat, work, Q = s + 9 * WIDE, s + 10 * WIDE, s + 10 * WIDE + 8, s + 11 * WIDE, s + 24 * WIDE
+    free = Q + 28 * rows
+    for k in range(draws):
+        gains[k] = -1.0
+    if lay(nodes, count, n, closed, x, free, steps, w, at, bx, by) < 0.0:
+        return -1.0
+    curve_to_target(bx, by, w, n, closed, target, target + m, m, near, 0.0, work)
+    for t in range(0, n, 8):
+        store(ux, t, load(work, 6 * WIDE + t))
+        store(uy, t, load(work, 7 * WIDE + t))
+        store(scale, t, root(load(w, t) / root(load(work, 8 * WIDE + t) * load(work, 8 * WIDE + t) + SOFT)))
+        store(rest, t, load(scale, t) * load(work, 8 * WIDE + t))
+    target_to_curve(bx, by, n, closed, target, target + m, m, 0.0, work)
+    for j in range(0, m, 8):
+        far = load(work, 8 * WIDE + j)
+        store(scale, n + j, root((1.0 / m) / root(far * far + SOFT)))
+        store(rest, n + j, load(scale, n + j) * far)
+    whole, known = dot(rest, rest, rows), 0
+    for p in range(d):
+        before = x[p]
+        x[p] = before + STEP
+        closes = lay(nodes, count, n, closed, x, free, steps, w, gat, yx, yy)
+        x[p] = before
+        if closes > 0.0:
+            one = Q + known * rows
+            column(yx, yy, bx, by, n, closed, m, ux, uy, work, scale, one)
+            if remainder(one, Q, known, rows) > 0.0:
+                known += 1
+    for k in range(known):
+        take_off(rest, dot(rest, Q + k * rows, rows), Q + k * rows, rows)
+    place(nodes, count, n, N, closed, x, X, Y)
+    for k in range(draws):
+        own, xs = made + k * ROWS, numbers + k * NUMBERS
+        joint = drawn_dyad(nodes, count, N, x, X, Y, r + 9 * k, most, at, SLACK * options[0], free, own, xs)
+        if joint < 0:
+            continue
+        size, gain = own[ROWS - 1], 0.0
+        for side in range(2):
+            xs[2 * joint - 4 + side] = STEP
+            closes = lay(own, size, n, closed, xs, free, steps, w, gat, yx, yy)
+            xs[2 * joint - 4 + side] = 0.0
+            if closes > 0.0:
+                one = Q + (known + side) * rows
+                column(yx, yy, bx, by, n, closed, m, ux, uy, work, scale, one)
+                remainder(one, Q, known + side, rows)
+                along = dot(one, rest, rows)
+                gain += along * along
+        counts[k] = size
+        gains[k] = gain / whole
+    return dot(rest, rest, rows) / whole
+
+
+def misses(
+    nodes: Wholes, count: int, n: int, closed: int, x: Reals, target: Reals, m: int, room: Reals, out: Reals
+) -> None:
+    """Vectors (2 m) from the drawn curve's nearest points to the target's points."""
+    s = room + 2 * count * n + 8
+    yx, yy, steps, w, at, work = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE, s + 4 * WIDE, s + 5 * WIDE
+    if lay(nodes, count, n, closed, x, room, steps, w, at, yx, yy) > 0.0:
+        target_to_curve(yx, yy, n, closed, target, target + m, m, 1e-12, work)
+        for j in range(0, m, 8):
+            far = load(work, 8 * WIDE + j)
+            store(out, j, far * load(work, 6 * WIDE + j))
+            store(out, m + j, far * load(work, 7 * WIDE + j))
+
+
+PROMISES = (
+    dot, take_off, lay, misses, column, remainder, first_use, grow, lengths, drawn_dyad, promises,
+)  # fmt: skip
