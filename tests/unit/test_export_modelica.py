@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.drivers.program import ProgramLaw
 from linkwright.errors import LinkwrightError
 from linkwright.export.base import FORMATS
-from linkwright.export.modelica.laws import law_text
+from linkwright.export.modelica.laws import LawText
 from linkwright.export.modelica.names import Names, quoted
 from linkwright.export.results import Results
 
@@ -63,16 +64,15 @@ def test_expressions_keep_their_meaning() -> None:
     law = 'position: "min(abs(0.2 m*sin(t/(1 s))), 0.1 m) + step(t - 1 s)*0.1 m"'
     mechanism = lw.loads(re.sub(r"position: .*?(?=[,}\n])", law, text, count=1))
     (driver,) = mechanism.drivers.values()
-    found = law_text(driver.law, 0.0, 2.0)
+    found = driver.law.modelica(LawText(0.0, 2.0))
     assert "if " in found and "abs(" not in found and "time" in found
 
 
 def test_an_unknown_law_is_refused() -> None:
-    class Other:
-        key = "other"
-
-    with pytest.raises(LinkwrightError, match="'other' cannot be written"):
-        law_text(Other(), 0.0, 1.0)  # type: ignore[arg-type]
+    program = lw.MotionProgram([lw.Segment(1.0, rise=0.1, law="polynomial_345")], period=1.0, closed=False)
+    law = ProgramLaw(program)
+    with pytest.raises(LinkwrightError, match="'program' cannot be written"):
+        law.modelica(LawText(0.0, 1.0))
 
 
 def test_names_are_distinct_identifiers() -> None:

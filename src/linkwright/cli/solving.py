@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -90,7 +89,7 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
 def steady(mechanism: Mechanism) -> bool:
     """Whether inputs say where a position is: all drivers have constant speed."""
     drivers = mechanism.drivers.values()
-    return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
+    return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
 
 
 def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:

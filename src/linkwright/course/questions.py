@@ -16,7 +16,6 @@ from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
 from linkwright.course.variants import Variant, Variants
 from linkwright.drivers.base import Law
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.model.write import to_data
@@ -78,8 +77,9 @@ def data_rows(found: Variants, each: Variant) -> list[tuple[str, str]]:
 
 def _speed(law: Law) -> str:
     """A constant speed as machines state it."""
-    assert isinstance(law, ConstantSpeed)
-    return f"{law.speed / RPM:.6g} rpm" if law.rotary else f"{law.speed:.6g} m/s"
+    speed = law.constant_speed
+    assert speed is not None
+    return f"{speed / RPM:.6g} rpm" if law.rotary else f"{speed:.6g} m/s"
 
 
 def _quantity(key: str, value: float) -> str:

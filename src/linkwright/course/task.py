@@ -9,7 +9,6 @@ from typing import Any
 
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.force_names import carries
@@ -57,7 +56,7 @@ def task(mechanism: Mechanism) -> Task:
             hint = offered(str(key), KEYS)
             raise RequestError(Sentence("course.unknown_key", place=f"course.{key}", name=key, hint=hint))
     drivers = mechanism.drivers.values()
-    if not drivers or not all(isinstance(driver.law, ConstantSpeed) for driver in drivers):
+    if not drivers or not all(driver.law.constant_speed is not None for driver in drivers):
         raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
     driver = next(iter(drivers))
     rotary = mechanism.joints[driver.joint].coordinate == "turn"

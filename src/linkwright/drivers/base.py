@@ -8,12 +8,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from linkwright.export.modelica.laws import LawText
     from linkwright.model.fields import Field
 
     Array = NDArray[np.float64]
@@ -39,6 +42,22 @@ class Law(ABC):
     def span(self) -> tuple[float, float]:
         """First and last time in s at which the law says the coordinate."""
         return -math.inf, math.inf
+
+    @property
+    def constant_speed(self) -> float | None:
+        """The speed of a law q = start + speed t, rad/s or m/s; None for another."""
+        return None
+
+    def time_at(self, coordinate: Array | float) -> Array:
+        """The times (s) at which a law of constant speed has coordinates; 0 where it rests."""
+        import numpy as np
+
+        start, speed = self.coordinate(np.zeros(1))[0][0], self.constant_speed
+        return np.asarray((coordinate - start) / speed if speed else 0.0 * np.asarray(coordinate))
+
+    def modelica(self, write: LawText) -> str:
+        """The coordinate as a Modelica expression of ``time``, of operations that tools can differentiate."""
+        raise LinkwrightError(Sentence("export.no_law", law=self.key))
 
     def dimensions(self) -> Mapping[str, float]:
         """Names of the law's dimensions within the driver (``speed``) with their SI values."""

@@ -12,6 +12,7 @@ from linkwright.model.fields import Field, Quantity
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
+    from linkwright.export.modelica.laws import LawText
 
 
 @LAWS.register("speed")
@@ -27,8 +28,15 @@ class ConstantSpeed(Law):
     start: float = 0.0
     rotary: bool = True
 
+    def modelica(self, write: LawText) -> str:
+        return write.straight(self.start, self.speed)
+
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         return self.start + self.speed * t, self.speed + 0.0 * t, 0.0 * t
+
+    @property
+    def constant_speed(self) -> float:
+        return self.speed
 
     def natural_duration(self) -> float | None:
         return 2 * math.pi / abs(self.speed) if self.rotary and self.speed else None

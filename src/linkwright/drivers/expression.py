@@ -13,6 +13,7 @@ from linkwright.model.fields import Field, Formula
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
+    from linkwright.export.modelica.laws import LawText
 
 
 @LAWS.register("position")
@@ -30,6 +31,9 @@ class ExpressionLaw(Law):
     def _derivatives(self) -> tuple[Expression, Expression, Expression]:
         first = self.expression.diff("t")
         return self.expression, first, first.diff("t")
+
+    def modelica(self, write: LawText) -> str:
+        return write.expression(self)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         values, functions = {**self.parameters, "t": t}, array_functions()

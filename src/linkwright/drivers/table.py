@@ -15,6 +15,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.core.spline import Spline
     from linkwright.drivers.base import Array
+    from linkwright.export.modelica.laws import LawText
 
 
 @LAWS.register("table")
@@ -32,6 +33,9 @@ class TableLaw(Law):
     positions: tuple[float, ...]
     interpolation: str = "cubic"
     rotary: bool = True
+
+    def modelica(self, write: LawText) -> str:
+        return write.pieces(self)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         import numpy as np

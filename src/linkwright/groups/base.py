@@ -22,6 +22,9 @@ from linkwright.units import number
 if TYPE_CHECKING:
     from linkwright.kinematics.groups import GroupTracer
     from linkwright.structure.group import Group
+    from linkwright.worked.book import Spot
+    from linkwright.worked.page import Step
+    from linkwright.worked.places import Places
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,12 @@ class Dyad(Protocol):
 
     def solve(self, a: Chain, b: Chain, mode: Scalar) -> Solved:
         """Positions; ``mode`` is +1 for the first of ``words`` and -1 for the second."""
+        ...
+
+    def work(
+        self, write: Places, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int
+    ) -> None:
+        """Writes the formulas of the positions in worked solutions; a class without it gets the closure's check."""
         ...
 
     def explain(self, facts: Mapping[str, float]) -> str:

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from linkwright.engine.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.structure.group import Group
+    from linkwright.worked.book import Spot
+    from linkwright.worked.page import Step
+    from linkwright.worked.places import Places
 
 
 @DYADS.register("RPP")
@@ -36,3 +43,8 @@ class RPP:
 
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         return Sentence("outcome.rpp_parallel", sine=f"{facts['sine']:.1e}")
+
+    def work(
+        self, write: Places, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int
+    ) -> None:
+        write.slides(step, group, ends, tip, mode, apart=False)

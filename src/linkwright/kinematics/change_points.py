@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.search import ends, lowest
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
@@ -125,7 +124,7 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
     mechanism = solver.mechanism
     step = _step(positions)
     rates = positions.coordinates
-    if any(type(driver.law) is not ConstantSpeed for driver in mechanism.drivers.values()):
+    if any(driver.law.constant_speed is None for driver in mechanism.drivers.values()):
         span = step * (positions.count if positions.closed else positions.count - 1)
         rates = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1)).coordinates
     size = mechanism_size(mechanism)

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
@@ -460,7 +459,7 @@ class _Journey:
 
         checks: Floats = np.zeros(0)
         samples = times * sense
-        if not all(isinstance(law, ConstantSpeed) for law in laws):
+        if not all(law.constant_speed is not None for law in laws):
             checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
             samples = np.concatenate([samples, checks])
         pace = float(np.abs(drive(samples)[1] / follower.unit).max(initial=0.0))

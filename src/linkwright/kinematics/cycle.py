@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drivers.base import Driver
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.whole_turns import whole_turns
 from linkwright.model.mechanism import Mechanism
@@ -111,7 +110,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     rows = {}
     for name, values in given.items():
         driver = _driver(mechanism, name)
-        if not isinstance(driver.law, ConstantSpeed):
+        if driver.law.constant_speed is None:
             raise CycleError(Sentence("motion.own_law", name=name))
         q = np.atleast_1d(np.asarray(values, dtype=float))
         if not np.isfinite(q).all():
@@ -119,9 +118,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
         rows[name] = q
     count = max(len(q) for q in rows.values())
     first, q = next(iter(rows.items()))
-    law = mechanism.drivers[first].law
-    assert isinstance(law, ConstantSpeed)
-    time = np.broadcast_to((q - law.start) / law.speed if law.speed else 0.0 * q, (count,))
+    time = np.broadcast_to(mechanism.drivers[first].law.time_at(q), (count,))
     coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
@@ -158,17 +155,18 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     turns = whole_turns(mechanism, max(known)) if repeats else None
     if cycle.duration is not None:
         return 0.0, cycle.duration, turns is not None and _multiple(cycle.duration, max(known) * turns)
-    if not isinstance(first.law, ConstantSpeed) or not first.law.speed:
+    speed = first.law.constant_speed
+    if not speed:
         raise CycleError(Sentence("motion.cycle_by_coordinate", name=first.name))
     if cycle.turns is not None:
         return (
             0.0,
-            cycle.turns * 2 * np.pi / abs(first.law.speed),
+            cycle.turns * 2 * np.pi / abs(speed),
             turns is not None and _multiple(cycle.turns, turns),
         )
-    begin, end = cycle.start if cycle.start is not None else first.law.start, cycle.end
-    assert end is not None
-    return (begin - first.law.start) / first.law.speed, (end - begin) / first.law.speed, False
+    begin = float(first.law.coordinate(np.zeros(1))[0][0]) if cycle.start is None else cycle.start
+    assert cycle.end is not None
+    return float(first.law.time_at(begin)), (cycle.end - begin) / speed, False
 
 
 def cycle_turns(mechanism: Mechanism, period: float) -> tuple[int, str]:

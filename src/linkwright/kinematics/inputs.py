@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.drivers.base import Driver
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.trace import Scalar, Trace
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.dimensions import Dimensions
@@ -27,7 +26,7 @@ def driver_input(driver: Driver, dimensions: Dimensions) -> DriverInput:
     A constant speed is a dimension of the design, its rate needs no input per position.
     """
     trace = dimensions.trace
-    if isinstance(driver.law, ConstantSpeed):
+    if driver.law.constant_speed is not None:
         rate: Scalar = trace.parameter(f"{driver.name}.speed")
         second: Scalar = 0.0
     else:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.change_points import notes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times, time_span
 from linkwright.kinematics.solver import MotionSolver
@@ -23,7 +22,7 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
     other sign.
     """
     drivers = list(solver.mechanism.drivers.values())
-    if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed) or solver.motion.next_states:
+    if len(drivers) != 1 or drivers[0].law.constant_speed is None or solver.motion.next_states:
         return {}, ()
     duration = drivers[0].law.natural_duration()
     if duration is None:

@@ -9,7 +9,6 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError, RequestError
@@ -178,7 +177,7 @@ class Named:
         trace = self.motion.motion.trace
         seeds: dict[Value, Scalar] = {}
         for driver in self.mechanism.drivers.values():
-            if not isinstance(driver.law, ConstantSpeed):
+            if driver.law.constant_speed is None:
                 raise RequestError(Sentence("study.no_jerk", name=name, driver=driver.name))
             given = self.motion.motion.drivers[driver.name]
             if given.turn is None:

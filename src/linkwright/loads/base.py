@@ -36,12 +36,17 @@ from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
+    from linkwright.kinematics.motion import Motion
     from linkwright.loads.along_input import Course
+    from linkwright.loads.marks import Mark
     from linkwright.loads.signals import Array, Signals
     from linkwright.loads.site import Site, Wrench
     from linkwright.model.nodes import Node
     from linkwright.model.plain_reader import Place
     from linkwright.model.reader import Reader
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Pair, Term
 
 __all__ = [
     "AT_REST",
@@ -113,6 +118,28 @@ class Load:
 
     def traced(self, course: Course) -> Scalar | None:
         """The same as a traced value; None for kinds without ``from_cycle``, and for those that do not trace it."""
+        return None
+
+    @property
+    def twist(self) -> tuple[tuple[str, str], float] | None:
+        """Links whose angle with turns the load takes, and the angle (rad) near which that begins."""
+        return None
+
+    @property
+    def turns_with(self) -> str | None:
+        """The link with which the direction of the load's force turns."""
+        return None
+
+    def mark(self, motion: Motion, index: int) -> Mark | None:
+        """What drawings show at a position; None: the symbol of the kind between or at the points it names."""
+        return None
+
+    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+        """The formula of the force (N, frame axes) on a link in worked solutions; None: magnitude and direction."""
+        return None
+
+    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
+        """The formula of the couple (N·m) on a link; None: its number."""
         return None
 
     @classmethod

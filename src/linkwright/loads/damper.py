@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import select
 from linkwright.engine.vector import choose
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
+
+if TYPE_CHECKING:
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Pair
 
 
 @LOADS.register("damper")
@@ -44,3 +49,6 @@ class Damper(Load):
         along = between * (between.dot(parting) / select(apart, square, 1.0))
         pull = choose(apart, along, parting) * site.dimension("damping")
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
+
+    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+        return write.damper(step, self, link)

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
 from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
+from linkwright.loads.marks import Push, sign_of
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
 
 
 @LOADS.register("force")
@@ -92,6 +97,37 @@ class Force(Load):
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / sqrt(ray.square))
         return unit.perp if self.normal_to else unit
+
+    @property
+    def turns_with(self) -> str | None:
+        return self.on if self.normal_to or self.along or self.in_link is not None else None
+
+    def mark(self, motion: Motion, index: int) -> Push:
+        angle = self._angle(motion, index)
+        return Push(self.on, self.at, angle if sign_of(self) >= 0 else angle + math.pi)
+
+    def _angle(self, motion: Motion, index: int) -> float:
+        """Direction at a position in frame axes, rad."""
+        if self.direction is not None:
+            return self.direction
+        if self.opposes is not None:
+            return self._against_velocity(motion, index)
+        if self.components is not None:
+            return math.atan2(self.components[1], self.components[0])
+        turn = math.atan2(*motion.link(self.on).direction[index][::-1])
+        ray = self.normal_to or self.along
+        if ray is None:
+            return turn + (self.in_link or 0.0)
+        (px, py), (qx, qy) = (motion.mechanism.link(self.on).points[name] for name in ray)
+        return turn + math.atan2(qy - py, qx - px) + (math.pi / 2 if self.normal_to else 0.0)
+
+    def _against_velocity(self, motion: Motion, index: int) -> float:
+        """Against the velocity of the point; at rest against the motion that begins there."""
+        point = motion.point(f"{self.on}.{self.at}")
+        vx, vy = point.velocity[index]
+        if math.hypot(vx, vy) <= AT_REST:
+            vx, vy = point.acceleration[index]
+        return math.atan2(-vy, -vx)
 
 
 def _against(velocity: Vec) -> Vec:

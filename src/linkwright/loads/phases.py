@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
 from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
 from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, Phase, SwingPhase
@@ -244,12 +243,12 @@ def _times_of_inputs(inputs: Array, signals: Signals) -> Array | None:
     """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
     is no constant speed."""
     law = next(iter(signals.mechanism.drivers.values())).law
-    if not isinstance(law, ConstantSpeed) or not law.speed:
+    if not law.constant_speed:
         return None
-    times = (inputs - law.start) / law.speed
+    times = law.time_at(inputs)
     if not signals.rotary:
         return np.asarray(times)
-    turn = TURN / abs(law.speed)
+    turn = TURN / abs(law.constant_speed)
     laps = np.arange(np.ceil(np.ptp(signals.time) / turn) + 2) - 1
     first = signals.time.min() + (times - signals.time.min()) % turn
     return np.asarray((first[:, None] + laps * turn).ravel())

@@ -5,13 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Phase, Table
+from linkwright.loads.marks import Press, sign_of
 from linkwright.loads.site import Site, Wrench, guide_and_block
 from linkwright.model.expressions import Expression
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Pair
 
 
 @LOADS.register("pressure")
@@ -64,3 +71,9 @@ class Pressure(Load):
             return site.dimension("area")
         bore = site.dimension("bore")
         return 0.25 * math.pi * (bore * bore)
+
+    def mark(self, motion: Motion, index: int) -> Press:
+        return Press(self.joint, (sign_of(self) or 1) * (-1 if self.pushes == "backward" else 1))
+
+    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+        return write.pressure(step, self, link, force)

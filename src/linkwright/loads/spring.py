@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import select, sqrt
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
+
+if TYPE_CHECKING:
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Pair
 
 
 @LOADS.register("spring")
@@ -50,3 +55,6 @@ class Spring(Load):
         inverse = select(apart, 1.0 / sqrt(select(apart, square, 1.0)), 0.0)
         pull = between * stiffness + between * (steady * inverse)
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
+
+    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+        return write.spring(step, self, link)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import select
 from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
+from linkwright.loads.marks import Turn, sign_of
 from linkwright.loads.site import Site, Wrench
 from linkwright.model.expressions import Expression
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
 
 
 @LOADS.register("torque")
@@ -59,3 +63,13 @@ class Torque(Load):
             omega = site.omega(self.on) - site.omega(self.against)
             moment = moment * select(omega > AT_REST, -1.0, select(omega < -AT_REST, 1.0, 0.0))
         return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]
+
+    def mark(self, motion: Motion, index: int) -> Turn:
+        sense = sign_of(self)
+        if self.opposes is not None:
+            omega = (
+                motion.link(self.on).angular_velocity[index]
+                - motion.link(self.against).angular_velocity[index]
+            )
+            sense *= 0 if abs(omega) <= AT_REST else -1 if omega > 0 else 1
+        return Turn(self.on, sense)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Site, Wrench
+
+if TYPE_CHECKING:
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Term
 
 
 @LOADS.register("torsion_damper")
@@ -27,3 +32,6 @@ class TorsionDamper(Load):
         a, b = self.links
         moment = site.dimension("damping") * (site.omega(b) - site.omega(a))
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
+
+    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
+        return write.torsion_damper(step, self, link, torque)

@@ -13,6 +13,9 @@ from linkwright.loads.site import Site, Wrench
 
 if TYPE_CHECKING:
     from linkwright.loads.along_input import Course
+    from linkwright.worked.load_formulas import LoadFormulas
+    from linkwright.worked.page import Step
+    from linkwright.worked.terms import Term
 
 
 @LOADS.register("torsion_spring")
@@ -36,6 +39,10 @@ class TorsionSpring(Load):
     )
     preload: float = base.quantity("torque", default=0.0, doc="torque at the free angle (default 0)")
 
+    @property
+    def twist(self) -> tuple[tuple[str, str], float]:
+        return self.links, self.free_angle
+
     def from_cycle(self, signals: Signals) -> Array:
         """Angle φ of link b against link a, (n,) rad."""
         return signals.angle_between(*self.links, near=self.free_angle)
@@ -49,3 +56,6 @@ class TorsionSpring(Load):
         twist = site.magnitude() - site.dimension("free_angle")
         moment = site.dimension("preload") + site.dimension("stiffness") * twist
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
+
+    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
+        return write.torsion_spring(step, self, link, torque)

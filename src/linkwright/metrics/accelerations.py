@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.metrics.outputs import free_points
@@ -48,4 +47,4 @@ class PeakJerk(PeakAcceleration):
 
     def suits(self, analysis: Analysis) -> bool:
         drivers = analysis.motion.mechanism.drivers.values()
-        return super().suits(analysis) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
+        return super().suits(analysis) and all(driver.law.constant_speed is not None for driver in drivers)

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.model.fields import Field, Quantity
 from linkwright.model.mechanism import Cycle
 from linkwright.model.nodes import Mapping as MappingNode
@@ -220,7 +219,7 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
 
 def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
     word = "turns" if "turns" in given else Sentence("model.from_and_to")
-    if not isinstance(law, ConstantSpeed):
+    if law.constant_speed is None:
         reader.error(
             node,
             "cycle",
@@ -228,7 +227,7 @@ def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: La
             Sentence("model.give_duration"),
             "choice",
         )
-    elif law.speed == 0:
+    elif law.constant_speed == 0:
         reader.error(
             node, "cycle", Sentence("model.needs_speed", word=word), Sentence("model.give_duration"), "choice"
         )
@@ -236,7 +235,7 @@ def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: La
         reader.error(
             node, "cycle", Sentence("model.does_not_turn"), Sentence("model.give_duration_or"), "choice"
         )
-    elif "from" in given and (given["to"] - given["from"]) * law.speed <= 0:
+    elif "from" in given and (given["to"] - given["from"]) * law.constant_speed <= 0:
         reader.error(
             node,
             "cycle",

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
@@ -128,12 +127,12 @@ def _positions(programs: PagePrograms) -> Plain:
         *modes,
         *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn")),
     }
-    if len(drivers) == 1 and isinstance(drivers[0].law, ConstantSpeed) and followed.issuperset(arrays):
+    if len(drivers) == 1 and drivers[0].law.constant_speed is not None and followed.issuperset(arrays):
         q = positions.coordinates[name][0]
         step = float(q[1] - q[0]) if len(q) > 1 else 0.0
         found["steady"] = {
             "driver": name, "turns": positions.rotary[name], "start": float(q[0]), "step": step,
-            "speed": drivers[0].law.speed, "begin": float(positions.time[0]),
+            "speed": drivers[0].law.constant_speed, "begin": float(positions.time[0]),
         }  # fmt: skip
         arrays = {each: row for each, row in arrays.items() if each in modes}
     found["time"] = None if found["steady"] else _packed(positions.time)

@@ -19,6 +19,7 @@ import numpy as np
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
+from linkwright.loads.marks import Turn
 from linkwright.model.mechanism import Link
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
@@ -267,7 +268,7 @@ def _shifted(shape: Shape, at: Vec) -> Shape:
 
 def _load(machine: Machine, load: Load) -> Iterator[Plain]:
     ends = [key_of(machine, each.link, each.point) for each in named_points(machine, load)]
-    if load.kind in ("spring", "damper") and len(ends) == _LENGTHS:
+    if load.kind in SYMBOLS and len(ends) == _LENGTHS:
         yield {"kind": load.kind, "layer": "bodies", "points": ends}
     elif load.kind in SYMBOLS and ends:
         yield _stamp("marks", ends[0], 0.0, SYMBOLS[load.kind]())
@@ -275,7 +276,7 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
         pin = _common_pin(machine, load)
         if pin is not None:
             yield _stamp("marks", pin, 0.0, SYMBOLS[load.kind]())
-    elif load.kind != "torque":
+    elif not isinstance(load.mark(machine.motion, 0), Turn):
         yield {"kind": "load", "layer": "marks", "load": load.name}
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
@@ -126,9 +125,10 @@ def _turns(page: PagePrograms, link: str) -> bool:
 def _one_steady_turn(page: PagePrograms) -> bool:
     """Whether the only driver turns once, steadily, in a closed cycle."""
     drivers = list(page.mechanism.drivers.values())
-    if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed) or not page.motion.positions.closed:
+    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
+    if speed is None or not page.motion.positions.closed:
         return False
-    span = abs(drivers[0].law.speed) * (page.motion.positions.period or 0.0)
+    span = abs(speed) * (page.motion.positions.period or 0.0)
     return page.motion.positions.rotary[drivers[0].name] and abs(span - 6.283185307179586) < 1e-9
 
 

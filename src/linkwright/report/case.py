@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats, at_inputs
 from linkwright.kinematics.limits import LimitPosition
@@ -119,7 +118,7 @@ class Case:
     def steady(self) -> bool:
         """Whether inputs say where a position is; else the drivers follow laws in time."""
         drivers = self.mechanism.drivers.values()
-        return bool(drivers) and all(isinstance(driver.law, ConstantSpeed) for driver in drivers)
+        return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
 
     @cached_property
     def moment(self) -> float:

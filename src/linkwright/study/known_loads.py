@@ -23,7 +23,6 @@ from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.loads.along_input import outputs_of
 from linkwright.loads.base import Load
 from linkwright.loads.phases import activity
-from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import InputPhase
 from linkwright.study.limit_stages import constants
@@ -122,8 +121,9 @@ def _middles(mechanism: Mechanism, loads: Iterable[Load], signals: MotionSignals
         for output in outputs_of(load, mechanism):
             if output.kind == "angle":
                 found[middle_name("frame", output.owner)] = signals.output(output)[0]
-        if isinstance(load, TorsionSpring):
-            found[middle_name(*load.links)] = signals.angle_between(*load.links, load.free_angle)
+        if load.twist is not None:
+            links, near = load.twist
+            found[middle_name(*links)] = signals.angle_between(*links, near)
     return found
 
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
@@ -22,7 +21,6 @@ from linkwright.loads.along_input import followed, magnitude, outputs_of
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators
 from linkwright.loads.phases import TURN
-from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.model.expressions import Expression
 from linkwright.model.signal_fields import MovingPhase, Output, SwingPhase
 from linkwright.study.limit_stages import constants, limit_stages
@@ -152,8 +150,8 @@ def _middles(traced: Traced, loads: Iterable[Load]) -> dict[str, float] | None:
         for output in outputs_of(load, traced.mechanism):
             if output.kind == "angle":
                 pairs["frame", output.owner] = None
-        if isinstance(load, TorsionSpring):
-            pairs[load.links] = load.free_angle
+        if load.twist is not None:
+            pairs[load.twist[0]] = load.twist[1]
     found = {}
     signals = MotionSignals(traced.nominal) if pairs else None
     for (a, b), near in pairs.items():
@@ -190,8 +188,9 @@ def loaded_cycle(
 def one_turn(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether the cycle is one closed turn of the only driver, of constant speed, whatever varies."""
     drivers = list(traced.mechanism.drivers.values())
-    if len(drivers) != 1 or not isinstance(drivers[0].law, ConstantSpeed):
+    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
+    if speed is None:
         return False
-    span = abs(drivers[0].law.speed) * (traced.positions.period or 0.0)
+    span = abs(speed) * (traced.positions.period or 0.0)
     turns = traced.positions.closed and traced.positions.rotary[drivers[0].name]
     return turns and abs(span - TURN) <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.model.mechanism import Mechanism
 from linkwright.study.alternatives import Alternative
 from linkwright.words.sentence import Sentence
@@ -58,7 +57,7 @@ def _speeds(mechanism: Mechanism) -> tuple[str, ...]:
     """Sizes of the drivers' constant speeds."""
     laws = (driver.law for driver in mechanism.drivers.values())
     return tuple(
-        f"{abs(law.speed):.6g} {'rad/s' if law.rotary else 'm/s'}"
+        f"{abs(law.constant_speed):.6g} {'rad/s' if law.rotary else 'm/s'}"
         for law in laws
-        if isinstance(law, ConstantSpeed)
+        if law.constant_speed is not None
     )

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.model.mechanism import Mechanism
@@ -88,7 +87,7 @@ def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:
         return False
     for name, rows in a.coordinates.items():
         q, other = rows[0], b.coordinates[name][0]
-        if not isinstance(mechanism.drivers[name].law, ConstantSpeed):
+        if mechanism.drivers[name].law.constant_speed is None:
             if not all(map(np.array_equal, rows, b.coordinates[name])):
                 return False
             continue

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
@@ -100,7 +99,7 @@ class Book:
             for driver in self.mechanism.drivers.values():
                 turning = self.mechanism.joints[driver.joint].coordinate == "turn"
                 ends = {driver.link, driver.relative_to}
-                if turning and isinstance(driver.law, ConstantSpeed) and found & ends:
+                if turning and driver.law.constant_speed is not None and found & ends:
                     found |= ends
             for joint in self.mechanism.joints.values():
                 found |= _followers(joint, found)

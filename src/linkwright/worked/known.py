@@ -11,8 +11,6 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
 from linkwright.kinetostatics.forces import Forces
-from linkwright.loads.force import Force
-from linkwright.loads.pressure import Pressure
 from linkwright.worked.book import Book, Spot, tex
 from linkwright.worked.load_formulas import LoadFormulas
 from linkwright.worked.page import Step
@@ -114,7 +112,8 @@ class KnownForces:
 
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
         couple = symbol(f"M_{label}", f"M_{{{tex(label)}}}", torque)
-        formula = self.formulas.couple(step, self.book.mechanism.loads.get(name), link, torque)
+        load = self.book.mechanism.loads.get(name)
+        formula = None if load is None else load.worked_couple(self.formulas, step, link, torque)
         if formula is None:
             return step.give(couple, "N·m")
         if formula.op == "symbol" and formula.plain == couple.plain:
@@ -146,13 +145,7 @@ class KnownForces:
     def _formula(self, step: Step, name: str, label: str, link: str, force: complex) -> Pair:
         """Components of a load: from the formula of its kind, or from magnitude and direction."""
         load = self.book.mechanism.loads.get(name)
-        if isinstance(load, Pressure):
-            along = self.book.slide(load.joint).along
-            held = self.book.mechanism.guides[load.joint]
-            push = force.real * along.x.value + force.imag * along.y.value
-            forward = (link == held.block) == (load.pushes == "forward")
-            self.formulas.press(step, load, push if forward else -push)
-        found = self.formulas.force(step, load, link)
+        found = None if load is None else load.worked_force(self.formulas, step, link, force)
         if found is not None:
             return found
         size = step.give(symbol(f"F_{label}", f"F_{{{tex(label)}}}", abs(force)), "N")
@@ -164,7 +157,7 @@ class KnownForces:
     def _direction(self, step: Step, name: str, link: str, angle: Term) -> None:
         """The angle of a load; for one normal to a line of its link, from the angle of the link."""
         load = self.book.mechanism.loads.get(name)
-        if isinstance(load, Force) and getattr(load, "normal_to", None) is not None and link == load.on:
+        if load is not None and link == load.turns_with:
             lean = angle.amount - self.book.turn(link).amount
             own = self.book.degrees(math.radians((lean + 180.0) % 360.0 - 180.0))
             formula = self.book.turn(link) + own

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 
-from linkwright.groups.rpp import RPP
-from linkwright.groups.rpr import RPR
-from linkwright.groups.rrp import RRP
-from linkwright.groups.rrr import RRR
+from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.book import Book, Slide, Spot, tex
@@ -103,7 +100,7 @@ class Places:
             if joint.slides and joint.driver is not None:
                 self.displacement(step, self.book.slide(joint.joint), self.book.drive(joint.driver)[0])
         shape = dyad_shape(group) if group.unknowns else None
-        if shape is not None and self._plain(group, shape[1]):
+        if shape is not None and hasattr(shape[0], "work") and self._plain(group, shape[1]):
             self._dyad(step, group, *shape)
         elif group.unknowns and not in_one_step(group):
             self._newton(step, group)
@@ -124,18 +121,11 @@ class Places:
     def _steps(self, group: Group, end: str) -> list[TreeJoint]:
         return list(reversed(list(group.path(end))))
 
-    def _dyad(self, step: Step, group: Group, dyad: object, ends: tuple[str, str]) -> None:
+    def _dyad(self, step: Step, group: Group, dyad: Dyad, ends: tuple[str, str]) -> None:
         cut = group.cuts[0]
         tip = self.book.spot(cut.a, cut.joint)
         mode = self.mode(group)
-        if isinstance(dyad, RRR):
-            self._rrr(step, group, ends, tip, mode)
-        elif isinstance(dyad, RRP):
-            self._rrp(step, group, ends, tip, mode)
-        elif isinstance(dyad, RPR):
-            self._rpr(step, group, ends, tip, mode)
-        else:
-            self._slides(step, group, ends, tip, apart=not isinstance(dyad, RPP))
+        dyad.work(self, step, group, ends, tip, mode)
 
     def mode(self, group: Group) -> int:
         """+1 or -1: the assembly mode in this position."""
@@ -183,7 +173,7 @@ class Places:
         square = named.x.squared + named.y.squared
         return named, step.find(symbol("d²", "d^2", square.value), square, "m²")
 
-    def _rrr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+    def rrr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
         (p, first, way_1), (q, second, way_2) = (self._arm(step, group, end, tip) for end in ends)
         r1, lean_1 = self._length(step, p, tip, way_1.reach)
         r2, lean_2 = self._length(step, q, tip, way_2.reach)
@@ -232,7 +222,7 @@ class Places:
         step.find(zero.y, base.place.y + way.reach.y, "m")
         return zero, way
 
-    def _rrp(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+    def rrp(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
         p, joint, way_1 = self._arm(step, group, ends[0], tip)
         r, lean = self._length(step, p, tip, way_1.reach)
         zero, way = self._frame_chain(step, group, ends[1], tip, f"{tip.label}0")
@@ -251,7 +241,7 @@ class Places:
         arm = tip.place - p.place
         self.angle(step, joint.child, direction(arm.y, arm.x) - lean)
 
-    def _rpr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
+    def rpr(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int) -> None:
         p, joint, way = self._arm(step, group, ends[0], tip)
         guide, m, heading = way.slides[0]
         aside, ahead = m.cross(way.reach), m.dot(way.reach)
@@ -268,7 +258,9 @@ class Places:
         ny = step.find(symbol("n_y", "n_y", sine_is.value), sine_is, "")
         self.angle(step, joint.child, direction(ny, nx) - heading)
 
-    def _slides(self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, *, apart: bool) -> None:
+    def slides(
+        self, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int, *, apart: bool
+    ) -> None:
         """PRP (a slide in each chain) and RPP (both in one)."""
         zero_1, way_1 = self._frame_chain(step, group, ends[0], tip, f"{tip.label}1")
         zero_2, way_2 = self._frame_chain(step, group, ends[1], tip, f"{tip.label}2")

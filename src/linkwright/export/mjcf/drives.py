@@ -6,7 +6,6 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.export.mjcf.bodies import HEAVY, Bodies
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
@@ -43,7 +42,7 @@ def actuators(results: Results, bodies: Bodies, step: float) -> ET.Element:
             "biastype": "affine",
             "biasprm": numbers([0.0, -stiffness, 0.0]),
         }
-        if isinstance(driver.law, ConstantSpeed):
+        if driver.law.constant_speed is not None:
             gains["dyntype"] = "integrator"
         ET.SubElement(found, "general", {"name": name, "joint": bodies.joint_of[name], **gains})
         damping = numbers([2 * inertia * SERVO / step])
@@ -56,7 +55,7 @@ def laws(results: Results) -> ET.Element:
     custom = ET.Element("custom")
     time = np.linspace(float(results.motion.time.min()), float(results.motion.time.max()), SAMPLES)
     for name, driver in results.mechanism.drivers.items():
-        if not isinstance(driver.law, ConstantSpeed):
+        if driver.law.constant_speed is None:
             position, rate, _ = driver.law.coordinate(time)
             for kind, values in (("time", time), ("position", position), ("rate", rate)):
                 ET.SubElement(custom, "numeric", name=f"{name}.{kind}", data=numbers(values))
@@ -69,7 +68,7 @@ def key(results: Results, bodies: Bodies, index: int) -> ET.Element:
     states, controls = [], []
     for name, driver in results.mechanism.drivers.items():
         position, rate, _ = (values[index] for values in coordinates[name])
-        steady = isinstance(driver.law, ConstantSpeed)
+        steady = driver.law.constant_speed is not None
         states += [position] if steady else []
         controls += [rate if steady else position, rate]
     frame = ET.Element("keyframe")

@@ -2,34 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import assert_never
 
 import numpy as np
 
-from linkwright.drivers.base import Law
-from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.expression import ExpressionLaw
 from linkwright.drivers.table import TableLaw
-from linkwright.errors import LinkwrightError
 from linkwright.export.modelica.names import number
 from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, Variable
-from linkwright.words.sentence import Sentence
 
 
-def law_text(law: Law, begin: float, end: float) -> str:
-    """The law's coordinate between two times, in terms of ``time``, of operations that tools can differentiate.
+@dataclass(frozen=True)
+class LawText:
+    """Writes laws between two times, s, in terms of ``time``."""
 
-    Raises LinkwrightError for a kind of law that Modelica text is not written for.
-    """
-    match law:
-        case ConstantSpeed():
-            return f"{number(law.start)} + ({number(law.speed)})*time"
-        case ExpressionLaw():
-            values = {name: number(value) for name, value in law.parameters.items()}
-            return formula(law.expression.tree, {**values, "t": "time"})
-        case TableLaw():
-            return _pieces(law, begin, end)
-    raise LinkwrightError(Sentence("export.no_law", law=law.key))
+    begin: float
+    end: float
+
+    def straight(self, start: float, speed: float) -> str:
+        """start + speed t."""
+        return f"{number(start)} + ({number(speed)})*time"
+
+    def expression(self, law: ExpressionLaw) -> str:
+        """An expression of t and of parameters, which are put in."""
+        values = {name: number(value) for name, value in law.parameters.items()}
+        return formula(law.expression.tree, {**values, "t": "time"})
+
+    def pieces(self, law: TableLaw) -> str:
+        """The table's cubic or straight pieces."""
+        return _pieces(law, self.begin, self.end)
 
 
 def formula(node: Node, names: dict[str, str]) -> str:

@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.loads.base import AT_REST, LinkPoint, Load
-from linkwright.loads.force import Force
-from linkwright.loads.pressure import Pressure
-from linkwright.loads.torque import Torque
+from linkwright.loads.base import LinkPoint, Load
+from linkwright.loads.marks import Press, Push, Turn
 from linkwright.model.reference_fields import JointName, PointName
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import Label
@@ -31,13 +29,17 @@ def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
 
 def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
     """The symbol of one load: of forces and torques an arrow, else the one of its kind or the general one."""
-    if isinstance(load, Torque):
-        at = _middle(machine, load.on, index)
-        return SYMBOLS["moment"](at=at, turning=_sign(load), style="lw-load") if forces else EMPTY
-    if isinstance(load, Force):
-        return _push(machine, load, index) if forces else EMPTY
-    if isinstance(load, Pressure):
-        return _pressed(machine, load, index) if forces else EMPTY
+    shown = load.mark(machine.motion, index)
+    if shown is not None and not forces:
+        return EMPTY
+    match shown:
+        case Turn():
+            at = _middle(machine, shown.link, index)
+            return SYMBOLS["moment"](at=at, turning=shown.sense, style="lw-load")
+        case Push():
+            return _push(machine, shown, index)
+        case Press():
+            return _pressed(machine, shown, index)
     return _held(machine, load, index) + anchors(machine, load, index)
 
 
@@ -81,7 +83,7 @@ def load_labels(machine: Machine, index: int, *, forces: bool = True) -> list[La
     """Names of the loads that push, and of those that have the general symbol."""
     found = []
     for name, load in machine.motion.mechanism.loads.items():
-        pushes = isinstance(load, Torque | Force | Pressure)
+        pushes = load.mark(machine.motion, index) is not None
         shape = mark(machine, load, index, forces)
         if shape.ink and (pushes or load.kind not in SYMBOLS):
             line = shape.ink[0]
@@ -116,28 +118,28 @@ def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int)
     )
 
 
-def _push(machine: Machine, load: Force, index: int) -> Shape:
+def _push(machine: Machine, push: Push, index: int) -> Shape:
     """An arrow whose point is where the force acts."""
-    way = push_direction(machine, load, index)
-    x, y = machine.paper(load.on, load.at, index)
-    on_block = any(j.block == load.on and j.at == load.at for j in machine.guides.values())
+    way = (math.cos(push.angle), -math.sin(push.angle))
+    x, y = machine.paper(push.link, push.at, index)
+    on_block = any(j.block == push.link and j.at == push.at for j in machine.guides.values())
     gap = BLOCK_GAP if on_block else GAP
     tip = (x - gap * way[0], y - gap * way[1])
     return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
 
 
-def _pressed(machine: Machine, load: Pressure, index: int) -> Shape:
+def _pressed(machine: Machine, press: Press, index: int) -> Shape:
     """Arrows on the face of the block on which a pressure pushes; one arrow at the end of a cylinder's rod."""
-    joint = machine.guides[load.joint]
+    joint = machine.guides[press.joint]
     c, s = machine.placed[joint.guide].direction[index]
     angle = math.atan2(s, c) + joint.angle_of_guide(machine.motion.mechanism)
     along = (math.cos(angle), -math.sin(angle))
-    sign = (_sign(load) or 1) * (-1 if load.pushes == "backward" else 1)
+    sign = press.sense
     way = (sign * along[0], sign * along[1])
     x, y = machine.paper(joint.block, joint.at, index)
-    if is_cylinder(machine, load.joint):
+    if is_cylinder(machine, press.joint):
         return SYMBOLS["arrow"](start=(x - PUSH * way[0], y - PUSH * way[1]), end=(x, y), style="lw-load")
-    shift = clear_shift(machine, load.joint, joint) - sign * LENGTH / 2
+    shift = clear_shift(machine, press.joint, joint) - sign * LENGTH / 2
     face = (x + shift * along[0], y + shift * along[1])
     return SYMBOLS["pressure"](at=face, along=way, height=HEIGHT)
 
@@ -146,56 +148,12 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Ele
     """Springs and dampers that follow their ends over the frames."""
     found: list[Element] = []
     for load in scene.machine.motion.mechanism.loads.values():
-        if isinstance(load, Torque | Force | Pressure):
+        if load.mark(scene.machine.motion, run[0]) is not None:
             continue
         shapes = [_held(scene.machine, load, index).ink for index in run]
         found += anchors(scene.machine, load, run[0]).elements
         found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
     return found
-
-
-def push_direction(machine: Machine, load: Force, index: int) -> Vec:
-    """Direction on the paper in which a force pushes."""
-    c, s = machine.placed[load.on].direction[index]
-    if load.direction is not None:
-        angle = load.direction
-    elif load.opposes is not None:
-        angle = _against_velocity(machine, load, index)
-    elif load.components is not None:
-        angle = math.atan2(load.components[1], load.components[0])
-    elif ray := load.normal_to or load.along:
-        (px, py), (qx, qy) = (machine.motion.mechanism.link(load.on).points[name] for name in ray)
-        angle = math.atan2(s, c) + math.atan2(qy - py, qx - px) + (math.pi / 2 if load.normal_to else 0.0)
-    else:
-        angle = math.atan2(s, c) + (load.in_link or 0.0)
-    sign = _sign(load) or 1
-    return sign * math.cos(angle), -sign * math.sin(angle)
-
-
-def _against_velocity(machine: Machine, load: Force, index: int) -> float:
-    """Angle against the velocity of the point; at rest against the motion that begins there."""
-    point = machine.motion.point(f"{load.on}.{load.at}")
-    vx, vy = point.velocity[index]
-    if math.hypot(vx, vy) <= AT_REST:
-        vx, vy = point.acceleration[index]
-    return math.atan2(-vy, -vx)
-
-
-def _against_rotation(machine: Machine, load: Torque, index: int) -> int:
-    """Sign of a torque against the rotation of its link relative to the other; 0 at rest."""
-    omega = machine.motion.link(load.on).angular_velocity[index]
-    if load.against != "frame":
-        omega = omega - machine.motion.link(load.against).angular_velocity[index]
-    return 0 if abs(omega) <= AT_REST else -1 if omega > 0 else 1
-
-
-def _sign(load: Load) -> int:
-    """+1 or -1 for a magnitude that is a number, 0 for one that is not known beforehand."""
-    magnitude = getattr(load, "magnitude", None)
-    if isinstance(magnitude, float | int):
-        return -1 if magnitude < 0 else 1
-    ramp = getattr(load, "ramp", None)
-    return 0 if ramp is None else (-1 if sum(ramp) < 0 else 1)
 
 
 def _common_pin(machine: Machine, links: tuple[str, str], index: int) -> Vec | None:
