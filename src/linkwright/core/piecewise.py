@@ -117,10 +117,13 @@ class Piecewise:
 
     def part(self, low: float, high: float) -> Piecewise:
         """The same function between two places inside the outer edges."""
-        edges = np.unique(
-            np.concatenate([[low], self.edges[(self.edges > low) & (self.edges < high)], [high]])
-        )
-        return Piecewise(edges, self(nodes(edges).ravel()).reshape(-1, POINTS), tolerance=self.tolerance)
+        first = int(np.searchsorted(self.edges, low, "right")) - 1
+        last = int(np.searchsorted(self.edges, high, "left"))
+        edges, values = self.edges[first : last + 1].copy(), self.values[first:last].copy()
+        edges[0], edges[-1] = low, high
+        for cut in {0, last - first - 1}:
+            values[cut] = self(nodes(edges[cut : cut + 2])[0])
+        return Piecewise(edges, values, tolerance=self.tolerance)
 
     # integral -----------------------------------------------------------------------------
     @property

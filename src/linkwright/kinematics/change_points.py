@@ -104,6 +104,29 @@ def passages(solver: MotionSolver, positions: Positions, followed: Followed | No
     return _Search(solver, divided, followed, count).found_between()
 
 
+def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
+    """Names of the outputs that show where :func:`passages` may find something; None where these do not tell."""
+    placed = solver.motion.placed
+    if (
+        not is_way(positions)
+        or parts(solver, positions) > 1
+        or any("sine" in p.facts for p in placed.values())
+    ):
+        return None
+    return tuple(name for group in modal(solver) for name in _measures(solver, group))
+
+
+def nothing_passed(names: tuple[str, ...], rows: Floats) -> bool:
+    """Whether these outputs, (names, n), stay so far from zero that nothing can lie between two positions."""
+    for name, row in zip(names, rows, strict=True):
+        least = (
+            NEAR * row.max() if name.startswith("fact:") else max(NEAR, np.abs(row - np.roll(row, 1)).max())
+        )
+        if not row.min() > least:
+            return False
+    return True
+
+
 def nearness(solver: MotionSolver) -> Scalar:
     """How near the dyads are to what :func:`passages` finds, traced: the least quality, or squared distance of outer
     pins over the size. Above :data:`NEAR` and what it changes by in one step nothing lies between two positions."""
@@ -180,6 +203,11 @@ def modal(solver: MotionSolver) -> list[str]:
     return [name for name, p in placed.items() if p.dyad is not None and p.dyad.words[0]]
 
 
+def _measures(solver: MotionSolver, group: str) -> list[str]:
+    facts = solver.motion.placed[group].facts
+    return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
+
+
 class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
@@ -199,7 +227,7 @@ class _Search:
 
     def found(self) -> list[Passage]:
         groups = modal(self.base)
-        names = tuple(name for group in groups for name in self._measures(group))
+        names = tuple(name for group in groups for name in _measures(self.base, group))
         if not names:
             return self._poles()
         whole = np.arange(float(self.positions.count))
@@ -306,13 +334,9 @@ class _Search:
         first, last = float(bars[0]), float(bars[-1])
         return (p.place, first) if p.place < first else (min(last, p.place), p.place)
 
-    def _measures(self, group: str) -> list[str]:
-        facts = self.base.motion.placed[group].facts
-        return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
-
     def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
         found = []
-        quality, *distance = self._measures(group)
+        quality, *distance = _measures(self.base, group)
         for low, high in self._valleys(rows[quality], NEAR):
             place, least = self._lowest(quality, low, high)
             if abs(least) <= TOUCH:

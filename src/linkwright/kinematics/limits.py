@@ -96,7 +96,8 @@ class Between:
         self.motion = motion
         nominal = at_times(motion.mechanism, motion.time)
         for name, (q, *_) in motion.positions.coordinates.items():
-            if not np.allclose(q, nominal.coordinates[name][0], rtol=1e-9, atol=1e-12):
+            lawful = nominal.coordinates[name][0]
+            if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
                 raise LinkwrightError(Sentence("motion.no_way_between", name=name))
 
     @cached_property
@@ -241,28 +242,34 @@ class _Search:
 
     # where the rate changes its sign --------------------------------------------------------------
     def _brackets(self, rate: Floats, second: Floats, still: float) -> Brackets:
-        pairs = self._neighbours(rate)
-        first, last = pairs[:, 0], pairs[:, 1]
+        first, last = self._neighbours(rate)
+        after = last % self.count
+        a, b = rate[first], rate[after]
+        turning = np.flatnonzero(np.sign(a) != np.sign(b))
         span = self._time(last) - self.motion.time[first]
-        rests = last - first > 2
-        zero, one = np.where(rests, 0.5, 0.0), np.where(rests, 0.5, 1.0)
-        a, b = rate[first], rate[last % self.count]
-        everything = Brackets(first, span, zero, one, a, b)
-        turning = np.sign(a) != np.sign(b)
-        dips = everything.of(~turning & _dips(a, b, second[first] * span, second[last % self.count] * span))
-        halves = self._split(dips, still) if len(dips.before) else []
-        return _joined([everything.of(turning), *halves])
+        dips = np.flatnonzero(_dips(a, b, second[first] * span, second[after] * span))
 
-    def _neighbours(self, rate: Floats) -> Indices:
+        def bracket(chosen: Indices) -> Brackets:
+            rests = last[chosen] - first[chosen] > 2
+            low, high = np.where(rests, 0.5, 0.0), np.where(rests, 0.5, 1.0)
+            return Brackets(first[chosen], span[chosen], low, high, a[chosen], b[chosen])
+
+        halves = self._split(bracket(dips), still) if len(dips) else []
+        return _joined([bracket(turning), *halves]) if halves else bracket(turning)
+
+    def _neighbours(self, rate: Floats) -> tuple[Indices, Indices]:
         """Pairs of positions next to each other with a rate; the second may be counted past the last one."""
         known = np.isfinite(rate)
         moving = np.flatnonzero(known & (rate != 0.0))
         if self.period is not None and len(moving):
             moving = np.append(moving, moving[0] + self.count)
-        pairs = np.stack([moving[:-1], moving[1:]], axis=1)
-        there = np.tile(known | self.singular[: self.count], 2)
-        gaps = np.concatenate([[0], np.cumsum(~there)])
-        return np.asarray(pairs[gaps[pairs[:, 1] + 1] == gaps[pairs[:, 0]]])
+        first, last = moving[:-1], moving[1:]
+        there = known | self.singular[: self.count]
+        if there.all():
+            return first, last
+        gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
+        beside = gaps[last + 1] == gaps[first]
+        return first[beside], last[beside]
 
     def _time(self, index: Indices) -> Floats:
         lap = (index >= self.count) * (self.period or 0.0)
@@ -290,13 +297,15 @@ class _Search:
         """Shares where the rate is zero, by Newton's steps inside the brackets; NaN where it is not (a pole)."""
         a, b = brackets.rate_low, brackets.rate_high
 
+        rate = a
+
         def rate_and_slope(share: Floats) -> tuple[Floats, Floats]:
+            nonlocal rate
             rate, second = self._rates(brackets, share)
             return rate, second * brackets.span
 
         straight = brackets.low + (brackets.high - brackets.low) * a / (a - b)
         here = zeros(rate_and_slope, brackets.low, brackets.high, a, straight)
-        rate = self._rates(brackets, here)[0]
         lost = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
         time = self.motion.time[brackets.before] + here * brackets.span
         for k in np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED)):
@@ -355,13 +364,14 @@ def _program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...
 def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:
     """Whether a rate of one sign at both ends may cross zero in between, by the cubic through rates and seconds."""
     sign = np.sign(a)
-    toward = (sign * second_a < 0) & (sign * second_b > 0)
-    found = np.zeros(len(a), dtype=bool)
+    found: NDArray[np.bool_] = (sign * second_a < 0) & (sign * second_b > 0) & (sign == np.sign(b))
+    some = np.flatnonzero(found)
     u = np.linspace(0.0, 1.0, 33)[:, None]
     h00, h10 = (1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2
+    a, b, second_a, second_b = (each[some] for each in (a, b, second_a, second_b))
     cubic = h00 * a + h10 * second_a + (1 - h00) * b - u**2 * (1 - u) * second_b
-    lowest = (sign * cubic).min(axis=0)
-    found[toward] = (lowest < 0.5 * np.minimum(np.abs(a), np.abs(b)))[toward]
+    lowest = (sign[some] * cubic).min(axis=0, initial=np.inf)
+    found[some] = lowest < 0.5 * np.minimum(np.abs(a), np.abs(b))
     return found
 
 

@@ -13,8 +13,10 @@ from linkwright.kinematics.change_points import (
     cut_off,
     mark_singular,
     notes,
+    nothing_passed,
     passages,
     signs,
+    signs_of_passages,
 )
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
 from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
@@ -91,6 +93,9 @@ class MotionRun:
     def solve(self, failures: str = "raise", stored: tuple[str, ...] = ()) -> Motion:
         """The motion, with change points passed smoothly; ``stored``: the outputs evaluated at once, all if empty."""
         followed = self.solver.follow(self.positions, apart=self.single)
+        at_once = None if followed or stored or self.single else self._at_once()
+        if at_once is not None:
+            return at_once
         states = {} if followed is None else followed.states
         modes, said = reached_modes(self.solver, self.positions) if self.single else ({}, ())
         found = [] if modes else passages(self.solver, self.positions, followed)
@@ -105,6 +110,21 @@ class MotionRun:
         motion.notes += said + turn_notes(motion) + branch_notes(motion)
         if failures == "raise" and not motion.ok.all():
             raise refusal(motion)
+        return motion
+
+    def _at_once(self) -> Motion | None:
+        """The motion where all positions are reached and show that nothing is passed between two of them."""
+        measures = signs_of_passages(self.solver, self.positions)
+        if measures is None:
+            return None
+        *names, outcome = self.solver.outputs.standard()
+        stored = (*names, *measures, outcome)
+        values = self.solver.evaluate(stored, self.positions, {}, {})
+        if np.count_nonzero(values[-1]) or not nothing_passed(measures, values[len(names) : -1]):
+            return None
+        rows = Rows(values, {name: i for i, name in enumerate(stored)})
+        motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)
+        motion.notes = turn_notes(motion) + branch_notes(motion)
         return motion
 
     def _evaluate(

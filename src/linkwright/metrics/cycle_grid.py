@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.piecewise import POINTS, SMOOTH, Extreme, Piecewise, edges_between, nodes, tails
 from linkwright.core.search import ends
+from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -45,6 +46,7 @@ class CycleGrid:
     ) -> None:
         self.resolver, self._motion, self._forces = resolver, motion, forces
         self.start, self.end = start, end
+        self._curves: Recent[Callable[[Any], Floats], Piecewise] = Recent(8)
 
     @cached_property
     def motion(self) -> Motion:
@@ -71,6 +73,9 @@ class CycleGrid:
 
     def curve(self, signal: Callable[[Any], Floats], of: str, *, halve: bool = False) -> Piecewise:
         """A signal of the motion, or of the forces, over the time; ``halve``: where it kinks of itself, too."""
+        return self._curves.get(signal, (of, halve), lambda: self._curve(signal, of, halve))
+
+    def _curve(self, signal: Callable[[Any], Floats], of: str, halve: bool) -> Piecewise:
         values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
         pieces, tolerance = values.reshape(-1, POINTS), self.tolerance
         found = Piecewise(self.edges, pieces, tolerance=tolerance)

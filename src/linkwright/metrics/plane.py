@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kinematics.cycle import Floats
+
+#: Rounds in which points that are no corners are left out all at once.
+ROUNDS = 6
 
 
 def cross(a: Floats, b: Floats) -> Floats:
@@ -13,34 +17,31 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 
 def convex_hull(points: Floats) -> Floats:
-    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain, of the points
-    that do not lie inside the polygon of those farthest in some directions)."""
-    ring = points[(points @ _DIRECTIONS).argmax(axis=0)]
-    side = np.roll(ring, -1, axis=0) - ring
-    ring, side = ring[side.any(axis=1)], side[side.any(axis=1)]
-    inside = (
-        points @ np.stack([-side[:, 1], side[:, 0]]) > cross(side, ring) + 1e-12 * np.abs(points).max() ** 2
-    )
-    points = points[~inside.all(axis=1)] if len(side) > 2 else points
-    ordered = sorted(set(map(tuple, points.tolist())))
-    if len(ordered) < 3:
-        return np.array(ordered)
-    return np.array(_half(ordered)[:-1] + _half(ordered[::-1])[:-1])
+    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chains)."""
+    ordered = np.sort(points[:, 0] + 1j * points[:, 1])
+    ordered = ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
+    corners = ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
+    return np.stack([corners.real, corners.imag], axis=1)
 
 
-_DIRECTIONS = np.stack([np.cos(turn := np.linspace(0.0, 2.0 * np.pi, 33)[:-1]), np.sin(turn)])
-
-
-def _half(ordered: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    chain: list[tuple[float, ...]] = []
-    for x, y in ordered:
-        while len(chain) > 1:
-            (ax, ay), (bx, by) = chain[-2], chain[-1]
-            if (bx - ax) * (y - by) - (by - ay) * (x - bx) > 0.0:
+def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """The corners below a chain that goes to the right, all but the last: none is what does not lie below the line
+    between two others, first of all points at the same time, then one by one."""
+    for _ in range(ROUNDS):
+        step = np.diff(chain)
+        kept = step[:-1].real * step[1:].imag - step[:-1].imag * step[1:].real > 0.0
+        if kept.all():
+            return chain[:-1]
+        chain = chain[np.concatenate([[True], kept, [True]])]
+    corners: list[complex] = []
+    for z in chain.tolist():
+        while len(corners) > 1:
+            a, b = corners[-1] - corners[-2], z - corners[-1]
+            if a.real * b.imag - a.imag * b.real > 0.0:
                 break
-            chain.pop()
-        chain.append((x, y))
-    return chain
+            corners.pop()
+        corners.append(z)
+    return np.array(corners[:-1])
 
 
 def area(corners: Floats) -> float:

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.kinematics.cycle import Floats
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.plane import area, convex_hull
@@ -26,15 +27,19 @@ class SweptArea(Metric):
         motion = analysis.motion
         if not motion.ok.any():
             return
-        tracks = {
-            name: np.vstack([motion.point(f"{name}.{point}").position[motion.ok] for point in link.points])
-            for name, link in motion.mechanism.links.items()
-        }
+        tracks: dict[str, Floats] = {}
+        hulls: dict[str, Floats] = {}
+        for name, link in motion.mechanism.links.items():
+            keys = [motion.point(f"{name}.{point}").name for point in link.points]
+            for key in keys:
+                if key not in tracks:
+                    tracks[key] = convex_hull(motion.point_of(key).position[motion.ok])
+            hulls[name] = convex_hull(np.vstack([tracks[key] for key in keys]))
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
-        everything = np.vstack([*tracks.values(), frame])
+        everything = np.vstack([*hulls.values(), frame])
         width, height = (shown(float(side), "length") for side in np.ptp(everything, axis=0))
         remark = Remark("swept_area.box", {"width": width, "height": height})
         whole = area(convex_hull(everything))
         yield self.value(analysis, motion.mechanism.name, whole, remarks=(remark,), exact=False)
-        for name, points in tracks.items():
-            yield self.value(analysis, name, area(convex_hull(points)), exact=False)
+        for name, corners in hulls.items():
+            yield self.value(analysis, name, area(corners), exact=False)

@@ -64,11 +64,10 @@ class TransmissionAngleOfStroke(Metric):
         period = analysis.motion.positions.period or 0.0
         for group, output in _driven_dyads(analysis):
             limits = analysis.limits(output)
+            signal = analysis.signal(f"transmission_angle {group.name}")
             for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
                 end = last.time if last.time > first.time else last.time + period
-                found = analysis.extreme_between(
-                    analysis.signal(f"transmission_angle {group.name}"), "min", first.time, end
-                )
+                found = analysis.extreme_between(signal, "min", first.time, end)
                 if found is not None:
                     subject = f"{group.name}: {output} {first.kind}→{last.kind}"
                     yield self.value(analysis, subject, found.value, **_where(found))
