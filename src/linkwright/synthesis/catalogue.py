@@ -144,6 +144,7 @@ TASKS: Mapping[str, Task] = {
             "direction": "angle",
             "bound": "length",
             "transmission_angle": "angle",
+            "turning": "flag",
             "count": "count",
             "seed": "count",
         },

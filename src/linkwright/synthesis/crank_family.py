@@ -34,16 +34,23 @@ Whole = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class CrankFamily:
-    """K four-bars by free numbers (K, 3): ``double`` (K,) marks double cranks, ``transmission`` is μ in rad."""
+    """K four-bars by free numbers (K, 3): ``double`` (K,) marks double cranks, ``transmission`` is μ in rad.
+
+    ``rocking``: any four-bars, whose input need not turn; the free numbers are the logarithms of b, c, d.
+    """
 
     double: Flags
     transmission: float = 0.0
+    rocking: bool = False
 
     @classmethod
     def random(
-        cls, rng: np.random.Generator, count: int, transmission: float = 0.0
+        cls, rng: np.random.Generator, count: int, transmission: float = 0.0, rocking: bool = False
     ) -> tuple[CrankFamily, Floats]:
         """A family and free numbers spread over link ratios up to about eight."""
+        if rocking:
+            shape = rng.normal(0.0, 0.8, (count, 3))
+            return cls(np.zeros(count, bool), transmission, True), shape
         x = rng.uniform(np.log(0.08), np.log(7.0), count)
         y = rng.uniform(0.05, 2.6 if transmission == 0.0 else np.pi / 2, count)
         z = rng.uniform(-np.pi / 2, np.pi / 2, count)
@@ -51,10 +58,12 @@ class CrankFamily:
 
     def chosen(self, rows: Whole) -> CrankFamily:
         """The family of some of its rows."""
-        return CrankFamily(self.double[rows], self.transmission)
+        return CrankFamily(self.double[rows], self.transmission, self.rocking)
 
     def lengths(self, free: Floats) -> Floats:
         """Lengths b, c, d, (3, K)."""
+        if self.rocking:
+            return np.exp(free[:, :3]).T
         grown = np.exp(np.clip(free[:, 0], -30, 12))
         slope = np.tan(self.transmission / 2)
         d = (1 + slope) / (1 - slope) + grown

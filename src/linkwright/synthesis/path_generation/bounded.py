@@ -46,13 +46,29 @@ class BoundedPaths:
         )
 
         found, rows = self._iterated(near, rows, WITHIN[free_timing])
-        best = _different(np.column_stack([found[:, :3], found[:, self.inner :]]))[: FINISHED[free_timing]]
+        found = self.finished(found, rows)
+        return found[:, : self.inner], rows, self.linear(found, rows)
+
+    def finished(self, found: Floats, rows: Whole) -> Floats:
+        """Measures, the best of them carried to the end along their active bounds."""
+        found = found.copy()
+        best = _different(np.column_stack([found[:, :3], found[:, self.inner :]]))
+        best = best[: FINISHED[not self.paths.demand.timed]]
         for i in best:
             found[i] = self.finish(found[i], int(rows[i]), *ROUGH)
         squares = (self.residual(found, rows) ** 2).sum(1)
         for i in sorted(best, key=lambda j: float(squares[j]))[:2]:
             found[i] = self.finish(found[i], int(rows[i]), *EXACT)
-        return found[:, : self.inner], rows, self.linear(found, rows)
+        return found
+
+    def of(self, free: Floats, linear: Linear) -> Floats:
+        """Measures of solutions: free numbers of the projection and z, α, β."""
+        z, alpha, beta = linear
+        crank = np.abs(alpha)
+        local = beta * alpha.conj() / crank
+        columns = [crank, local.real, local.imag, *((z.real, z.imag) if self.placed else ())]
+        angle = [np.angle(alpha)] if self.turned else []
+        return np.column_stack([free, *(each / self.bound for each in columns), *angle])
 
     def _iterated(self, free: Floats, rows: Whole, steps: int) -> tuple[Floats, Whole]:
         """Measures of starts iterated within the bounds, and their numbers."""
