@@ -6,14 +6,21 @@ import zipfile
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import linkwright as lw
 import linkwright.parts
+import linkwright.plot
+from linkwright.cams.joint import cam_of
 from linkwright.cli import main
 from linkwright.errors import LinkwrightError
+from linkwright.joints.cam import CamJoint
+from linkwright.joints.cam_shape import CamShape
+from linkwright.plot.force_names import reaction_pairs
 from linkwright.report.case import Case
 from linkwright.report.document import Formula, Heading, Paragraph, Table, plain
+from linkwright.report.numbers import typeset
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
 from linkwright.report.settings import settings
@@ -114,7 +121,7 @@ def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     chinese = speaker("zh")
     result = problem.solve()
     rows = [row for block in result.blocks(chinese) for row in block.rows]
-    numbers = {row.cells(result.area, chinese)[1] for row in rows}
+    numbers = {plain(typeset(row.cells(result.area, chinese)[1])) for row in rows}
     assert numbers and numbers <= printed
 
 
@@ -174,7 +181,7 @@ def test_check_finds_settings_that_make_no_sense(tmp_path: Path, capsys: pytest.
 def test_errata_of_the_file_stand_in_the_report() -> None:
     found = report("gallery:swing_conveyor", sections=["errata"])
     (table,) = [b for b in found.document.blocks if isinstance(b, Table)]
-    assert any("-0.269782°" in plain(cell) for row in table.rows for cell in row)
+    assert any("−0.269782°" in plain(cell) for row in table.rows for cell in row)
 
 
 GEARED = """
@@ -206,3 +213,57 @@ def test_columns_of_pages_are_aligned_and_the_title_is_there() -> None:
     page = report("gallery:crank_rocker", sections=["task"]).content(".html").decode()
     assert "<h1" in page and 'class="by-lrr"' in page
     assert ".by-lrr :is(td,th):nth-child(2){text-align:right}" in page
+
+
+def test_mobility_of_a_machine_with_gears_racks_and_a_cam_adds_up() -> None:
+    found = report("gallery:printing_press", sections=["structure"])
+    (mobility, *_) = [b for b in found.document.blocks if isinstance(b, Formula)]
+    assert mobility.sides[1:] == ("3\\,n - 2\\,p_{L} - p_{H}", "3\\cdot 12 - 2\\cdot 15 - 5", "1")
+
+
+def test_gears_have_their_ratios_and_the_geometry_of_their_teeth() -> None:
+    found = report("gallery:planetary_two_inputs", sections=["gears"], language="zh")
+    assert not found.missing
+    cells = [list(map(plain, row)) for b in found.document.blocks if isinstance(b, Table) for row in b.rows]
+    assert [
+        "sun",
+        "24",
+        "48",
+        "45.1052",
+        "52",
+        "43",
+        "3.14159",
+    ] in cells  # d, d cos α, d + 2m, d - 2.5m, πm/2
+    willis = [b.sides for b in found.document.blocks if isinstance(b, Formula)]
+    assert (r"\frac{\omega_{2} - \omega_{3}}{\omega_{1} - \omega_{3}}", r"-\frac{1}{3}") in willis
+
+
+def test_a_section_on_cams_shows_the_machines_own_profile() -> None:
+    press = lw.load("gallery:printing_press")
+    joint = press.joints["compensating_cam"]
+    assert isinstance(joint, CamJoint)
+    angles = np.linspace(0.0, 6.28, 200)
+    drawn = CamShape.of(joint, press)
+    seen = np.abs(drawn.profile(angles) - drawn.centre)
+    own = cam_of(press, "compensating_cam").walls[0].contact(angles)
+    assert np.abs(own.point) == pytest.approx(seen, abs=1e-12)
+    found = report(press, sections=["cams"])
+    assert not found.missing
+    printed = " ".join(plain(cell) for b in found.document.blocks if isinstance(b, Table)
+                       for row in b.rows for cell in row)  # fmt: skip
+    assert "pressure angle, rise" in printed and "smallest hollow radius" in printed
+
+
+def test_every_joint_force_has_its_hodograph() -> None:
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    figure = lw.plot.plot(crusher, "hodographs").figure
+    drawn = [axes.get_title() for axes in figure.axes if axes.axison]
+    wanted = [f"{joint}, force on {link}" for joint, link in reaction_pairs(crusher)]
+    assert drawn == wanted and len(wanted) == 8
+
+
+def test_a_language_may_have_texts_of_its_own() -> None:
+    given = {"title": "Crusher", "zh": {"title": "破碎机", "purpose": "课程设计"}}
+    assert settings(given).title == "Crusher" and settings(given, "zh").title == "破碎机"
+    with pytest.raises(LinkwrightError, match=r"report\.zh\.titel"):
+        settings({"zh": {"titel": "x"}})

@@ -86,6 +86,11 @@ class LiftCurve:
 
     def curves(self, x: Any) -> tuple[Any, Any, Any]:
         """f and its first two derivatives at angles x (n,), of any turn."""
+        lift, rate, second = self.derivatives(x, 2)
+        return lift, rate, second
+
+    def derivatives(self, x: Any, most: int) -> list[Any]:
+        """f and its derivatives up to the order ``most`` at angles x (n,), of any turn."""
         x = np.asarray(x)
         x = x - TURN * np.floor(x.real / TURN)
         piece = np.clip(np.searchsorted(self.edges, x.real, side="right") - 1, 0, len(self.coefficients) - 1)
@@ -93,13 +98,13 @@ class LiftCurve:
         half = 0.5 * (high - low)
         t, rows = (x - 0.5 * (low + high)) / half, self.coefficients
         found = []
-        for order in range(3):
+        for order in range(most + 1):
             value = 0.0 * t
             for column in rows.T[::-1]:
                 value = value * t + column[piece]
             found.append(value / half**order)
             rows = rows[:, 1:] * np.arange(1, rows.shape[1])
-        return found[0], found[1], found[2]
+        return found
 
     def traced(self, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
         """The same for a traced angle from 0 to a turn."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
 from linkwright.report.case import picture
-from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
+from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, symbols
 from linkwright.words import Say
 from linkwright.worked.page import Equation, Note, Step
 
@@ -18,8 +18,13 @@ def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block]:
     yield Heading(literal(found.title), 1)
     if problem.source:
         yield Paragraph(say("report.source", source=literal(problem.source)))
+    yield from numbers_and_way(found, say, language, 2)
+
+
+def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Iterator[Block]:
+    """Pictures, numbers and the way to them, under headings of a level."""
     yield from _pictures(found, say, language)
-    yield Heading(say("report.results"), 2)
+    yield Heading(say("report.results"), level)
     for block in found.blocks(say):
         cells = [row.cells(found.area, say) for row in block.rows]
         head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
@@ -27,33 +32,39 @@ def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block]:
             yield Table(literal(block.title), head, tuple(tuple(map(literal, row)) for row in cells), "<><<")
         for remark in block.remarks:
             yield Paragraph(literal(str(remark)))
-    yield Heading(say("report.way"), 2)
+    yield Heading(say("report.way"), level)
     for step in found.steps(say):
-        yield Heading(literal(step.title), 3)
+        yield Heading(literal(step.title), level + 1)
         yield from _lines(step)
 
 
 def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
-    """Its own drawing, where it has one, and its diagram."""
+    """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:
-        yield Figure(literal(found.title), ((draw(language=language).svg, 0.7),))
-    try:
-        svg = picture(found.plot(language=language, title=""))
-    except LinkwrightError as error:
-        yield Paragraph(literal(error.say(language)), "missing")
-        return
-    yield Figure(say("report.caption_curves"), ((svg, 0.85),))
+        yield Figure(literal(found.title), ((draw(language=language).svg, 0.5),))
+    from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
+
+    for kind in sorted(RESULT_DIAGRAMS, key=lambda each: not RESULT_DIAGRAMS[each].usual):
+        if not RESULT_DIAGRAMS[kind]().suits(found):
+            continue
+        try:
+            svg = picture(found.plot(kind, language=language, title=""))
+        except LinkwrightError as error:
+            if RESULT_DIAGRAMS[kind].usual:
+                yield Paragraph(literal(error.say(language)), "missing")
+            continue
+        yield Figure(f"{literal(found.title)}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),))
 
 
 def _lines(step: Step) -> Iterator[Block]:
     """Sentences and equations of a step; calculations write their formulas as plain text."""
     for item in step.items:
         if isinstance(item, Note):
-            yield Paragraph(literal(item.text.strip()))
+            yield Paragraph(symbols(item.text.strip()))
         elif isinstance(item, Equation):
             unit = item.unit if item.unit in ("", "°") else f" {item.unit}"
             sides = [item.symbol, item.formula, item.numbers, f"{item.result}{unit}"]
-            yield Paragraph(literal(" = ".join(side for side in sides if side)))
+            yield Paragraph(symbols(" = ".join(side for side in sides if side)))
         else:
-            yield Paragraph(literal(item.text))
+            yield Paragraph(symbols(item.text))

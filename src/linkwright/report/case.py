@@ -17,6 +17,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.model.mechanism import Mechanism
 from linkwright.plot.force_names import carries
+from linkwright.report.numbers import Heads
 from linkwright.report.settings import Settings
 from linkwright.structure.group import Structure
 from linkwright.units import parse
@@ -54,6 +55,16 @@ class Case:
         self.say: Say = speaker(language)
         #: Design numbers that the report shows.
         self.used: dict[str, None] = {}
+
+    @property
+    def purpose(self) -> str:
+        """What the machine is for."""
+        return self.settings.purpose or self.mechanism.purpose
+
+    @property
+    def origin(self) -> str:
+        """Where the machine comes from."""
+        return self.settings.source or self.mechanism.source
 
     @cached_property
     def structure(self) -> Structure:
@@ -230,6 +241,17 @@ class Case:
         if not carries(self.mechanism):
             raise Missing(Sentence("report.no_loads"))
         return solve_forces(self.numbered.motion)
+
+    @cached_property
+    def heads(self) -> Heads:
+        """Symbols of results as heads of columns."""
+        return Heads(self.mechanism, self.say)
+
+    @property
+    def links_text(self) -> str:
+        """The links with the numbers that stand in symbols."""
+        numbered = (f"{number} {name}" for name, number in self.heads.numbers.items())
+        return self.say("worked.links", links=", ".join(numbered))
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:

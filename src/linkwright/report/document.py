@@ -14,12 +14,18 @@ from linkwright.words import Say
 
 _MARKS = re.compile(r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\])")
 _HIDDEN = {"$": "\ue000", "*": "\ue001", "`": "\ue002", "[": "\ue003", "]": "\ue004"}
+_INDEXED = re.compile(r"(?<![\w\ue000-\ue004])([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,\d+)?)(?!\w)", re.ASCII)
 _SHOWN = {code: sign for sign, code in _HIDDEN.items()}
 
 
 def literal(text: str) -> str:
     """A text that is printed as it is, whatever marks it holds: names, sentences, sources."""
     return "".join(_HIDDEN.get(c, c) for c in text)
+
+
+def symbols(text: str) -> str:
+    """A sentence printed as it is, but for symbols with an index, which become formulas: ``v_Ax``."""
+    return _INDEXED.sub(lambda found: f"${found[1]}_{{{found[2]}}}$", literal(text))
 
 
 def shown(text: str) -> str:
@@ -163,9 +169,13 @@ def plain(text: str) -> str:
 
 
 def _longest_word(text: str) -> int:
+    """Characters of the longest part of a text that does not break; a formula is one."""
+    from linkwright.report.formula import formula, width
     from linkwright.words.width import cells
 
-    return max((cells(word) for word in plain(text).split()), default=1)
+    joined = "".join("m" * round(2.0 * width(formula(part))) if kind == "formula" else part
+                     for kind, part in spans(text))  # fmt: skip
+    return max((cells(word) for word in joined.split()), default=1)
 
 
 def fitted(table: Table, widest: int) -> Sequence[Table]:

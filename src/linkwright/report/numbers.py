@@ -1,4 +1,4 @@
-"""Columns of results as tables print them."""
+"""Columns of results as tables print them: symbols of the books in the heads, equal decimals below."""
 
 from __future__ import annotations
 
@@ -8,36 +8,79 @@ import re
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
+from linkwright.model.mechanism import Mechanism
+from linkwright.plot.force_names import link_numbers
+from linkwright.report.document import literal
+from linkwright.words import Say
+from linkwright.worked.book import tex
 
 #: Significant digits of the largest number of a column.
 DIGITS = 6
+#: An input or a number below this share of a turn (rad) or of a metre is zero but for rounding.
+FADED = 1e-9
 _UNITS = {"rad": ("°", 180.0 / math.pi), "m": ("mm", 1e3)}
-_SYMBOLS = {
-    "angle": "φ", "angular_velocity": "ω", "angular_acceleration": "α", "displacement": "s", "velocity": "v",
-    "acceleration": "a", "position": "", "effort": "", "magnitude": "F", "couple": "M",
+_TURNS = {"angle": r"\varphi", "angular_velocity": r"\omega", "angular_acceleration": r"\alpha"}
+_SLIDES = {"displacement": "s", "velocity": r"\dot{s}", "acceleration": r"\ddot{s}"}
+_POINTS = {"position": "", "velocity": "v", "acceleration": "a"}
+_FORCES = {"magnitude": ("F", ""), "x": ("F", "x"), "y": ("F", "y"), "couple": ("M", "")}
+_WHOLE = {
+    "time": "t", "shaking_force.x": r"F_{\mathrm{S}x}", "shaking_force.y": r"F_{\mathrm{S}y}",
+    "shaking_moment": r"M_{\mathrm{S}}", "power_residual": r"\Delta P", "balance_residual": r"\Delta F",
 }  # fmt: skip
+_POWER_OF_TEN = re.compile(r"([-−]?\d+(?:\.\d+)?)e([+-]?\d+)((?: ?\S+)?)")
+#: Signs that a name cannot have inside a formula.
+_UNPRINTABLE = frozenset("$\\{}^#%&~")
+_NEGATIVE = re.compile(r"-(?=\d)")
 
 
-def in_shown_unit(name: str) -> tuple[str, float]:
-    """Head of a column of results in the unit of tables, and the factor from SI."""
-    label, _, unit = name.removesuffix("]").rpartition(" [")
-    shown, factor = _UNITS.get(unit, (unit, 1.0))
-    return f"{short(label)} / {shown}", factor
+class Heads:
+    """Heads of columns with the symbols of the worked solution; links are numbered in the order of the file."""
 
+    def __init__(self, mechanism: Mechanism, say: Say) -> None:
+        self.mechanism, self.say = mechanism, say
+        self.numbers = link_numbers(mechanism)
 
-def short(label: str) -> str:
-    """A result's name with the symbols of the books: ``φ crank``, ``x B``, ``F O on crank``."""
-    on = re.fullmatch(r"(.+) on (.+)\.(magnitude|couple|x|y)", label)
-    if on:
-        letter = {"magnitude": "F", "couple": "M", "x": "Fx", "y": "Fy"}[on[3]]
-        return f"{letter} {on[1]}→{on[2]}"
-    subject, _, what = label.partition(".")
-    kind, _, axis = what.rpartition(".") if what.endswith((".x", ".y")) else (what, "", "")
-    if kind == "position":
-        return f"{axis} {subject}"
-    if _SYMBOLS.get(kind):
-        return f"{_SYMBOLS[kind]}{axis} {subject}"
-    return label
+    def head(self, name: str) -> tuple[str, float]:
+        """Head of a column of results in the unit of tables, and the factor from SI."""
+        label, _, unit = name.removesuffix("]").rpartition(" [")
+        shown, factor = _UNITS.get(unit, (unit, 1.0))
+        symbol = self.symbol(label)
+        return f"{f'${symbol}$' if symbol else literal(label)} / {shown}", factor
+
+    def symbol(self, label: str) -> str:
+        """LaTeX of a result, such as ``crank.angle`` or ``A on rod.x``; empty where the books have none."""
+        if label in _WHOLE:
+            return _WHOLE[label]
+        if _UNPRINTABLE & set(label):
+            return ""
+        on = re.fullmatch(r"(.+) on (.+)\.(magnitude|couple|x|y)", label)
+        if on:
+            letter, axis = _FORCES[on[3]]
+            return f"{letter}_{{{tex(on[1])},{self.numbers.get(on[2], on[2])}{axis}}}"
+        owner, _, what = label.rpartition(".")
+        if what == "effort":
+            several = len(self.mechanism.drivers) > 1
+            return rf"{self._effort(owner)}_{{\mathrm{{d}}{f',{tex(owner)}' if several else ''}}}"
+        if what in _TURNS and owner in self.numbers:
+            return f"{_TURNS[what]}_{{{self.numbers[owner]}}}"
+        if what in _SLIDES and owner in self.mechanism.joints:
+            return f"{_SLIDES[what]}_{{{tex(owner)}}}"
+        point, _, kind = owner.rpartition(".")
+        if what in ("x", "y") and kind in _POINTS:
+            name = tex(self._point(point))
+            return f"{_POINTS[kind]}_{{{name}{what}}}" if _POINTS[kind] else f"{what}_{{{name}}}"
+        return ""
+
+    def _effort(self, driver: str) -> str:
+        """M of a driver that turns, F of one that slides."""
+        joint = self.mechanism.joints[self.mechanism.drivers[driver].joint]
+        return "M" if joint.coordinate == "turn" else "F"
+
+    def _point(self, name: str) -> str:
+        """A point without its link where no other link has one of this name."""
+        last = name.rpartition(".")[2]
+        links = (self.mechanism.frame, *self.mechanism.links.values())
+        return last if sum(last in link.points for link in links) == 1 else name
 
 
 def column(values: Floats) -> list[str]:
@@ -45,10 +88,32 @@ def column(values: Floats) -> list[str]:
     known = np.abs(values[np.isfinite(values)])
     largest = float(known.max()) if len(known) else 0.0
     if largest and not 1e-4 <= largest < 1e9:
-        return [f"{value:.5e}" if math.isfinite(value) else "–" for value in values]
+        return [small(value, DIGITS) for value in values]
     place = max(DIGITS - 1 - math.floor(math.log10(largest)), 0) if largest else 0
     place = min(place, 6)
     return [_plain(float(value), place) for value in values]
+
+
+def small(value: float, digits: int) -> str:
+    """A number of any size with so many digits, a power of ten as ``e-13``; zero as 0."""
+    if not math.isfinite(value):
+        return "–"
+    return f"{value:.{digits - 1}e}" if value else "0"
+
+
+def typeset(cell: str) -> str:
+    """A cell that is a number, with its minus and its power of ten as books print them; other texts as they are."""
+    found = _POWER_OF_TEN.fullmatch(cell)
+    if found:
+        base = found[1].replace("−", "-")
+        base = base.rstrip("0").rstrip(".") if "." in base else base
+        return rf"${base}\cdot 10^{{{int(found[2])}}}${found[3]}"
+    return _NEGATIVE.sub("−", cell, count=1) if re.match(r"-\d[\d.]*(?: ?[^\s\w]*| \S+)$", cell) else cell
+
+
+def faded(value: float) -> float:
+    """A value, zero where it is nothing but rounding."""
+    return 0.0 if abs(value) < FADED else value
 
 
 def _plain(value: float, place: int) -> str:

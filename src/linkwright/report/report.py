@@ -25,6 +25,7 @@ from linkwright.report.document import (
     literal,
 )
 from linkwright.report.markdown import own_text
+from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, CommonSection, Section
 from linkwright.report.settings import Settings, settings
 from linkwright.whole_files import write_whole
@@ -32,7 +33,7 @@ from linkwright.words import LANGUAGES, speaker
 from linkwright.words.sentence import Sentence
 
 #: Characters across a page in a table.
-WIDEST = 96
+WIDEST = 108
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
 Progress = Callable[[int, int], None]
 
@@ -182,7 +183,7 @@ def _cases(
             own["position"] = position
         if positions is not None:
             own["positions"] = positions
-        found.append(Case(mechanism, settings(own), language, source))
+        found.append(Case(mechanism, settings(own, language), language, source))
     names = [case.mechanism.name for case in found]
     for number, case in enumerate(found, 1):
         if names.count(case.mechanism.name) > 1:
@@ -266,7 +267,8 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
     if not isinstance(block, Table):
         yield block
         return
-    first, *rest = fitted(block, WIDEST)
+    rows = tuple(tuple(typeset(cell) for cell in row) for row in block.rows)
+    first, *rest = fitted(replace(block, rows=rows), WIDEST)
     yield first
     for part in rest:
         yield replace(part, caption=document.say("report.continued", caption=block.caption))

@@ -8,12 +8,16 @@ from typing import Any
 
 from linkwright.errors import RequestError
 from linkwright.registry import offered
+from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence
 
 KEYS = (
     "title", "author", "course", "date", "sections", "position", "positions", "numbered_from", "fluctuation",
-    "text", "errata",
+    "text", "errata", "purpose", "source", *LANGUAGES,
 )  # fmt: skip
+#: Single lines, and what can be said for one language alone.
+WORDS = ("title", "author", "course", "date", "position", "purpose", "source")
+OWN = (*WORDS, "text", "errata")
 ERRATUM = ("where", "printed", "right", "why")
 #: Most numbered positions.
 MOST = 10_000
@@ -33,13 +37,15 @@ class Erratum:
 class Settings:
     """``sections`` in the order wanted (empty: all); ``position`` of the worked solution; ``positions`` in the
     tables, numbered from ``numbered_from`` (``"rocker min"``); ``fluctuation`` δ of the flywheel; ``text``: own text
-    by section, Markdown, or Typst after a first line ``typst``.
+    by section, Markdown, or Typst after a first line ``typst``; ``purpose`` and ``source`` instead of the model's.
     """
 
     title: str = ""
     author: str = ""
     course: str = ""
     date: str = ""
+    purpose: str = ""
+    source: str = ""
     sections: tuple[str, ...] = ()
     position: str = ""
     positions: int = 24
@@ -49,12 +55,16 @@ class Settings:
     errata: tuple[Erratum, ...] = ()
 
 
-def settings(given: Mapping[str, Any]) -> Settings:
-    """The settings of a file's ``report``; raises RequestError for what they cannot be, with its key."""
+def settings(given: Mapping[str, Any], language: str = "en") -> Settings:
+    """The settings of a file's ``report``; raises RequestError for what they cannot be, with its key.
+
+    What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language.
+    """
     _known(given, KEYS, "report")
-    words = {
-        key: str(given[key]) for key in ("title", "author", "course", "date", "position") if key in given
-    }
+    for each in LANGUAGES:
+        _known(_mapping(given, each), OWN, f"report.{each}")
+    given = {**given, **_mapping(given, language)}
+    words = {key: str(given[key]) for key in WORDS if key in given}
     return Settings(
         **words,
         sections=tuple(map(str, _sequence(given, "sections"))),

@@ -13,8 +13,8 @@ from linkwright.words import Say
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "torque", "limits",
-    "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "gears", "cams", "torque",
+    "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
 )  # fmt: skip
 
 

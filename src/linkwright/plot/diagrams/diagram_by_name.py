@@ -72,9 +72,9 @@ def plot(
             several are compared in one diagram. Or one comparison, study, sweep, sensitivity, table of design
             numbers, torque curve, balancing or coupler curve.
         kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
-            ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``shaking``,
-            ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison ``comparison`` (the
-            default) or ``pivot_hodograph``; other results have one kind each.
+            ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``hodographs``,
+            ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison
+            ``comparison`` (the default) or ``pivot_hodograph``; other results have one kind each.
         of: outputs, links or points that the diagram is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
             metrics or curves of a study, a comparison or a table.
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -31,6 +31,7 @@ from linkwright.plot.diagrams.scaled_page import (
     scale_of_picture,
     side_by_side,
     symbol,
+    text_width,
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import significant, unit_of
@@ -148,23 +149,33 @@ class ForcePolygon(Kind):
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells[:IN_ROW]))
         heading = wrapped(title if request.title is None else request.title, wide / INCH)
         head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0
-        figure, (first, *axes) = page(cells, IN_ROW, foot=13.0, head=head)
+        numbered = list(_numbered(forces, request, wide))
+        foot = 5.0 * len(numbered) + 8.0
+        figure, (first, *axes) = page(cells, IN_ROW, foot=foot, head=head)
         draw_position(first, forces.motion, 0, factor=1 / millimetre)
         name_position(first, ink)
         for one, each, scale in zip(axes, parts.values(), scales, strict=True):
             _draw(one, each, scale)
         roles = {force.role for each in parts.values() for force in each}
         entries = [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles]
-        colour_key(figure, entries, 7.0)
-        colour_key(figure, [(_numbered(forces, request), "#222222")], 2.5, mark="")
+        colour_key(figure, entries, foot - 6.0)
+        for line, text in enumerate(numbered, 2):
+            colour_key(figure, [(text, "#222222")], foot - 5.0 * line - 0.5, mark="")
         headed(figure, heading)
         return figure
 
 
-def _numbered(forces: Forces, request: Request) -> str:
+def _numbered(forces: Forces, request: Request, wide: float) -> Iterator[str]:
+    """The links with their numbers, in lines that fit a width, mm."""
     numbers = {**link_numbers(forces.mechanism)}
-    frame = f"{numbers.pop('frame')} {request.say('frame')}"
-    return ", ".join([frame, *(f"{number} {name}" for name, number in numbers.items())])
+    line = f"{numbers.pop('frame')} {request.say('frame')}"
+    for name, number in numbers.items():
+        longer = f"{line}, {number} {name}"
+        if text_width(longer, 8.0) > wide - 8.0:
+            yield f"{line},"
+            longer = f"{number} {name}"
+        line = longer
+    yield line
 
 
 def _title(forces: Forces, link: str) -> str:

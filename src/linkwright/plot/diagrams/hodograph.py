@@ -42,16 +42,24 @@ class Hodograph(Kind):
         figure = new_figure(request.size or (4.6 * len(views) + 0.8 * (len(views) == 1), 4.9))
         legend = Legend()
         for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
-            _draw(place, sources, (joint, link, view), request, legend)
+            draw_hodograph(place, sources, (joint, link, view), request, legend)
         subject = request.say("hodograph_of", joint=joint, link=link)
         framed(figure, f"{sources[0].label}: {subject}" if len(sources) == 1 else subject, request)
         legend.put(figure)
         return figure
 
 
-def _draw(
-    axes: Axes, sources: Sequence[Source], what: tuple[str, str, str], request: Request, legend: Legend
+def draw_hodograph(
+    axes: Axes,
+    sources: Sequence[Source],
+    what: tuple[str, str, str],
+    request: Request,
+    legend: Legend,
+    *,
+    largest: bool = True,
 ) -> None:
+    """One hodograph: ``what`` is the joint, the link on which it acts, and the link in whose axes it is drawn;
+    ``largest``: whether the largest force is an arrow that the legend names."""
     joint, link, view = what
     say = request.say
     curves = [source.closed(source.forces.reaction(joint, on=link, axes=view)) for source in sources]
@@ -63,7 +71,8 @@ def _draw(
             legend.add(source.label, line)
         elif request.marks:
             mark_inputs(axes, curve * unit.factor, source.axis, colour)
-            _largest(axes, curve, unit, legend, request)
+            if largest:
+                _largest(axes, curve, unit, legend, request)
     names = ("x", "y") if view == "frame" else ("ξ", "η")
     axes.set_title(say("in_frame") if view == "frame" else say("in_link", link=view), color=INK)
     axes.set_xlabel(f"F{names[0]} ({unit.name})")

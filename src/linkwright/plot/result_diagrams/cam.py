@@ -9,9 +9,11 @@ import numpy as np
 
 from linkwright.cams.report import RATES
 from linkwright.cams.result import CamDesign
+from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.picture import FAINT, INK
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -122,6 +124,8 @@ class CamVibration(ResultKind):
     usual = False
 
     def draw(self, result: CamDesign, request: Request) -> Figure:
+        if result.cam.elasticity is None:
+            raise RequestError(Sentence("cams.no_elasticity"))
         top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
         speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
         left = result.residual_vibration(speeds)

@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.numbers import column, in_shown_unit
+from linkwright.report.numbers import column
 from linkwright.report.section import SECTIONS, Section
 
 
@@ -28,6 +28,7 @@ class CycleTables(Section):
             yield Paragraph(say("report.numbered_limit", count=count, input=place))
         elif case.mechanism.drivers:
             yield Paragraph(say("report.numbered_start", count=count))
+        yield Paragraph(literal(case.links_text))
         columns = numbered.motion.columns()
         for title, wanted in _motion_tables(case, columns):
             yield table(case, say(title), columns, wanted)
@@ -81,12 +82,12 @@ def table(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence
     numbered = case.numbered
     rows = list(numbered.rows)
     first = case.inputs_of(numbered)
-    shown = [in_shown_unit(name) for name in names]
+    shown = [case.heads.head(name) for name in names]
     printed = [column(columns[name][rows] * factor) for name, (_, factor) in zip(names, shown, strict=True)]
     body = tuple((str(k + 1), first[k], *(each[k] for each in printed)) for k in range(len(rows)))
     head = (
         case.say("report.position_number"),
         f"$q$ / {case.input_unit}",
-        *(literal(head) for head, _ in shown),
+        *(head for head, _ in shown),
     )
     return Table(title, head, body, ">" * len(head), "", 2)

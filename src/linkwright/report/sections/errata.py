@@ -20,7 +20,7 @@ class Errata(Section):
         say, found = case.say, case.settings.errata
         if not found:
             raise Missing(Sentence("report.no_errata"))
-        yield Paragraph(say("report.errata_text", source=literal(case.mechanism.source or "–")))
+        yield Paragraph(say("report.errata_text", source=literal(case.origin or "–")))
         head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
         rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
         yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")

@@ -8,11 +8,14 @@ from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.numbers import faded
 from linkwright.report.section import SECTIONS, Section
 from linkwright.words.sentence import Sentence, in_words
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction")
+#: Rows of one number of one thing, such as dead points.
+REPEATED = 6
 
 
 @SECTIONS.register("limits")
@@ -33,20 +36,34 @@ class Limits(Section):
         head = tuple(
             say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
         )
-        body = tuple(_cells(row, case.language) for row in rows)
-        yield Table(say("report.numbers_table"), head, body, "<<>< >>".replace(" ", ""), "numbers")
+        body = tuple(_rows(case, rows))
+        yield Table(say("report.numbers_table"), head, body, "<<><>>", "numbers")
         for sentence in case.metrics.warnings_in(case.language):
             yield Paragraph(literal(sentence), "note")
 
 
+def _rows(case: Case, rows: list[MetricValue]) -> Iterator[tuple[str, ...]]:
+    """A row for every number; of one that comes many times over the cycle the first, and how many there are."""
+    found: dict[tuple[str, str], list[MetricValue]] = {}
+    for row in rows:
+        found.setdefault((row.metric, row.subject), []).append(row)
+    for same in found.values():
+        for row in same[:REPEATED]:
+            yield _cells(row, case.language)
+        if len(same) > REPEATED:
+            more = case.say("report.more_of_this", count=len(same) - REPEATED)
+            yield (literal(METRICS[same[0].metric]().label_in(case.language)), literal(more), "", "", "", "")
+
+
 def _cells(row: MetricValue, language: str) -> tuple[str, ...]:
     metric = METRICS[row.metric]()
-    at = "" if row.at is None else shown(row.at, row.at_dimension)
+    value = faded(row.value) if row.dimension == "angle" else row.value
+    at = "" if row.at is None else shown(faded(row.at), row.at_dimension)
     limit = ""
     if metric.limit is not None:
         limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
     cells = (
-        metric.label_in(language), in_words(row.subject, language), number(row.value, row.dimension),
+        metric.label_in(language), in_words(row.subject, language), number(value, row.dimension),
         shown_unit(row.dimension), at, limit,
     )  # fmt: skip
     return tuple(literal(cell) for cell in cells)

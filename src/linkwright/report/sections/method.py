@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
+from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case
-from linkwright.report.document import Block, Formula, Heading, Paragraph, literal
+from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, symbols
 from linkwright.report.formula import formula, width
 from linkwright.report.loops import loops
 from linkwright.report.section import SECTIONS, Section
@@ -23,20 +25,24 @@ class Method(Section):
     name, rank = "method", 4.0
 
     def blocks(self, case: Case) -> Iterator[Block]:
-        say = case.say
-        solution = case.worked
-        for line in solution.legend[:2]:
-            yield Paragraph(literal(line))
+        say, steps = case.say, list[Step]()
+        try:
+            solution = case.worked
+        except LinkwrightError as error:
+            yield Paragraph(say("report.only_loops", sentence=literal(case.told(error))), "missing")
+        else:
+            steps = list(solution.steps)
+            for line in solution.legend[:2]:
+                yield Paragraph(symbols(line))
         for number, group in enumerate(case.structure.groups, 1):
             links = literal(", ".join(group.links))
-            yield Heading(
-                say("report.method_group", number=number, signature=group.signature, links=links), 2
-            )
-            yield from _loops(case, group)
-            for step in solution.steps:
-                if step.group == group.name:
-                    yield from formulas(step)
-        others = [step for step in solution.steps if not step.group and step.number != "1"]
+            title = say("report.method_group", number=number, signature=group.signature, links=links)
+            own = (formulas(step) for step in steps if step.group == group.name)
+            found = [*_loops(case, group), *chain.from_iterable(own)]
+            if found:
+                yield Heading(title, 2)
+                yield from found
+        others = [step for step in steps if not step.group and step.number != "1"]
         for step in others:
             if step.equations:
                 yield from formulas(step)
@@ -55,7 +61,7 @@ def formulas(step: Step) -> Iterator[Block]:
     shown = [item for item in step.items if not isinstance(item, Equation) or item.formula]
     if not any(isinstance(item, Equation | Relation) for item in shown):
         return
-    yield Paragraph(f"**{literal(step.title)}**")
+    yield Paragraph(f"**{symbols(step.title)}**")
     held: list[str] = []
     for item in shown:
         if isinstance(item, Equation):
@@ -64,7 +70,7 @@ def formulas(step: Step) -> Iterator[Block]:
         yield from side_by_side(held)
         held = []
         if isinstance(item, Note):
-            yield Paragraph(literal(item.text))
+            yield Paragraph(symbols(item.text))
         else:
             left, right = item.data()["latex"].split(" = ", 1)  # type: ignore[attr-defined]
             yield Formula((left, right))

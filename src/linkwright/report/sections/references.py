@@ -23,8 +23,8 @@ class References(CommonSection):
     def blocks(self, cases: Sequence[Case]) -> Iterator[Block]:
         found: dict[str, None] = {}
         for case in cases:
-            if case.mechanism.source:
-                found[case.mechanism.source] = None
+            if case.origin:
+                found[case.origin] = None
             for group in case.structure.groups:
                 found.update(dict.fromkeys(_of_group(group.signature)))
         if not found:
@@ -39,11 +39,20 @@ def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
     say, language = cases[0].say, cases[0].language
     names = dict.fromkeys(name for case in cases for name in case.used)
     rows = tuple(
-        (literal(METRICS[name]().label_in(language)), literal(METRICS[name].source)) for name in names
+        (literal(METRICS[name]().label_in(language)), literal(_titles(METRICS[name].source, cases[0])))
+        for name in names
     )
     if rows:
         head = (say("report.number"), say("report.defined_in"))
         yield Table(say("report.definitions"), head, rows, "<<")
+
+
+def _titles(source: str, case: Case) -> str:
+    """A source; in other languages than its own the titles in it alone, without what it says about them."""
+    if case.language == "en":
+        return source
+    titles = [part.partition(": ")[0] for part in source.split("; ") if part[0].isupper()]
+    return "; ".join(titles) or case.say("report.own_method")
 
 
 def _of_group(signature: str) -> list[str]:
@@ -52,4 +61,5 @@ def _of_group(signature: str) -> list[str]:
         return []
     text = " ".join((getdoc(DYADS[signature]) or "").split())
     quoted = re.findall(r"\(([^()]*(?:ch\.|pp?\.|§|,)[^()]*)\)\.?", text)
-    return [part.strip() for part in quoted[-1].split(";")] if quoted else []
+    parts = [part.strip() for part in quoted[-1].split(";")] if quoted else []
+    return [part for part in parts if part[:1].isupper()]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank import rank_sentence
 from linkwright.report.case import Case
-from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
+from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
 from linkwright.report.section import SECTIONS, Section
 from linkwright.structure.text import numeral
@@ -23,7 +24,7 @@ class StructureAnalysis(Section):
         first, *rest = [
             line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()
         ]
-        yield Paragraph(literal(first) + say("report.stop"))
+        yield Paragraph(symbols(first) + say("report.stop"))
         yield _mobility(case)
         for line in rest[1:]:
             yield Paragraph(literal(line))
@@ -50,7 +51,11 @@ class StructureAnalysis(Section):
 def _mobility(case: Case) -> Formula:
     counts = case.structure.counts
     n, p, w = counts["links"], counts["revolute"] + counts["prismatic"], counts["weld"]
-    symbols, numbers = "3\\,n - 2\\,p", f"3\\cdot {n} - 2\\cdot {p}"
+    higher = sum(count for kind, count in counts.items() if kind in JOINTS and JOINTS[kind].higher)
+    lower = "p_{L}" if higher else "p"
+    symbols, numbers = f"3\\,n - 2\\,{lower}", f"3\\cdot {n} - 2\\cdot {p}"
+    if higher:
+        symbols, numbers = f"{symbols} - p_{{H}}", f"{numbers} - {higher}"
     if w:
         symbols, numbers = f"{symbols} - 3\\,w", f"{numbers} - 3\\cdot {w}"
     return Formula(("F", symbols, numbers, str(case.structure.grubler)), "mobility")

@@ -13,7 +13,12 @@ from linkwright.model.write import to_data
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.section import SECTIONS, Section
+from linkwright.words import Say, has
 
+#: Entries of a list that is printed whole.
+LONGEST = 12
+#: Keys of a driver that name its law.
+LAWS = ("speed", "table", "program", "position")
 _QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
 
 
@@ -25,10 +30,10 @@ class Task(Section):
 
     def blocks(self, case: Case) -> Iterator[Block]:
         say, mechanism = case.say, case.mechanism
-        if mechanism.purpose:
-            yield Paragraph(literal(mechanism.purpose))
-        if mechanism.source:
-            yield Paragraph(say("report.source", source=literal(mechanism.source)))
+        if case.purpose:
+            yield Paragraph(literal(case.purpose))
+        if case.origin:
+            yield Paragraph(say("report.source", source=literal(case.origin)))
         data = to_data(mechanism)
         yield _points(case)
         yield _links(case)
@@ -44,8 +49,10 @@ class Task(Section):
             ("loads", data.get("loads", {})),
         ):
             if part:
-                rows = tuple((literal(name), literal(written(value))) for name, value in part.items())
-                yield Table(say(f"report.{title}"), (say("report.name"), say("report.as_given")), rows, "<<")
+                head = tuple(say(f"report.{key}") for key in ("name", "kind", "as_given"))
+                body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value)))
+                             for name, value in part.items())  # fmt: skip
+                yield Table(say(f"report.{title}"), head, body, "<<<")
         if any(mechanism.gravity):
             x, y = (f"{value:g}" for value in mechanism.gravity)
             yield Paragraph(say("report.gravity", x=x, y=y))
@@ -88,12 +95,29 @@ def _or_dash(value: float) -> str:
     return f"{value:.6g}" if value else "–"
 
 
+def kind_of(value: Any, say: Say) -> str:
+    """The kind of a joint, a load, or a driver's law, in words; of another package by its own name."""
+    kind = str(value.get("kind", "")) or next((law for law in LAWS if law in value), "")
+    for key in (f"report.kind_{kind}", f"nouns.pair_{kind}"):
+        if has(key):
+            return say(key)
+    return kind or "–"
+
+
+def given(value: Any) -> str:
+    """What the model file says of a joint, a driver or a load, but its kind."""
+    return written({key: each for key, each in value.items() if key != "kind"})
+
+
 def written(value: Any) -> str:
-    """A value of a model file in one line, angles in degrees, numbers with six digits."""
+    """A value of a model file in one line, angles in degrees, numbers with six digits; long lists by their ends."""
     if isinstance(value, Mapping):
         return "; ".join(f"{key}: {written(each)}" for key, each in value.items())
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(written(each) for each in value) + "]"
+        shown = list(map(written, value))
+        if len(shown) > LONGEST:
+            shown = [*shown[:3], f"… ({len(shown)}) …", shown[-1]]
+        return "[" + ", ".join(shown) + "]"
     return _rounded(str(value))
 
 
@@ -105,4 +129,5 @@ def _rounded(text: str) -> str:
     value, unit = float(found[1]), found[2]
     if unit.strip() == "rad":
         value, unit = math.degrees(value), "°"
-    return f"{value:.6g}{unit}"
+    turns = f" ({value * 30.0 / math.pi:.6g} rpm)" if unit.strip() == "rad/s" else ""
+    return f"{value:.6g}{unit}{turns}"

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
-from linkwright.report.numbers import column
+from linkwright.report.numbers import column, small
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.curves import pictures
 from linkwright.words.sentence import Sentence
@@ -37,7 +37,7 @@ class Torque(Section):
             joint, power = at.input_torque[rows], at.input_torque_from_power[rows]
             inputs = case.inputs_of(numbered)
             printed = (column(joint), column(power))
-            gaps = [f"{gap:.1e}" if np.isfinite(gap) else "–" for gap in joint - power]
+            gaps = [small(float(gap), 2) for gap in joint - power]
             body = tuple(
                 (str(k + 1), inputs[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows))
             )

@@ -6,15 +6,19 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.case import Case
-from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal
+from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, symbols
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.method import side_by_side
 from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
 POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
+#: Links whose force polygons share a page; a page that would be smaller than this share is parted.
+ON_PAGE, SMALL = 5, 0.6
 
 
 @SECTIONS.register("worked")
@@ -24,17 +28,24 @@ class WorkedPosition(Section):
     name, rank = "worked", 5.0
 
     def blocks(self, case: Case) -> Iterator[Block]:
-        say, solution = case.say, case.worked
+        say = case.say
         if case.worked_text:
             yield Paragraph(say("report.worked_at", input=literal(case.worked_text)))
-        for line in solution.legend:
-            yield Paragraph(literal(line))
-        for step in solution.steps:
-            level = 2 if "." not in step.number else 3
-            yield Heading(literal(step.title), level)
-            yield from with_numbers(step)
+        try:
+            yield from _solution(case.worked)
+        except LinkwrightError as error:
+            yield Paragraph(say("report.only_polygons", sentence=literal(case.told(error))), "missing")
         yield Heading(say("report.polygons"), 2)
         yield from _polygons(case)
+
+
+def _solution(solution: Worked) -> Iterator[Block]:
+    """All steps of a worked solution."""
+    for line in solution.legend:
+        yield Paragraph(symbols(line))
+    for step in solution.steps:
+        yield Heading(symbols(step.title), 2 if "." not in step.number else 3)
+        yield from with_numbers(step)
 
 
 def with_numbers(step: Step) -> Iterator[Block]:
@@ -47,7 +58,7 @@ def with_numbers(step: Step) -> Iterator[Block]:
         yield from side_by_side(given)
         given = []
         if isinstance(item, Note):
-            yield Paragraph(literal(item.text))
+            yield Paragraph(symbols(item.text))
         elif isinstance(item, Relation):
             left, right = item.data()["latex"].split(" = ", 1)  # type: ignore[attr-defined]
             yield Formula((left, right), number=False)
@@ -67,24 +78,53 @@ def _result(item: Equation) -> str:
 
 
 def _polygons(case: Case) -> Iterator[Block]:
-    source, _ = case.worked_result
-    kinds = ["velocity_polygon", "acceleration_polygon"] if case.mechanism.drivers else []
+    source, index = case.worked_result
+    pages: list[tuple[str, list[str]]] = []
+    if case.mechanism.drivers:
+        pages += [("velocity_polygon", []), ("acceleration_polygon", [])]
     if isinstance(source, Forces):
-        kinds.append("force_polygon")
-    for kind in kinds:
+        pages += [("force_polygon", links) for links in _sheets(source, index)]
+    drawn: list[str] = []
+    while pages:
+        kind, links = pages.pop(0)
+        of = {"of": links} if links else {}
+        given = source if kind == "force_polygon" else None
         try:
-            picture = case.diagram(kind, source if kind == "force_polygon" else None, at=case.worked_place)
+            picture = case.diagram(kind, given, at=case.worked_place, **of)
         except LinkwrightError as error:
             yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
             continue
-        yield to_scale(case, kind, picture)
+        if len(links) > 1 and share_of(picture) < SMALL:
+            half = len(links) // 2
+            pages[:0] = [(kind, links[:half]), (kind, links[half:])]
+            continue
+        yield to_scale(case, kind, picture, again=kind in drawn)
+        drawn.append(kind)
 
 
-def to_scale(case: Case, kind: str, picture: str) -> Figure:
-    """A polygon in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
+def _sheets(forces: Forces, index: int) -> list[list[str]]:
+    """Links whose force polygons share a page: groups in the order of statics, links with three forces or more."""
+    sheets: list[list[str]] = [[]]
+    for group in reversed(forces.motion.structure.groups):
+        links = [link for link in reversed(group.links) if len(link_forces(forces, link, index)) > 2]
+        if sheets[-1] and len(sheets[-1]) + len(links) > ON_PAGE:
+            sheets.append([])
+        sheets[-1] += links
+    return sheets
+
+
+def share_of(picture: str) -> float:
+    """The share of its own size in which a picture fits a page."""
     wide, high = (POINT * each for each in natural_size(picture))
-    share = min(1.0, TEXT / wide, TALLEST / high)
+    return min(1.0, TEXT / wide, TALLEST / high)
+
+
+def to_scale(case: Case, kind: str, picture: str, *, again: bool = False) -> Figure:
+    """A polygon in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
+    wide, share = POINT * natural_size(picture)[0], share_of(picture)
     caption = case.say(f"report.caption_{kind}")
-    if share < 1.0:
+    if again:
+        caption = case.say("report.continued", caption=caption)
+    if share < 0.995:
         caption = case.say("report.reduced", caption=caption, percent=f"{100 * share:.0f}")
-    return Figure(caption, ((picture, share * wide / TEXT),), kind, TALLEST)
+    return Figure(caption, ((picture, share * wide / TEXT),), "" if again else kind, TALLEST)

@@ -1,0 +1,57 @@
+"""The hodographs of many joint forces beside each other, to compare where and how much the pins carry."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from linkwright.errors import RequestError
+from linkwright.plot.diagrams.axes import Legend, framed
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.hodograph import draw_hodograph
+from linkwright.plot.diagrams.picture import INK, new_figure
+from linkwright.plot.diagrams.reactions import require_forces
+from linkwright.plot.diagrams.source import Source
+from linkwright.plot.force_names import reaction_pairs
+from linkwright.registry import no_such
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Panels in a row, and inches of one.
+ROW, WIDE, HIGH = 3, 3.3, 3.1
+
+
+@DIAGRAMS.register("hodographs")
+class Hodographs(Kind):
+    """A hodograph of every joint force, or of the joints that ``of`` names, in the axes of the frame."""
+
+    name = "hodographs"
+    options = ("of", "static")
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        require_forces(sources[0].forces)
+        pairs = _chosen(reaction_pairs(sources[0].mechanism), request.of)
+        columns = min(ROW, len(pairs))
+        rows = -(-len(pairs) // columns)
+        figure = new_figure(request.size or (WIDE * columns, HIGH * rows))
+        places = list(figure.subplots(rows, columns, squeeze=False).flat)
+        legend = Legend()
+        for place, (joint, link) in zip(places, pairs, strict=False):
+            draw_hodograph(place, sources, (joint, link, "frame"), request, legend, largest=False)
+            place.set_title(request.say("force_on", joint=joint, link=link), color=INK)
+        for place in places[len(pairs) :]:
+            place.set_axis_off()
+        title = request.say("kind.hodographs")
+        framed(figure, f"{sources[0].label}: {title}" if len(sources) == 1 else title, request)
+        legend.put(figure)
+        return figure
+
+
+def _chosen(pairs: list[tuple[str, str]], names: Sequence[str]) -> list[tuple[str, str]]:
+    """The pairs of the joints that are named, else all."""
+    known = list(dict.fromkeys(joint for joint, _ in pairs))
+    for name in names:
+        if name not in known:
+            raise RequestError(no_such("joint", name, known))
+    return [pair for pair in pairs if pair[0] in names] if names else pairs

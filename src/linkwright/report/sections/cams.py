@@ -1,0 +1,79 @@
+"""The cams of the machine: law, profile, pressure angle, curvature."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.cams.joint import cam_of
+from linkwright.cams.result import CamDesign
+from linkwright.errors import with_remedy
+from linkwright.joints.cam import CamJoint
+from linkwright.laws.program import MotionProgram
+from linkwright.report.calculation import numbers_and_way
+from linkwright.report.case import Case, Missing
+from linkwright.report.document import Block, Heading, Paragraph, Table, literal
+from linkwright.report.section import SECTIONS, Section
+from linkwright.words import has
+from linkwright.words.sentence import Sentence
+
+
+@SECTIONS.register("cams")
+class Cams(Section):
+    """Every cam with its motion program, its profile, and the checks that a cam is designed by."""
+
+    name, rank, optional = "cams", 8.6, True
+
+    def blocks(self, case: Case) -> Iterator[Block]:
+        joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
+        if not joints:
+            raise Missing(Sentence("report.no_cams"))
+        for joint in joints:
+            cam = cam_of(case.mechanism, joint.name, speed=_speed(case, joint))
+            yield Heading(literal(joint.name), 2)
+            yield Paragraph(_about(case, joint))
+            if isinstance(cam.program, MotionProgram):
+                yield _program(case, cam.program, lift_unit="°" if joint.side else "mm")
+            for finding in cam.findings():
+                text = with_remedy(finding.message, finding.remedy)
+                yield Paragraph(literal(case.sentence(text)), "note")
+            yield from numbers_and_way(CamDesign(cam), case.say, case.language, 3)
+
+
+def _about(case: Case, joint: CamJoint) -> str:
+    say = case.say
+    motion = say(f"report.cam_{'oscillating' if joint.side else 'translating'}")
+    key = "report.cam_law" if joint.program is not None else "report.cam_table"
+    return say(
+        "report.cam_about", cam=literal(joint.cam), follower=literal(joint.follower), motion=motion,
+        touch=say(f"report.cam_{joint.touch}"),
+    ) + say(key, count=len(joint.angles))  # fmt: skip
+
+
+def _speed(case: Case, joint: CamJoint) -> float:
+    """Angular velocity of the cam against its carrier, rad/s; zero where it varies."""
+    if not case.mechanism.drivers:
+        return 0.0
+    rates = case.motion.link(joint.cam).angular_velocity - case.motion.link(joint.carrier).angular_velocity
+    known = rates[np.isfinite(rates)]
+    return float(known[0]) if np.ptp(known) <= 1e-9 * abs(known[0]) else 0.0
+
+
+def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
+    """The segments of a program: from where to where, lifts, law."""
+    say, factor = case.say, 180.0 / math.pi if lift_unit == "°" else 1e3
+    ends = list(itertools.pairwise(program.edges))
+    lifts = list(itertools.pairwise(program.lift_at_edges))
+    rows = tuple(
+        (str(number), *(f"{math.degrees(each):.6g}" for each in place), *(f"{factor * each:.6g}" for each in lift),
+         literal(say(f"report.law_{law}") if has(f"report.law_{law}") else law))
+        for number, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
+    )  # fmt: skip
+    head = (
+        say("report.position_number"), say("report.from_angle"), say("report.to_angle"),
+        f"{say('report.from_lift')} / {lift_unit}", f"{say('report.to_lift')} / {lift_unit}", say("report.law"),
+    )  # fmt: skip
+    return Table(say("report.program"), head, rows, ">>>>><")
