@@ -191,17 +191,26 @@ def test_loads_and_speed_are_solved_again(opened: Opened, tmp_path: Path) -> Non
     np.testing.assert_allclose(got, want, rtol=0, atol=1e-10 * np.abs(want).max())
 
 
-def test_friction_is_said_and_forces_left_out(opened: Opened, tmp_path: Path) -> None:
-    """What the page cannot find again is not shown: the shaper with friction in its guide."""
+def test_friction_is_solved_again(opened: Opened, tmp_path: Path) -> None:
+    """A guide's and a pin's friction after a drag, against the core's iteration; a coefficient that locks is said."""
     text = lw.read_document("gallery:shaper_quick_return").text
-    mechanism = lw.loads(text.replace("offset: 528.5 mm}", "offset: 528.5 mm, friction: 0.1}"))
+    text = text.replace("offset: 528.5 mm}", "offset: 528.5 mm, friction: 0.1}")
+    text = text.replace(
+        "joints:\n", "joints:\n  O3: {kind: revolute, friction: 0.15, pin_radius: 20 mm}\n", 1
+    )
+    mechanism = lw.loads(text)
+    assert len(lw.solve_forces(lw.solve_motion(mechanism, steps=4)).solver.friction.terms) == 2
     opened.open(lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "friction.html"))
     agrees(opened, mechanism, forces=True)
     opened.drag("E", 4.0, 0.0)
+    before = {a: mechanism.dimension(a) for a in opened.values()}
+    changed = {a: v for a, v in opened.values().items() if v != before[a]}
+    assert changed
+    agrees(opened, mechanism.with_dimensions(changed), forces=True, tolerance=1e-10)
+    assert opened.tab.locator(".note").count() == 0
+    opened.run("s => { for (const term of s.data.friction) term.arm *= 400; s.take({...s.model.values}); }")
     assert opened.run("s => s.model.row('effort:driver').every(Number.isNaN)")
-    assert (
-        "Forces are shown for the original only: friction" in opened.tab.locator(".note").first.inner_text()
-    )
+    assert "locks" in opened.tab.locator(".note").first.inner_text()
 
 
 def test_the_changed_file_keeps_comments_and_units(opened: Opened, tmp_path: Path) -> None:

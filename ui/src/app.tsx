@@ -1,7 +1,7 @@
 // The page: machines side by side, each with its drawing, design numbers, dimensions and curves.
-import { signal } from "@preact/signals";
+import { signal, useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Chart, Hodograph } from "./chart";
 import type { Dimension, PageData } from "./data";
 import { isForce, type Values, type Wall } from "./model";
@@ -13,6 +13,8 @@ import "./page.css";
 const CYCLE_SECONDS = [2, 6];
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const MOST_CURVES = 8;
+// Rest after a change before joints are given their new names for those who do not see them, ms.
+const NAMING = 150;
 const SHOWN = ["names", "velocities", "accelerations", "forces", "centres"] as const;
 
 export interface History {
@@ -155,7 +157,7 @@ export class Page {
 
 function Machine({ page, session }: { page: Page; session: Session }) {
   const host = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const view = new View(session.model, host.current!, session.shown);
     session.view = view;
     const observer = new ResizeObserver(([{ contentRect: box }]) => view.resize(box.width, box.height));
@@ -166,16 +168,21 @@ function Machine({ page, session }: { page: Page; session: Session }) {
   }, []);
   void session.version.value;
   const i = page.index(session), language = page.language.value;
-  useEffect(() => session.view?.draw(i));
+  // Drawn before the frame is painted, not behind it.
+  useLayoutEffect(() => session.view?.draw(i));
   const help = page.say("drawing", { name: session.data.name });
   useEffect(() => {
+    const waiting = window.setTimeout(() => label(), NAMING);
+    return () => window.clearTimeout(waiting);
+  }, [language, page.playing.value, session.version.value]);
+  const label = () => {
     session.view?.svg.setAttribute("aria-label", help);
     for (const handle of session.view?.svg.querySelectorAll<SVGElement>(".handle") ?? []) {
       const key = handle.dataset.key!, { main } = session.model;
       const [x, y] = ["x", "y"].map((axis) => quantity(main.row(`p:${key}.${axis}`)[i], "length"));
       handle.setAttribute("aria-label", page.say("joint", { name: key, x, y }));
     }
-  }, [language, page.playing.value, session.version.value]);
+  };
   const wall = page.wall(session, session.model.wall);
   return (
     <div class="stage">
@@ -198,10 +205,6 @@ function transmission(page: Page, session: Session, i: number): string {
 /** Dragging by pointer and by arrow keys. */
 function attach(page: Page, session: Session, view: View): void {
   let dragged: { key: string; base: Values; dx: number; dy: number } | null = null;
-  const local = (event: PointerEvent) => {
-    const box = view.svg.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
   const move = (key: string, base: Values, x: number, y: number) => {
     session.model.drag(base, key, view.index, ...view.world(x, y));
     session.touched();
@@ -212,15 +215,15 @@ function attach(page: Page, session: Session, view: View): void {
     event.preventDefault();
     page.play(false);
     handle.setPointerCapture(event.pointerId);
-    const [x, y] = local(event);
-    dragged = { key: handle.dataset.key!, base: { ...session.model.values }, dx: Number(handle.getAttribute("cx")) - x, dy: Number(handle.getAttribute("cy")) - y };
+    const [dx, dy] = [Number(handle.getAttribute("cx")) - event.pageX, Number(handle.getAttribute("cy")) - event.pageY];
+    dragged = { key: handle.dataset.key!, base: { ...session.model.values }, dx, dy };
     session.begin();
     handle.focus();
   });
   view.svg.addEventListener("pointermove", (event) => {
     if (!dragged) return;
-    const { key, base, dx, dy } = dragged, [x, y] = local(event);
-    page.soon(() => move(key, base, x + dx, y + dy));
+    const { key, base, dx, dy } = dragged, { pageX, pageY } = event;
+    page.soon(() => move(key, base, pageX + dx, pageY + dy));
   });
   const stop = () => {
     if (!dragged) return;
@@ -269,7 +272,7 @@ export function Transport({ page }: { page: Page }) {
 }
 
 function Numbers({ page, session }: { page: Page; session: Session }) {
-  void session.version.value;
+  void session.calm.value;
   const language = page.language.value, { model } = session, now = model.numbers(), before = model.original.numbers;
   const variants = session.variants.value;
   return (
@@ -304,9 +307,14 @@ function percent(share: number): string {
   return Math.abs(share) >= 1000 ? `× ${digits(1 + share / 100, 3)}` : `${share > 0 ? "+" : ""}${digits(share, 3)} %`;
 }
 
+/** Renders a component again only where what it shows has changed. */
+function useShown(session: Session, what: () => unknown): void {
+  void useComputed(() => (void session.calm.value, what())).value;
+}
+
 function Slider({ page, session, dimension }: { page: Page; session: Session; dimension: Dimension }) {
-  void session.version.value;
   const { address, value, factor, unit } = dimension, { model } = session;
+  useShown(session, () => `${model.values[address]} ${model.locked.has(address)}`);
   const now = model.values[address], locked = model.locked.has(address);
   const reach = Math.abs(value) || (dimension.geometry ? (unit === "deg" || unit === "rad" ? 1 : model.size) : 1);
   const shown = (x: number) => Number((x / factor).toPrecision(6));
@@ -390,8 +398,8 @@ function Dimensions({ page, session }: { page: Page; session: Session }) {
 }
 
 function Shows({ page, session }: { page: Page; session: Session }) {
-  void session.version.value;
   const { shown, data } = session;
+  useShown(session, () => JSON.stringify({ ...shown, paths: [...shown.paths] }));
   const usable = SHOWN.filter((name) => (name !== "forces" || data.signals.some(({ id }) => isForce(id))) && (name !== "centres" || data.masses.length));
   const moving = data.points.filter(({ fixed }) => !fixed);
   return (
@@ -441,12 +449,12 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
   const host = useRef<HTMLDivElement>(null), chart = useRef<Chart | null>(null);
   const { model } = session, language = page.language.value, signal = model.signals[id];
   const version = session.version.value, variants = session.variants.value, i = page.index(session);
-  useEffect(() => {
+  useLayoutEffect(() => {
     chart.current = new Chart(host.current!);
     return () => chart.current!.svg.remove();
   }, []);
   const row = model.row(id);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const before = model.original.rows[id], { x, kind } = model.axis;
     const size = before.reduce((most, x) => Math.max(most, Math.abs(x)), 0), unit = unitFor(signal.kind, size);
     const ends = [0, model.n - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
@@ -455,7 +463,7 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
     chart.current!.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends);
     chart.current!.label(page.say("curve", { name: signal.name[language] }));
   }, [version, id, language, variants]);
-  useEffect(() => chart.current!.cursor(i, row[i]));
+  useLayoutEffect(() => chart.current!.cursor(i, row[i]));
   const size = model.original.rows[id].reduce((most, x) => Math.max(most, Math.abs(x)), 0);
   const scrub = (event: PointerEvent) => {
     if (event.buttons !== 1) return;
@@ -482,15 +490,15 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
 function HodographPlot({ page, session }: { page: Page; session: Session }) {
   const host = useRef<HTMLDivElement>(null), drawn = useRef<Hodograph | null>(null);
   const key = session.hodograph.value, version = session.version.value, i = page.index(session), { main } = session.model;
-  useEffect(() => {
+  useLayoutEffect(() => {
     drawn.current = new Hodograph(host.current!);
     return () => drawn.current!.svg.remove();
   }, []);
   const name = page.say("hodograph", { name: key });
-  useEffect(() => {
+  useLayoutEffect(() => {
     drawn.current!.set(name, main.row(`v:${key}.x`), main.row(`v:${key}.y`), session.data.positions.closed);
   }, [key, version, name]);
-  useEffect(() => drawn.current!.cursor(main.row(`v:${key}.x`)[i], main.row(`v:${key}.y`)[i]));
+  useLayoutEffect(() => drawn.current!.cursor(main.row(`v:${key}.x`)[i], main.row(`v:${key}.y`)[i]));
   return <figure class="plot"><figcaption>{name}</figcaption><div ref={host} /></figure>;
 }
 
@@ -512,9 +520,9 @@ function Curves({ page, session }: { page: Page; session: Session }) {
 // the whole ------------------------------------------------------------------------------
 
 function Tools({ page, session }: { page: Page; session: Session }) {
-  void session.version.value;
-  const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const history: History = page.history ?? session;
+  useShown(session, () => [history.undoable, history.redoable, session.model.differs].join());
+  const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const download = () => {
     const { text, missing } = session.text();
     const url = URL.createObjectURL(new Blob([text], { type: "text/yaml" }));
@@ -547,8 +555,8 @@ function Tools({ page, session }: { page: Page; session: Session }) {
 function notes(page: Page, session: Session): string[] {
   const { model } = session, { held } = session.data;
   const found: string[] = [];
-  if (model.changed && held.loads.length) found.push(page.say("not_found_again", { names: held.loads.join(", ") }));
-  if (model.changed && held.friction) found.push(page.say("friction_held"));
+  if (model.changed && held.length) found.push(page.say("not_found_again", { names: held.join(", ") }));
+  if (model.locking) found.push(page.say("locking"));
   if (model.doubtful) found.push(page.say("doubtful"));
   if (model.iterated && model.changed) found.push(page.say("followed", { value: digits(model.margin ?? 0, 2) }));
   if (session.data.undrawn.length) found.push(page.say("undrawn", { names: session.data.undrawn.join(", ") }));
@@ -556,8 +564,12 @@ function notes(page: Page, session: Session): string[] {
   return found;
 }
 
+function Notes({ page, session }: { page: Page; session: Session }) {
+  void session.calm.value;
+  return <>{notes(page, session).map((each) => <p class="note" key={each}>{each}</p>)}</>;
+}
+
 export function Card({ page, session }: { page: Page; session: Session }) {
-  void session.version.value;
   return (
     <article class="card">
       <h1>{session.data.name}</h1>
@@ -566,7 +578,7 @@ export function Card({ page, session }: { page: Page; session: Session }) {
         <Machine page={page} session={session} />
         <div class="panels">
           <Tools page={page} session={session} />
-          {notes(page, session).map((each) => <p class="note" key={each}>{each}</p>)}
+          <Notes page={page} session={session} />
           <Dimensions page={page} session={session} />
           <Shows page={page} session={session} />
         </div>

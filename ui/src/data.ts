@@ -89,6 +89,17 @@ export interface Glyph {
   crossed?: boolean;
 }
 
+/** `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */
+export interface FrictionTerm {
+  field: string;
+  joint: string;
+  a: string;
+  b: string;
+  arm: number;
+  slides: boolean;
+  on: string[];
+}
+
 export interface Steady {
   driver: string;
   turns: boolean;
@@ -124,7 +135,9 @@ export interface ModelData {
   };
   fields: Record<string, string>;
   starts: Record<string, number | string>;
-  held: { loads: string[]; friction: boolean };
+  /** Loads whose course is that of the original. */
+  held: string[];
+  friction: FrictionTerm[];
   groups: Group[];
   signals: Signal[];
   numbers: Figure[];

@@ -1,6 +1,7 @@
 // One machine of the page: its dimensions as they are now, its programs' results, and what a change may do.
 import { bytes, floats, type Figure, type Group, type ModelData, type Signal } from "./data";
 import { Call, Cycle, Kernels, type Code } from "./engine";
+import { settle } from "./friction";
 import { least, leastChange, root } from "./search";
 
 export type Values = Record<string, number>;
@@ -42,6 +43,8 @@ export class Model {
   locked = new Set<string>();
   wall: Wall | null = null;
   doubtful = false;
+  /** Friction for which no finite effort is found. */
+  locking = false;
   private readonly one: Call;
   private readonly cycle: Cycle | null;
   private readonly arrays: Record<string, Float64Array> = {};
@@ -91,8 +94,7 @@ export class Model {
 
   /** Whether forces can be shown: what is held is that of the original. */
   get forces(): boolean {
-    const { held } = this.data;
-    return !this.doubtful && !((held.friction || held.loads.length) && this.changed);
+    return !this.doubtful && !this.locking && !(this.data.held.length && this.changed);
   }
 
   get margin(): number | null {
@@ -134,6 +136,8 @@ export class Model {
     this.main.give(this.arrays);
     if (this.iterated && !this.approach(values)) return this.lost(0);
     this.main.run();
+    const { friction } = this.data;
+    this.locking = friction.length > 0 && !settle(this.main, friction);
     if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
     return this.reached(values);
   }

@@ -12,11 +12,15 @@ export interface Variant {
 
 const SHARE = 0.2;
 const SWEEP = 41;
+// Between two readings of tables and fields, ms.
+const REST = 90;
 
 export class Session {
   readonly model: Model;
   readonly shown: Shown;
   readonly version = signal(0);
+  /** The same for what is read and not followed by the eye: tables and fields, at most some times a second. */
+  readonly calm = signal(0);
   readonly curves = signal<string[]>([]);
   readonly variants = signal<Variant[]>([]);
   readonly swept = signal<string | null>(null);
@@ -27,6 +31,8 @@ export class Session {
   private past: Values[] = [];
   private future: Values[] = [];
   private counted = 0;
+  private resting = 0;
+  private stale = false;
 
   constructor(readonly data: ModelData, code: Code, readonly number: number) {
     this.model = new Model(data, code);
@@ -40,6 +46,18 @@ export class Session {
 
   touched(): void {
     this.version.value++;
+    this.stale = true;
+    if (this.resting) return;
+    this.calmed();
+    this.resting = window.setTimeout(() => {
+      this.resting = 0;
+      if (this.stale) this.calmed();
+    }, REST);
+  }
+
+  private calmed(): void {
+    this.stale = false;
+    this.calm.value++;
   }
 
   /** A change begins: what was before can be had back. */
@@ -55,6 +73,7 @@ export class Session {
     if (this.view?.outside) this.view.fit();
     this.sweep(this.swept.value);
     this.touched();
+    if (this.stale) this.calmed();
     this.ended?.();
   }
 

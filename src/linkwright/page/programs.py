@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, replace
 from functools import cached_property
 
 import numpy as np
@@ -33,14 +33,6 @@ Floats = NDArray[np.float64]
 STEPS = 360
 
 
-@dataclass(frozen=True)
-class Held:
-    """What a page cannot find again after a change: loads whose course is that of the original, joints' friction."""
-
-    loads: tuple[str, ...]
-    friction: bool
-
-
 class PagePrograms:
     """Programs of one mechanism and their inputs.
 
@@ -55,12 +47,21 @@ class PagePrograms:
         self.free = frozenset(geometry_addresses(self.mechanism))
 
     @cached_property
-    def held(self) -> Held:
-        """Loads and friction whose course is data."""
+    def held(self) -> list[str]:
+        """Loads that a page cannot find again after a change: their course is that of the original."""
         fields = self._plain.forces.fields_needed() if self.forces is not None else ()
         loads = [name.removeprefix("load:") for name in fields if name.startswith("load:")]
-        kept = tuple(name for name in loads if name not in self.followed.names)
-        return Held(kept, any(name.startswith("friction:") for name in fields))
+        return [name for name in loads if name not in self.followed.names]
+
+    def friction(self) -> list[dict[str, object]]:
+        """The friction that the page finds again, with the links whose stored reactions add up to that on ``b``."""
+        terms = self.forces.solver.friction.terms if self.forces is not None else ()
+        joints = self.mechanism.joints
+        return [
+            {**asdict(term), "field": term.field,
+             "on": [term.b] if term.b in joints[term.joint].joined[1:] else joints[term.joint].joined[1:]}
+            for term in terms
+        ]  # fmt: skip
 
     @cached_property
     def _plain(self) -> Traced:

@@ -77,7 +77,7 @@ WORDS = {
     "where": "{name} = {value}",
     "transmission_now": "transmission angle {value} ({name})",
     "not_found_again": "Forces are shown for the original only: the course of {names} is not found again here.",
-    "friction_held": "Forces are shown for the original only: friction in joints is not found again here.",
+    "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
     "followed": "The assembly is followed from position to position, but not certified (margin {value}); "
     "`linkwright solve` certifies it.",
