@@ -32,10 +32,6 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angle]",
             "carries no force",
         ),
-        (
-            "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angular_velocity]",
-            "is no position",
-        ),
     ],
 )
 def test_studies(text: str, words: str) -> None:

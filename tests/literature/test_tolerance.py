@@ -117,6 +117,80 @@ def test_pressed_pin_of_a_rod_without_mass_changes_its_length(direction: str, si
     assert not deviation.any()
 
 
+def test_rates_and_effort_of_a_pressed_rod_without_mass_are_those_of_a_shorter_rod() -> None:
+    """Velocity and acceleration of the slider in closed form, the effort by the power of the slider's forces."""
+    text = SLIDER.replace("slider: {points: [B], mass: 0 kg}", "slider: {points: [B], mass: 3 kg}")
+    names = ("B.velocity.x", "B.acceleration.x", "driver.effort", "reaction B on rod")
+    pins = {"B": Clearance(1e-3, "rod", "pressed")}
+    found = ToleranceStudy(lw.loads(text), clearances=pins, curves=names, of=("B.velocity.x peak",)).solve()
+    phi, omega, r, rod = found.derivatives.input, 2 * np.pi, 0.1, 0.4 - 1e-3
+    root = np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
+    first = -r * np.sin(phi) - r**2 * np.sin(phi) * np.cos(phi) / root
+    second = -r * np.cos(phi) - r**2 * np.cos(2 * phi) / root - (r**2 * np.sin(2 * phi) / 2) ** 2 / root**3
+    push = 3 * second * omega**2 + 500  # of the rod on the slider: always pushed together
+    expected = (first * omega, second * omega**2, push * first, push * rod / root)
+    for name, values in zip(names, expected, strict=True):
+        assert found.curve(name)[1] == pytest.approx(values, rel=1e-7, abs=1e-7 * np.abs(values).max()), name
+    nominal = found.nominal("B.velocity.x peak")
+    assert nominal + found.shift("B.velocity.x peak") == pytest.approx(np.abs(expected[0]).max(), rel=1e-7)
+
+
+def test_a_pressed_pin_that_turns_keeps_lagranges_equation() -> None:
+    """A heavy rod: the pin turns in its hole. With its angle as a coordinate without force of its own, d/dt ∂T/∂θ' -
+    ∂T/∂θ = -F ∂x/∂θ must hold, by a kinetic energy and derivatives that share nothing with the solver."""
+    text = SLIDER.replace("slider: {points: [B], mass: 0 kg}", "slider: {points: [B], mass: 3 kg}").replace(
+        "length: 400 mm}", "length: 400 mm, mass: 2 kg, inertia: 0.03 kg·m²}"
+    )
+    size, count = 2e-3, 720
+    pins = {"B": Clearance(size, "rod", "pressed")}
+    found = ToleranceStudy(lw.loads(text), clearances=pins, curves=("B.velocity.x",), steps=count).solve()
+    law = found.followed.mechanism.drivers["B_hole"].law
+    speed = 2 * np.pi
+
+    def places(phi: complex, theta: complex) -> tuple[complex, complex, complex, complex]:
+        """Angle of the rod, its mass centre and the slider, for complex angles."""
+        psi = -np.arcsin((0.1 * np.sin(phi)) / 0.4) + 0j
+        for _ in range(8):
+            gap = 0.1 * np.sin(phi) + 0.4 * np.sin(psi) + size * np.sin(psi + theta)
+            psi -= gap / (0.4 * np.cos(psi) + size * np.cos(psi + theta))
+        x = 0.1 * np.cos(phi) + 0.4 * np.cos(psi) + size * np.cos(psi + theta)
+        return psi, 0.1 * np.cos(phi) + 0.2 * np.cos(psi), 0.1 * np.sin(phi) + 0.2 * np.sin(psi), x
+
+    def energy(phi: float, theta: complex, rate: complex) -> complex:
+        h = 1e-5  # fourth order along the motion
+        along = [places(phi + k * h * speed, theta + k * h * rate) for k in (-2, -1, 1, 2)]
+        rates = [(a[0] - 8 * a[1] + 8 * a[2] - a[3]) / (12 * h) for a in zip(*along, strict=True)]
+        return 0.5 * (0.03 * rates[0] ** 2 + 2 * (rates[1] ** 2 + rates[2] ** 2) + 3 * rates[3] ** 2)
+
+    def momentum(t: float) -> float:
+        theta, rate, _ = (float(each[0]) for each in law.coordinate(np.array([t])))
+        return energy(speed * t, theta, rate + 1e-20j).imag / 1e-20
+
+    worst = 0.0
+    for t in (0.05, 0.21, 0.4, 0.55, 0.83):
+        theta, rate, _ = (float(each[0]) for each in law.coordinate(np.array([t])))
+        h = 2e-4
+        change = (
+            (momentum(t - 2 * h) - 8 * momentum(t - h) + 8 * momentum(t + h) - momentum(t + 2 * h)) / 12 / h
+        )
+        pull = energy(speed * t, theta + 1e-20j, rate).imag / 1e-20
+        force = -500 * places(speed * t, theta + 1e-20j)[3].imag / 1e-20
+        worst = max(worst, abs(change - pull - force) / (500 * size))
+    assert abs(rate) > 0.0 and worst < 1e-4
+
+
+def test_where_a_reaction_jumps_the_pins_cannot_follow_and_that_is_said() -> None:
+    problem = parts.load("gallery:pressed_pins")
+    assert isinstance(problem, ToleranceStudy)
+    small = {"C": Clearance(5e-5, "toggle", "pressed")}
+    asked = {"of": ("jaw.angular_velocity peak",), "curves": ("jaw.angular_velocity",), "samples": 64}
+    found = ToleranceStudy(problem.mechanism, problem.dimensions, small, **asked).solve()  # type: ignore[arg-type]
+    gaps = np.flatnonzero(~found.followed.followed)
+    assert 0 < len(gaps) < 10 and np.isnan(found.curve("jaw.angular_velocity")[1][gaps]).all()
+    assert "cannot follow at" in found.text() and "turns faster than the pin" in found.text()
+    assert "跟不上" in found.text("zh")
+
+
 def test_first_order_follows_the_exact_solution_of_every_position() -> None:
     one = parts.load("gallery:pressed_pins")
     assert isinstance(one, ToleranceStudy)

@@ -18,6 +18,7 @@ from linkwright.parts.steps import put
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
 from linkwright.tolerance.curves import CurveSpread, curve_spreads
+from linkwright.tolerance.followed import FollowedPins, follow
 from linkwright.tolerance.pressed import is_position, require_forces, shifts
 from linkwright.tolerance.problem import Limit, ToleranceStudy
 from linkwright.words import Say
@@ -25,6 +26,8 @@ from linkwright.worked.page import Step
 
 #: Linear and Monte Carlo spread agree within this share.
 AGREE = 0.005
+#: A bend that explains less than this share of a difference is not its reason.
+SMALL = 0.1
 #: A cycle that comes nearer to a dead point than this (closeness, 0 at it) is near one.
 NEAR = 0.05
 #: Shares of a normal distribution at ±3σ.
@@ -62,12 +65,16 @@ class Spread(Result):
         for text in self.study.of:
             if len(wanted([text])) != 1:
                 raise ModelError([fault("tolerance.no_kind", f"of.{self.study.of.index(text)}", name=text)])
-        for output in self.study.curves if self.study.holes("pressed") else ():
-            if not is_position(self.study, output):
-                raise ModelError([fault("tolerance.no_position", "curves", name=output)])
         _ = self.derivatives
         if self.study.holes("pressed"):
             _ = self.forces
+            if not all(is_position(self.study, output) for output in self._over_positions):
+                _ = self.followed
+
+    @property
+    def _over_positions(self) -> list[str]:
+        """Outputs over the positions: the curves, and those that the summaries are of."""
+        return [*self.study.curves, *(s.output for s in self.summaries.values())]
 
     # linear ---------------------------------------------------------------------------------------
     @cached_property
@@ -84,15 +91,19 @@ class Spread(Result):
     @cached_property
     def derivatives(self) -> Sensitivity:
         """Exact derivatives of summaries and curves."""
-        shifted = [s.output for s in self.summaries.values() if is_position(self.study, s.output)]
-        curves = dict.fromkeys([*self.study.curves, *(shifted if self.study.holes("pressed") else ())])
-        asked = [*((s.output, s.kind) for s in self.summaries.values()), *curves]
+        curves = dict.fromkeys(self._over_positions if self.study.holes("pressed") else self.study.curves)
+        asked: list[str | tuple[str, str]] = [*((s.output, s.kind) for s in self.summaries.values()), *curves]
         return sensitivity(self.study.prepared, of=asked, by=self.addresses, steps=self.study.steps)
 
     @cached_property
     def forces(self) -> Forces:
         """Forces of the nominal mechanism, which press the pins."""
         return require_forces(self.study)
+
+    @cached_property
+    def followed(self) -> FollowedPins:
+        """The pins led by their own reactions over the cycle, for rates and forces."""
+        return follow(self.study, self.forces)
 
     def nominal(self, text: str) -> float:
         """A summary of the nominal mechanism without clearances."""
@@ -145,21 +156,20 @@ class Spread(Result):
         return self.derivatives.input, moved, np.sqrt(variance)
 
     def pressed(self, output: str) -> Floats:
-        """Change (n,) of a position by all pressed pins; zero where there are none, NaN for what is no position."""
+        """Change (n,) of an output by all pressed pins: of a position to first order; of rates and forces with the
+        pins led over the cycle, NaN where they cannot follow. Zero where no pin is pressed."""
         count = len(self.derivatives.input)
         if not self.study.holes("pressed"):
             return np.zeros(count)
         if not is_position(self.study, output):
-            return np.full(count, np.nan)
+            return self.followed.curve(output) - self.derivatives.curve(output)
         return shifts(self.study, lambda address: self.derivatives.slope(output, address), self.forces)
 
     def shift(self, text: str) -> float:
-        """Change of a summary by all pressed pins; NaN for summaries of what is no position."""
+        """Change of a summary by all pressed pins; NaN where rates and forces cannot follow."""
         summary = self.summaries[text]
         if not self.study.holes("pressed"):
             return 0.0
-        if not is_position(self.study, summary.output):
-            return math.nan
         curve = self.derivatives.curve(summary.output)
         return _summed(summary.kind, curve + self.pressed(summary.output)) - _summed(summary.kind, curve)
 
@@ -199,8 +209,7 @@ class Spread(Result):
             return {}
         expected = {}
         for output in self.study.curves:
-            _, moved, deviation = self.curve(output)
-            expected[output] = moved - self.pressed(output), deviation
+            expected[output] = self.derivatives.curve(output), self.curve(output)[2]
         found = curve_spreads(self.study.prepared, self.drawn, expected, self.study.steps, QUANTILES)
         return {output: spread.moved(self.pressed(output)) for output, spread in found.items()}
 
@@ -290,13 +299,7 @@ class Spread(Result):
             return "" if self.swept is None else say("tolerance.agree", name=text)
         lines = []
         if abs(self.ratio(text) - 1.0) > AGREE or math.isnan(self.ratio(text)):
-            name, bend = self.bend(text)
-            share = "—" if not math.isfinite(bend) else f"{100 * bend:.3g} %"
-            lines.append(
-                say(
-                    "tolerance.differ", name=text, ratio=f"{self.ratio(text):.4g}", dimension=name, bend=share
-                )
-            )
+            lines.append(self._difference(text, say))
         close = self.closeness
         if close is not None and close[0] < NEAR:
             place = shown(close[1], "angle" if self.turning else "length", 4)
@@ -304,6 +307,16 @@ class Spread(Result):
         if self.failed:
             lines.append(say("tolerance.failed", failed=self.failed, count=self.study.samples))
         return " ".join(lines)
+
+    def _difference(self, text: str, say: Say) -> str:
+        """Why the two spreads differ: the bend b of y over ±2σ makes its spread 1 + b²/4 times as large; where that
+        is far less than the difference, it is too few machines."""
+        name, bend = self.bend(text)
+        said = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
+        said["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
+        if self.failed or not 0.25 * bend**2 < SMALL * abs(self.ratio(text) - 1.0):
+            return say("tolerance.differ", **said)
+        return say("tolerance.few_machines", count=len(self.values(text)), **said)
 
     @property
     def turning(self) -> bool:
@@ -342,7 +355,8 @@ class Spread(Result):
         rows = [Row("nominal", self.nominal(text), kind)]
         shift = self.shift(text)
         if self.study.holes("pressed"):
-            value = say("tolerance.no_shift") if math.isnan(shift) else shift
+            gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
+            value = say("tolerance.no_shift", count=gaps) if gaps else shift
             rows.append(Row("shift", value, "" if math.isnan(shift) else kind))
         if self.swept is not None:
             values = self.values(text)
@@ -387,6 +401,17 @@ class Spread(Result):
             else found
         )
 
+    def _followed_remark(self, output: str, say: Say) -> tuple[str, ...]:
+        """How near the pins lie to where their reactions press them, and where they cannot."""
+        if not self.study.holes("pressed") or is_position(self.study, output):
+            return ()
+        kept = self.followed.followed
+        off = float(self.followed.residual[kept].max()) if kept.any() else math.nan
+        said = [say("tolerance.followed", off=shown(off, "angle", 2))] if kept.any() else []
+        if not kept.all():
+            said.append(say("tolerance.gaps", count=int((~kept).sum()), steps=len(kept)))
+        return (" ".join(said),)
+
     def _curve_block(self, output: str, say: Say) -> Block:
         kind = self.dimension(output)
         place, _, deviation = self.curve(output)
@@ -401,15 +426,16 @@ class Spread(Result):
             note = say("tolerance.at_of", place=place_k, count=spread.machines)
             rows.append(Row("largest_monte_carlo", float(spread.deviation[k]), kind, "", note))
             wide = spread.high - spread.low
-            k = int(wide.argmax())
+            k = int(np.nanargmax(wide))
             note = say("tolerance.at", place=shown(float(place[k]), "angle" if self.turning else "length", 4))
             rows.append(Row("widest", float(wide[k]), kind, "", note))
         moved = self.pressed(output)
-        if moved.any():
-            i = int(np.abs(moved).argmax())
+        if np.isfinite(moved).any() and np.nanmax(np.abs(moved)) > 0.0:
+            i = int(np.nanargmax(np.abs(moved)))
             note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
             rows.append(Row("largest_shift", float(moved[i]), kind, "", note))
-        return Block(f"curve {output}", say("tolerance.curve", name=output), rows)
+        title = say("tolerance.curve", name=output)
+        return Block(f"curve {output}", title, rows, self._followed_remark(output, say))
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []
@@ -445,7 +471,7 @@ class Spread(Result):
 
 
 def _summed(kind: str, curve: Floats) -> float:
-    """A summary of a curve over the positions."""
+    """A summary of a curve over the positions; ``peak`` is the largest size."""
     match kind:
         case "min":
             return float(curve.min())

@@ -13,7 +13,14 @@ linkwright tolerance gallery:pressed_pins --plot pins.svg
 linkwright tolerance study.yaml --output machines.csv""",
     "nominal": "nominal value",
     "shift": "shift by pressed pins",
-    "no_shift": "not followed (no position)",
+    "no_shift": "not followed (the pins cannot follow at {count} positions)",
+    "followed": "The pins lie within {off} of where their reactions press them.",
+    "gaps": "At {count} of {steps} positions a reaction jumps or turns faster than the pin can follow in "
+    "its hole: no value there.",
+    "attached": "{what} is attached to the point {pin} of {link}, where the pin must move in its hole; give the "
+    "clearance on another link of the pin, or give {what} a point of its own",
+    "open_cycle": "pressed pins have rates and forces only where the cycle closes; ask for positions, "
+    "or take free clearances",
     "linear": "standard deviation, linear",
     "monte_carlo": "standard deviation, Monte Carlo",
     "machines": "{count} machines",
@@ -36,6 +43,8 @@ linkwright tolerance study.yaml --output machines.csv""",
     "agree": "{name}: linear and Monte Carlo agree within 0.5 %.",
     "differ": "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is not linear in the "
     "tolerances: over ±2σ of {dimension} it bends by {bend} of its change.",
+    "few_machines": "{name}: Monte Carlo gives {ratio} times the linear spread, and the number hardly bends over the "
+    "tolerances ({bend} over ±2σ of {dimension}): {count} machines tell the spread no better; give more samples.",
     "dead_point": "The cycle comes near a dead point (closeness {closeness} at {place}, 0 at a dead point): there "
     "the derivatives grow without bound, and the linear spread holds for ever smaller tolerances only.",
     "failed": "{failed} of {count} machines do not pass the cycle; the numbers are of the others.",
@@ -63,8 +72,6 @@ linkwright tolerance study.yaml --output machines.csv""",
     "few_samples_remedy": "give at least {least}",
     "no_kind": '"{name}" is a curve, not one number of a machine',
     "no_kind_remedy": "add min, max, mean, rms, range or peak, or name it under curves",
-    "no_position": "{name} is no position, and pressed pins are followed for positions only",
-    "no_position_remedy": "ask for angles, coordinates or displacements, or take free clearances",
     "no_force": "the pin {pin} carries no force, so nothing presses it; give masses, gravity or loads",
     "unsolved": "the study cannot be made: {why}",
     "unsolved_remedy": "mend the mechanism or the names (linkwright check, linkwright solve)",

@@ -1,0 +1,88 @@
+"""The law by which a pin turns in its hole: through given angles, smooth but for jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from linkwright.core.spline import Floats, Spline
+from linkwright.drivers.base import Law
+from linkwright.drivers.table import TableLaw
+from linkwright.model.fields import TimeTableValues
+
+if TYPE_CHECKING:
+    from linkwright.drivers.base import Array
+    from linkwright.model.fields import Field
+
+
+@dataclass(frozen=True)
+class TurnedByReaction(Law):
+    """q in rad through ``angles`` at equal times of a ``period`` (s), which repeats: a cubic spline on every arc
+    between jumps after the positions ``jumps``. The error of its second derivative falls with the step squared."""
+
+    key: ClassVar[str] = "turned"
+    period: float
+    angles: tuple[float, ...]
+    jumps: tuple[int, ...] = ()
+    rotary: bool = True
+    spline: Spline = field(init=False, repr=False, compare=False)
+    drift: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        count, first = len(self.angles), self.jumps[0] + 1 if self.jumps else 0
+        whole = np.roll(np.array(self.angles), -first)
+        turned: Floats = np.unwrap(np.append(whole, whole[0]))
+        times: Floats = self.period / count * (first + np.arange(count + 1, dtype=np.float64))
+        drift = 0.0 if self.jumps else (turned[-1] - turned[0]) / self.period
+        if self.jumps:
+            ends = [*(jump - first + 1 for jump in self.jumps[1:]), count]
+            spline = _arcs(times, turned, ends, self.period)
+        else:
+            spline = Spline.periodic(times, turned - drift * times)
+        object.__setattr__(self, "spline", spline)
+        object.__setattr__(self, "drift", drift)
+
+    @classmethod
+    def of(cls, angles: Array, jumps: Sequence[int], period: float) -> Self:
+        """The law through ``angles`` (n,)."""
+        return cls(period, tuple(angles.tolist()), tuple(jumps))
+
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        position, rate, second = self.spline(t)
+        return position + self.drift * t, rate + self.drift, second
+
+    def natural_duration(self) -> float | None:
+        return self.period
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        return TableLaw.fields(rotary)
+
+    @classmethod
+    def from_values(
+        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
+    ) -> TurnedByReaction:
+        table = values["table"]
+        assert isinstance(table, TimeTableValues)
+        return cls(table.times[-1], table.positions[:-1])
+
+    def text_values(self) -> Mapping[str, object]:
+        times = np.linspace(0.0, self.period, len(self.angles) + 1)
+        return {"table": TimeTableValues(tuple(times.tolist()), (*self.angles, self.angles[0]), "linear")}
+
+
+def _arcs(times: Floats, angles: Floats, ends: Sequence[int], period: float) -> Spline:
+    """Arcs that end before the knots of the numbers ``ends``; each goes on through the interval of the jump."""
+    pieces, begin = np.zeros((4, len(times) - 1)), 0
+    for end in ends:
+        pieces[0, end - 1] = angles[end - 1]
+        if end - begin > 1:
+            arc = Spline.not_a_knot(times[begin:end], angles[begin:end])
+            pieces[:, begin : end - 1] = arc.coefficients
+            last = tuple(float(each[0]) for each in arc(times[end - 1 : end]))
+            pieces[:3, end - 1] = last[0], last[1], 0.5 * last[2]
+        begin = end
+    return Spline(times, pieces, period)
