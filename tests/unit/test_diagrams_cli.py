@@ -84,3 +84,30 @@ def test_chinese_is_drawn_or_refused_with_a_remedy(
         assert code == 1 and "fonts-noto-cjk" in capsys.readouterr().err and not path.exists()
     else:
         assert code == 0 and path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"), [("foo", "not a quantity"), ("3 m", "an angle is needed"), ("3deg,4deg", "give one")]
+)
+def test_an_input_that_cannot_be_is_refused_by_its_option(
+    text: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = [
+        "plot",
+        CRUSHER,
+        "--kind",
+        "velocity_polygon",
+        "--at",
+        text,
+        "--output",
+        str(tmp_path / "x.svg"),
+    ]
+    assert main(command) == 2
+    told = capsys.readouterr().err
+    assert "error: --at:" in told and said in told
+
+
+def test_a_report_of_no_position_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "r.html"
+    assert main(["report", CRUSHER, "--position", "foo", "--sections", "task", "--output", str(path)]) == 2
+    assert 'position: "foo" is not a quantity' in capsys.readouterr().err and not path.exists()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.core.search import ACCURACY, ends, lowest, zeros
+from linkwright.core.search import ACCURACY, edge, ends, lowest, zeros
 
 
 def test_zeros_of_many_functions_side_by_side():
@@ -47,6 +47,20 @@ def test_ends_of_what_holds_seen_from_both_sides():
     found = ends(lambda x: x**2 <= 2.0, np.array([0.0, -0.1]), np.array([3.0, -2.0]))
     assert found == pytest.approx([math.sqrt(2), -math.sqrt(2)], abs=1e-13)
     assert (found**2 <= 2.0).all()
+
+
+@pytest.mark.parametrize("parts", [2, 16])
+def test_the_edge_of_one_bracket_lies_between_two_places_next_to_each_other(parts):
+    inside, outside = edge(lambda x: x**2 <= 2.0, 0.0, -3.0, parts=parts)
+    assert inside**2 <= 2.0 < outside**2
+    assert abs(inside - outside) <= 3 * ACCURACY
+    rough = edge(lambda x: x**2 <= 2.0, 0.0, 3.0, within=0.01, parts=parts)
+    assert rough[0] <= math.sqrt(2) < rough[1] <= rough[0] + 0.01
+    assert rough[1] - rough[0] > 0.01 / 16
+    assert edge(lambda x: x <= 1.0 / 3.0, 1.0 / 3.0, math.nextafter(1.0 / 3.0, 1.0)) == (
+        1.0 / 3.0,
+        math.nextafter(1.0 / 3.0, 1.0),
+    )
 
 
 def test_lowest_values_and_their_places():

@@ -64,6 +64,24 @@ def ends(holds: Callable[[Floats], Mask], inside: Floats, outside: Floats) -> Fl
     return inside
 
 
+def edge(
+    holds: Callable[[Floats], Mask], inside: float, outside: float, within: float = 0.0, parts: int = 16
+) -> tuple[float, float]:
+    """As :func:`ends` for one bracket of which many places can be asked for at once, and the next place beyond.
+
+    ``within``: width of the bracket that is enough, where it is the larger one; ``parts`` of the bracket in a round.
+    """
+    enough = max(within, ACCURACY * abs(outside - inside))
+    while abs(outside - inside) > enough:
+        places = np.linspace(inside, outside, parts + 1)
+        k = int(np.argmin(np.append(holds(places[1:-1]), False)))
+        narrower = float(places[k]), float(places[k + 1])
+        if narrower == (inside, outside):
+            break
+        inside, outside = narrower
+    return inside, outside
+
+
 def lowest(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> tuple[Floats, Floats]:
     """Places and values (k,) of the smallest values in brackets; NaN counts as infinite.
 

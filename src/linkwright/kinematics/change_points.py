@@ -17,7 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.search import ends, lowest
+from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
@@ -270,19 +270,13 @@ class _Search:
             for k in np.flatnonzero(inner > 0.0)[:1]:
                 group = groups[int(inner[k]) - 1]
                 if group.dyad is not None:
-                    place = self._edge(float(i * self.parts + k))
+                    before = float(i * self.parts + k)
+                    place = edge(self._assembled, before, before + 1.0)[0]
                     found.append(self._passage(group.group.name, place, 0.0, "gap"))
         return found
 
-    def _edge(self, low: float) -> float:
-        """The last place in the step after ``low`` at which everything can be assembled."""
-        high = low + 1.0
-        for _ in range(10):
-            places = np.linspace(low, high, 17)
-            fails = self._evaluate(("outcome",), places)[0][1:] != 0.0
-            k = int(np.argmax(fails)) + 1 if fails.any() else 16
-            low, high = float(places[k - 1]), float(places[k])
-        return low
+    def _assembled(self, places: Floats) -> NDArray[np.bool_]:
+        return np.asarray(self._evaluate(("outcome",), places)[0] == 0.0)
 
     def _poles(self) -> list[Passage]:
         """Where two guides of a group become parallel, and what slides on them goes through infinity."""

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.search import edge
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
@@ -301,19 +302,8 @@ class _Search:
     def _narrowed(self, stop: _Stop, distance: float) -> tuple[float, float]:
         """The last coordinate that can be assembled and the first that cannot, next to each other, or within a
         distance."""
-        good, bad = stop.good, stop.bad
-        count = 17 if stop.unknowns is None else 3
-        for _ in range(60):
-            q = np.linspace(good, bad, count)
-            fine = self._fine(stop, q)
-            fine[0], fine[-1] = True, False
-            k = int(np.argmin(fine))
-            if q[k - 1] == good and q[k] == bad:
-                break
-            good, bad = float(q[k - 1]), float(q[k])
-            if abs(bad - good) < distance:
-                break
-        return good, bad
+        parts = 16 if stop.unknowns is None else 2
+        return edge(lambda q: self._fine(stop, q), stop.good, stop.bad, distance, parts)
 
     def _fine(self, stop: _Stop, q: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
         positions = self.positions(q)

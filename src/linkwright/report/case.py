@@ -113,7 +113,8 @@ class Case:
     @cached_property
     def rotary(self) -> bool:
         """Whether the first driver turns."""
-        return next(iter(self.motion.positions.rotary.values()), True)
+        drivers = self.mechanism.drivers.values()
+        return all(self.mechanism.joints[each.joint].coordinate == "turn" for each in list(drivers)[:1])
 
     def input_text(self, value: float) -> str:
         """An input as the tables print it, without its unit."""
@@ -132,16 +133,21 @@ class Case:
         return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
 
     @cached_property
+    def asked_place(self) -> float | None:
+        """The input (rad or m) or time (s) that is asked for as worked position; raises QuantityError."""
+        given = self.settings.position
+        if not given or not self.mechanism.drivers:
+            return None
+        return parse(given, ("angle" if self.rotary else "length") if self.steady else "time")
+
+    @cached_property
     def moment(self) -> float:
         """Time of the worked position, s: a sixth of the cycle unless the file says another."""
-        given = self.settings.position
-        if not given:
+        place = self.asked_place
+        if place is None:
             reached = np.flatnonzero(self.motion.ok)
             return float(self.motion.time[reached[len(reached) // 6]])
-        if not self.steady:
-            return parse(given, "time")
-        place = parse(given, "angle" if self.rotary else "length")
-        return float(at_inputs(self.mechanism, [place]).time[0])
+        return float(at_inputs(self.mechanism, [place]).time[0]) if self.steady else place
 
     @cached_property
     def worked_result(self) -> tuple[Forces | Motion, int]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
 from linkwright.parts.base import Problem
@@ -184,6 +184,11 @@ def _cases(
         if positions is not None:
             own["positions"] = positions
         found.append(Case(mechanism, settings(own, language), language, source))
+        try:
+            _ = found[-1].asked_place
+        except QuantityError as error:
+            name = "position" if position else "report.position"
+            raise RequestError(Sentence("cli.about", name=name, cause=error)) from None
     names = [case.mechanism.name for case in found]
     for number, case in enumerate(found, 1):
         if names.count(case.mechanism.name) > 1:

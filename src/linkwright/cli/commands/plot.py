@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
+from linkwright.cli.positions import quantities
 from linkwright.cli.session import Session
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -122,13 +123,26 @@ def _drawn(
         joint=options.joint,
         on=options.on,
         axes=options.axes,
-        at=options.at,
+        at=_place(options.at, motions, session),
         fluctuation=fluctuation,
         static=options.static,
         marks=not options.no_marks,
         title=options.title,
         language=session.language,
     )
+
+
+def _place(text: str | None, motions: dict[str, Motion], session: Session) -> float | str | None:
+    """The value of --at; raises UsageError. What has no driver says so itself."""
+    from linkwright.plot.diagrams.source import Source
+
+    first = Source(next(iter(motions.values())))
+    if text is None or not first.mechanism.drivers:
+        return text
+    values = quantities(text, first.input_dimension, session.say, "--at")
+    if len(values) > 1:
+        raise UsageError(session.say("draw.one_position", option="--at", text=text))
+    return values[0]
 
 
 def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace, session: Session) -> None:
