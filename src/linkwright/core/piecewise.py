@@ -138,11 +138,19 @@ class Piecewise:
     # extremes ----------------------------------------------------------------------------
     def extreme(self, kind: str) -> Extreme:
         """The ``max`` or ``min``; at a jump the larger (smaller) of both sides counts."""
-        sign = 1.0 if kind == "max" else -1.0
-        values = sign * self.values
-        piece, share, top, _ = (each[0] for each in largest(values.T[None], values.max(axis=1)[None]))
-        place = self.edges[piece] + 0.5 * (share + 1.0) * (self.edges[piece + 1] - self.edges[piece])
-        return Extreme(float(place), sign * float(top), bool(self.smooth[piece]))
+        return self.extremes()[1 if kind == "max" else 0]
+
+    def extremes(self) -> tuple[Extreme, Extreme]:
+        """The smallest and the largest value."""
+        both = np.stack([-self.values.T, self.values.T])
+        piece, share, top, _ = largest(both, both.max(axis=1))
+        low = self.edges[piece]
+        places = low + 0.5 * (share + 1.0) * (self.edges[piece + 1] - low)
+        values = top * (-1.0, 1.0)
+        least, most = (
+            Extreme(float(places[k]), float(values[k]), bool(self.smooth[piece[k]])) for k in (0, 1)
+        )
+        return least, most
 
 
 class Integral:

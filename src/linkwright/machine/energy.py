@@ -59,7 +59,7 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
 def of_energy(energy: Function, edges: Floats, *, balance: float) -> EnergyFluctuation:
     """The fluctuation of an excess energy E(θ), smooth between ``edges``, which span one period."""
     pieces = Piecewise(edges, energy(nodes(edges).ravel()).reshape(-1, POINTS))
-    low, high = pieces.extreme("min"), pieces.extreme("max")
+    low, high = pieces.extremes()
     angle = np.union1d(np.linspace(edges[0], edges[-1], 361), [low.place, high.place])
     return EnergyFluctuation(high.value - low.value, low.place, high.place, angle, pieces(angle), balance)
 

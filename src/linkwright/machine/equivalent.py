@@ -10,6 +10,7 @@ from linkwright.core.piecewise import POINTS, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import vector_names
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.metrics.analysis import Analysis
@@ -22,29 +23,12 @@ def equivalent_inertia(motion: Motion) -> Floats:
     v of the mass centres, ω of all moving links, ω₁ the driver's rate. For a sliding driver an equivalent mass, kg.
     NaN where the driver stands still.
     """
-    total = np.zeros(motion.steps)
-    for name, link in motion.mechanism.links.items():
-        if link.mass:
-            total += link.mass * (motion.link(name).centre.velocity ** 2).sum(axis=1)
-        if link.inertia:
-            total += link.inertia * motion.link(name).angular_velocity ** 2
-    with np.errstate(all="ignore"):
-        return np.asarray(total / _rates(motion)[0] ** 2)
+    return _inertia_and_slope(motion)[0]
 
 
 def inertia_slope(motion: Motion) -> Floats:
     """dJ_e/dφ, (n,) kg·m²/rad, exact: 2 (Σ (m v·a + J ω α) - J_e ω₁ ε₁)/ω₁³."""
-    total = np.zeros(motion.steps)
-    for name, link in motion.mechanism.links.items():
-        if link.mass:
-            centre = motion.link(name).centre
-            total += link.mass * (centre.velocity * centre.acceleration).sum(axis=1)
-        if link.inertia:
-            turning = motion.link(name)
-            total += link.inertia * turning.angular_velocity * turning.angular_acceleration
-    rate, second = _rates(motion)
-    with np.errstate(all="ignore"):
-        return np.asarray(2.0 * (total - equivalent_inertia(motion) * rate * second) / rate**3)
+    return _inertia_and_slope(motion)[1]
 
 
 def equivalent_torque(forces: Forces) -> Floats:
@@ -53,12 +37,34 @@ def equivalent_torque(forces: Forces) -> Floats:
     M_e = T - (J_e ε + ½ dJ_e/dφ ω²); positive along the driver's coordinate. Loads that depend on the speed, and
     friction, are those at the speed that was solved.
     """
-    torque = forces.input_torque
+    return _torque(forces, *_inertia_and_slope(forces.motion))
+
+
+def _inertia_and_slope(motion: Motion) -> tuple[Floats, Floats]:
+    energy, power = np.zeros(motion.steps), np.zeros(motion.steps)
+    links = motion.mechanism.links.items()
+    centres = [f"{name}.@centre" for name, link in links if link.mass]
+    motion.evaluate_together(name for key in centres for kind in "va" for name in vector_names(kind, key))
+    for name, link in links:
+        turning = motion.link(name)
+        if link.mass:
+            velocity = turning.centre.velocity
+            energy += link.mass * (velocity**2).sum(axis=1)
+            power += link.mass * (velocity * turning.centre.acceleration).sum(axis=1)
+        if link.inertia:
+            energy += link.inertia * turning.angular_velocity**2
+            power += link.inertia * turning.angular_velocity * turning.angular_acceleration
+    rate, second = _rates(motion)
+    with np.errstate(all="ignore"):
+        inertia = energy / rate**2
+        return np.asarray(inertia), np.asarray(2.0 * (power - inertia * rate * second) / rate**3)
+
+
+def _torque(forces: Forces, inertia: Floats, slope: Floats) -> Floats:
     if forces.static:
-        return torque
+        return forces.input_torque
     rate, second = _rates(forces.motion)
-    motion = forces.motion
-    return np.asarray(torque - equivalent_inertia(motion) * second - 0.5 * inertia_slope(motion) * rate**2)
+    return np.asarray(forces.input_torque - inertia * second - 0.5 * slope * rate**2)
 
 
 @dataclass(frozen=True)
@@ -98,7 +104,7 @@ def equivalent(forces: Forces) -> Equivalent:
     several drivers: a flywheel on the input then has no meaning.
     """
     motion = forces.motion
-    rate = _steady_rate(motion)
+    rate = steady_rate(motion)
     direction = float(np.sign(rate))
     period = abs(rate) * (motion.positions.period or 0.0)
     begin, grid = float(motion.time[0]), Analysis.of(forces).grid
@@ -106,24 +112,25 @@ def equivalent(forces: Forces) -> Equivalent:
         raise LinkwrightError(Sentence("running.not_between", name=motion.mechanism.name))
 
     edges = abs(rate) * (grid.edges - begin)
-    torque = direction * equivalent_torque(grid.forces)
-    inertia = equivalent_inertia(grid.motion)
+    between, slope = _inertia_and_slope(grid.motion)
+    torque = direction * _torque(grid.forces, between, slope)
+    inertia, slope = _inertia_and_slope(motion)
     return Equivalent(
         angle=abs(rate) * (motion.time - begin),
-        inertia=equivalent_inertia(motion),
-        slope=direction * inertia_slope(motion),
-        torque=direction * equivalent_torque(forces),
+        inertia=inertia,
+        slope=direction * slope,
+        torque=direction * _torque(forces, inertia, slope),
         speed=abs(rate),
         period=period,
         start=float(motion.input[0]),
         direction=direction,
-        inertia_at=Piecewise(edges, inertia.reshape(-1, POINTS)),
+        inertia_at=Piecewise(edges, between.reshape(-1, POINTS)),
         load=TorqueCurve.from_pieces(Piecewise(edges, torque.reshape(-1, POINTS))),
     )
 
 
-def _steady_rate(motion: Motion) -> float:
-    """The input's constant speed, rad/s."""
+def steady_rate(motion: Motion) -> float:
+    """The input's constant speed, rad/s; raises as :func:`equivalent`."""
     name = motion.mechanism.name
     if len(motion.mechanism.drivers) != 1 or not next(iter(motion.positions.rotary.values())):
         raise LinkwrightError(Sentence("running.one_driver", name=name))

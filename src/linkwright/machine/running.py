@@ -11,10 +11,11 @@ from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
-from linkwright.machine.equivalent import Equivalent, equivalent
+from linkwright.machine.equivalent import Equivalent, equivalent, steady_rate
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve, SteadyCycle
+from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
@@ -135,7 +136,7 @@ def steady_running(
     reduced = equivalent(forces)
     flywheel_inertia(1.0, reduced.speed, fluctuation)
     mean = reduced.load.mean
-    _require_load(mean, reduced, forces)
+    _require_load(mean, forces)
     load = reduced.load.pieces
     work = Piecewise(load.edges, mean - load.values).integral()
     energy = _at_constant_speed(reduced, work)
@@ -165,7 +166,13 @@ def _at_constant_speed(reduced: Equivalent, work: Integral) -> EnergyFluctuation
     return of_energy(energy, work.edges, balance=work.total)
 
 
-def _require_load(mean: float, reduced: Equivalent, forces: Forces) -> None:
+def require_steady(forces: Forces) -> None:
+    """Raises LinkwrightError, as :func:`steady_running`, for a machine that runs unevenly or takes no work."""
+    rate = steady_rate(forces.motion)
+    _require_load(float(np.sign(rate) * Analysis.of(forces).part("input_torque mean").value), forces)
+
+
+def _require_load(mean: float, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
     if abs(mean) <= NOTHING * largest or largest == 0:
         raise LinkwrightError(Sentence("running.no_work", name=forces.mechanism.name))

@@ -110,7 +110,7 @@ class SteadyCycle:
         curve = Piecewise(edges, speed)
         if not curve.smooth.all():
             curve = Piecewise(edges, speed, partial(self._at, flywheel, energy), edges)
-        return curve.extreme("min"), curve.extreme("max")
+        return curve.extremes()
 
     def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + self.work(angle)) / (flywheel + self.own(angle))))

@@ -128,7 +128,7 @@ class TorqueCurve:
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(angle, torque) of the smallest and of the largest torque."""
-        low, high = self.pieces.extreme("min"), self.pieces.extreme("max")
+        low, high = self.pieces.extremes()
         return (low.place, low.value), (high.place, high.value)
 
 

@@ -196,7 +196,8 @@ class Analysis:
         mean = curve.total / (self.grid.end - self.grid.start)
         work = Piecewise(curve.edges, mean - curve.values).integral()
         energy = Piecewise(curve.edges, work(nodes(curve.edges).ravel()).reshape(-1, POINTS))
-        return float(abs(self.input_rate[0])) * (energy.extreme("max").value - energy.extreme("min").value)
+        least, most = energy.extremes()
+        return float(abs(self.input_rate[0])) * (most.value - least.value)
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"

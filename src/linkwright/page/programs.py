@@ -24,7 +24,7 @@ from linkwright.model.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group
-from linkwright.study.following import ITERATIONS
+from linkwright.study.iterated_groups import ITERATIONS
 from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import SIZES, AlongInput, along_input
 from linkwright.study.traced import Traced

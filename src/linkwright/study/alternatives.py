@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,9 +14,9 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.machine import SteadyRunning, flywheel_inertia, steady_running
+from linkwright.machine import flywheel_inertia
+from linkwright.machine.running import require_steady
 from linkwright.metrics import Analysis
-from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
 from linkwright.model.file import load
 from linkwright.model.mechanism import Mechanism
@@ -58,17 +58,18 @@ class Alternative:
         return Analysis.of(self.forces)
 
     @cached_property
-    def running(self) -> SteadyRunning | None:
-        """Steady running with a flywheel; None, with a note, where there is none to lay out."""
+    def takes_flywheel(self) -> bool:
+        """Whether there is a flywheel to lay out; if not, a note says why."""
         torque = self.forces.input_torque
         if abs(torque.mean()) <= IDLE * np.abs(torque).max():
             self.notes.append(Sentence("study.no_work", label=self.label))
-            return None
+            return False
         try:
-            return steady_running(self.forces, fluctuation=self.fluctuation)
+            require_steady(self.forces)
         except LinkwrightError as error:
             self.notes.append(Sentence("cli.about", name=self.label, cause=error))
-            return None
+            return False
+        return True
 
     @property
     def loaded(self) -> bool:
@@ -85,12 +86,6 @@ class Alternative:
         """Force on the output link at its pivot, (n, 2) N."""
         joint, link = self.pivot
         return self.forces.reaction(joint, on=link)
-
-    def force_extremes(self, signal: Callable[[Forces], Floats]) -> tuple[Extreme, Extreme]:
-        """Largest and smallest value over the cycle of what the forces give, found between the positions."""
-        most, least = (self.analysis.extreme(signal, kind, of="forces") for kind in ("max", "min"))
-        assert most is not None and least is not None
-        return most, least
 
     def forces_at(self, time: float) -> Forces:
         """The forces at a time of the cycle, s."""

@@ -14,7 +14,7 @@ from linkwright.metrics.quantities import si_unit
 from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, alternatives
-from linkwright.study.criteria import USUAL, Criterion, Measured, criteria
+from linkwright.study.criteria import USUAL, Criterion, Measured, criteria, numbers_of
 from linkwright.study.overlay import Overlay, overlays
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
@@ -255,6 +255,9 @@ def compare(
     if metrics is None:
         asked = [each for each in asked if not each.forces or any(a.loaded for a in found)]
     given = _weights(weights or {}, asked)
+    for alternative in found:
+        wanted = (number for each in asked for number in numbers_of(alternative, each.name))
+        alternative.analysis.ask(part for number in wanted for part in number.parts)
     rows = []
     for each in asked:
         values = tuple(each.measure(alternative) for alternative in found)

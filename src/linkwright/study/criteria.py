@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
+from linkwright.metrics.base import Number
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
@@ -105,9 +106,19 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     return Measured(worst.value, worst.dimension, worst.at)
 
 
+def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
+    """The formulas of summaries behind a criterion, of all subjects."""
+    if name in OWN:
+        found = own(name, each.analysis, Asked(each.output, each.fluctuation))
+        return found.numbers if found else ()
+    metric, _, _ = name.partition(" ")
+    kind = METRICS[metric]() if metric in METRICS else None
+    return kind.numbers(each.analysis) if kind is not None and kind.applies(each.analysis) else ()
+
+
 def _own(each: Alternative, name: str) -> Measured | None:
     """A number of the shared output."""
-    if name == "flywheel" and each.running is None:
+    if name == "flywheel" and not each.takes_flywheel:
         return None
     found = own(name, each.analysis, Asked(each.output, each.fluctuation))
     if found is None:

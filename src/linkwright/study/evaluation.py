@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.metrics.quantities import SHOWN, shown
-from linkwright.metrics.reactions import size
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
@@ -133,7 +132,7 @@ def _pivot(comparison: Comparison, say: Say) -> str:
     parts = []
     for each in comparison.alternatives:
         joint, link = each.pivot
-        most, least = each.force_extremes(size(joint, link))
+        most, least = (each.analysis.part(f"reaction {joint} on {link} {kind}") for kind in ("max", "min"))
         force = each.forces_at(most.time).reaction(joint, on=link)[0]
         parts.append(
             say(
@@ -152,17 +151,16 @@ def _pivot(comparison: Comparison, say: Say) -> str:
 def _torque(comparison: Comparison, say: Say) -> str:
     parts = []
     for each in comparison.alternatives:
-        most, least = each.force_extremes(lambda forces: forces.input_torque)
+        high, low, root = (each.analysis.part(f"input_torque {kind}").value for kind in ("max", "min", "rms"))
         dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
-        root = each.analysis.rms_of(lambda forces: forces.input_torque)
         speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
         gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
         parts.append(
             say(
                 "compare.torque_of",
                 label=each.label,
-                low=told(least.value, dimension),
-                high=told(most.value, dimension),
+                low=told(low, dimension),
+                high=told(high, dimension),
                 root=told(root, dimension),
                 gap=shown(gap, dimension, 2),
             )
@@ -173,19 +171,10 @@ def _torque(comparison: Comparison, say: Say) -> str:
 def _flywheel(comparison: Comparison, say: Say) -> list[str]:
     parts = []
     for each in comparison.alternatives:
-        if each.running is None:
-            parts.append(say("compare.flywheel_none", label=each.label))
-            continue
-        numbers = each.running.data()
-        parts.append(
-            say(
-                "compare.flywheel_of",
-                label=each.label,
-                energy=told(numbers["energy_fluctuation"], "energy"),
-                inertia=told(each.running.flywheel, "inertia"),
-                power=told(abs(numbers["mean_power"]), "power"),
-            )
-        )
+        names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
+        numbers = {word: _measured(each, name) for word, name in names.items()}
+        key = "compare.flywheel_of" if numbers["inertia"] else "compare.flywheel_none"
+        parts.append(say(key, label=each.label, **numbers))
     fluctuation = f"{comparison.fluctuation:g}"
     return [say("compare.flywheels", fluctuation=fluctuation, parts=say("compare.semicolon").join(parts))]
 

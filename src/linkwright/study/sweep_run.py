@@ -21,10 +21,10 @@ from linkwright.kinematics.cycle import Positions
 from linkwright.kinetostatics.named import Quantity
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.model.mechanism import Mechanism
-from linkwright.study.following import MARGIN, Following
+from linkwright.study.change_points import ChangePoints, near_enough
+from linkwright.study.iterated_groups import MARGIN, Following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.study.loads import OneByOne, changes_of
-from linkwright.study.touching import Touching, near_enough
+from linkwright.study.one_by_one import OneByOne, changes_of
 from linkwright.study.traced import NEAREST, VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -189,8 +189,8 @@ class SweepRun:
         return results
 
     @cached_property
-    def _touching(self) -> Touching:
-        return Touching(self.traced)
+    def _touching(self) -> ChangePoints:
+        return ChangePoints(self.traced)
 
     @cached_property
     def _single(self) -> OneByOne:

@@ -45,7 +45,7 @@ def near_enough(positions: Positions) -> float:
     return max(NEAR, STEEP * max(steps, default=0.0) ** 2)
 
 
-class Touching:
+class ChangePoints:
     """Looks for change points of one mechanism's designs."""
 
     def __init__(self, traced: Traced) -> None:
