@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi, radians
+from math import acos, pi, radians
 
 import numpy as np
 import pytest
@@ -76,6 +76,28 @@ def test_one_change_point_a_turn(steps: int) -> None:
     hermite = 0.5 * h * (rate[1:] + rate[:-1]) + h**2 / 12 * (second[:-1] - second[1:])
     assert np.abs(np.diff(angle) - hermite).max() < 60 * h.max() ** 3
     assert any("repeats after two cycles" in note for note in motion.notes)
+
+
+@pytest.mark.parametrize(
+    "times", [(0.0, 2.0, 200), (1.0, 0.0, 30), (2.0, 0.0, 100), (0.0, 0.45, 20), (0.55, 1.0, 20)]
+)
+def test_limits_at_times_of_ones_own(times: tuple[float, float, int]) -> None:
+    """Crank and coupler 1 + 3 in line: the rocker stands at π - acos(1/4), and a turn's other half is its mirror."""
+    begin, end, count = times
+    motion = lw.solve_motion(
+        fourbar(1, 3, 2, 4, start=0), times=2 * pi * np.linspace(begin, end, count), failures="mark"
+    )
+    limits = lw.limit_positions(motion, "rocker")
+    stretched, first = pi - acos(0.25), acos(7 / 8)
+    expected = {
+        round(turn, 9): angle
+        for turn, angle in ((first / (2 * pi), stretched), (1 - first / (2 * pi), -stretched))
+        if min(begin, end) < turn < max(begin, end)
+    }
+    assert len(limits) == len(expected) > 0
+    for limit in limits:
+        angle = expected[round(limit.time / (2 * pi), 9)]
+        assert np.exp(1j * limit.value) == pytest.approx(np.exp(1j * angle), abs=1e-9)
 
 
 def test_all_links_equal() -> None:

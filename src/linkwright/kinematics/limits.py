@@ -6,6 +6,7 @@ kept inside their brackets, refine all of them at once.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -20,6 +21,7 @@ from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
+from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.size import mechanism_size
 from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
@@ -117,9 +119,22 @@ class Between:
         """Outputs of the program (names, m) at times a little after the positions ``before``; NaN out of reach."""
         motion = self.motion
         positions = at_times(motion.mechanism, time)
-        modes = motion.modes and signs(self.passing, motion.solver.assembly.modes, self.place(time))
+        modes = motion.modes and self._modes(positions)
         states = self._states(positions, before)
         return motion.solver.evaluate(names, positions, states, modes, motion.design)
+
+    @cached_property
+    def _one_way(self) -> bool:
+        """Whether the motion's modes are those of its own way, not of times that were each asked for by itself."""
+        along = signs(self.passing, self.motion.solver.assembly.modes, self.motion.steps)
+        modes = self.motion.modes
+        return along.keys() == modes.keys() and all((along[name] == modes[name]).all() for name in modes)
+
+    def _modes(self, positions: Positions) -> Mapping[str, Floats]:
+        """Signs of the groups that pass change points."""
+        if not self._one_way and (by_time := reached_modes(self.motion.solver, positions)[0]):
+            return by_time
+        return signs(self.passing, self.motion.solver.assembly.modes, self.place(positions.time))
 
     def quality(self, before: Indices, time: Floats) -> Floats:
         """Least quality (square of the sine of the transmission angle) of the groups that pass change points."""
