@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from linkwright.errors import LinkwrightError
+from linkwright.model.fields import Field, Schema
 from linkwright.registry import Registry
 from linkwright.words import has
 from linkwright.words.sentence import Sentence
@@ -29,9 +30,9 @@ if TYPE_CHECKING:
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.kinetostatics.forces import Forces
     from linkwright.model.drawing import Drawing
-    from linkwright.model.fields import Field
     from linkwright.model.mechanism import Link, Mechanism
     from linkwright.model.nodes import Mapping as MappingNode
+    from linkwright.model.nodes import Node
     from linkwright.model.plain_reader import Place as Where
     from linkwright.model.reader import Reader
     from linkwright.structure.constraints import ConstraintGraph
@@ -361,3 +362,34 @@ class LackingError(LinkwrightError):
 
 
 JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints", entry_points="linkwright.joints")
+
+
+@dataclass(frozen=True)
+class JointName(Field):
+    """The name of a joint, one with one of the ``coordinates``: ``turn``, ``slide``."""
+
+    coordinates: tuple[str, ...] = ("turn", "slide")
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds that have one."""
+        return tuple(kind for kind in JOINTS if JOINTS[kind].coordinate in self.coordinates)
+
+    def read(self, reader: Reader, node: Node, place: Where, given: Mapping[str, Any]) -> str | None:
+        name = reader.text(node, place)
+        if name is None or not reader.known(node, place, "joint", name, list(reader.names.joints)):
+            return None
+        kind = reader.names.joints[name]
+        if kind not in self.kinds:
+            reader.error(
+                node,
+                place,
+                Sentence("model.joint_is", name=name, kind=JOINTS[kind].word()),
+                Sentence("model.name_joint", kinds=tuple(JOINTS[each].word() for each in self.kinds)),
+                "reference",
+            )
+            return None
+        return name
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "joint", "x-kinds": list(self.kinds)}

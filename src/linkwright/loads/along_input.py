@@ -6,7 +6,7 @@ inputs of limit positions and the values there, enters as numbers; so do the num
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, floor, maximum, minimum, select, sign
 from linkwright.loads.base import Load
@@ -14,9 +14,11 @@ from linkwright.loads.formulas import denominators, output_named
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.model.expression_tree import Number
 from linkwright.model.expressions import Expression
-from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.model.traced_expressions import traced
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
 
 
 class Course(Protocol):

@@ -20,9 +20,9 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.joints.base import JointName
 from linkwright.model.fields import Field, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.model.reference_fields import (
-    JointName,
     LinkName,
     LinkPoint,
     PointName,

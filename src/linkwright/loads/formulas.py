@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,11 +11,13 @@ from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot
 from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.model.expressions import Expression, array_functions
-from linkwright.model.mechanism import Mechanism
 from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import offered
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.model.mechanism import Mechanism
 
 _HALVINGS = 60
 #: Any magnitude is below the largest torque.

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from linkwright.joints.base import JOINTS
 from linkwright.model.fields import Field, Schema, quantity_schema, written_quantity
 from linkwright.model.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
@@ -135,37 +134,6 @@ class PointReferences(Field):
 
     def written(self, value: Any) -> Any:
         return [str(point) for point in value]
-
-
-@dataclass(frozen=True)
-class JointName(Field):
-    """The name of a joint, one with one of the ``coordinates``: ``turn``, ``slide``."""
-
-    coordinates: tuple[str, ...] = ("turn", "slide")
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """The kinds that have one."""
-        return tuple(kind for kind in JOINTS if JOINTS[kind].coordinate in self.coordinates)
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
-        name = reader.text(node, place)
-        if name is None or not reader.known(node, place, "joint", name, list(reader.names.joints)):
-            return None
-        kind = reader.names.joints[name]
-        if kind not in self.kinds:
-            reader.error(
-                node,
-                place,
-                Sentence("model.joint_is", name=name, kind=JOINTS[kind].word()),
-                Sentence("model.name_joint", kinds=tuple(JOINTS[each].word() for each in self.kinds)),
-                "reference",
-            )
-            return None
-        return name
-
-    def shape(self) -> Schema:
-        return {"type": "string", "x-reference": "joint", "x-kinds": list(self.kinds)}
 
 
 @dataclass(frozen=True)
