@@ -15,7 +15,7 @@ from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 Floats = NDArray[np.float64]
 

@@ -26,6 +26,14 @@ if TYPE_CHECKING:
     from linkwright.export.export import export as export
     from linkwright.export.sweep_parts import SweepParts as SweepParts
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts
+    from linkwright.files.build import Model as Model
+    from linkwright.files.model_file import check as check
+    from linkwright.files.model_file import dump as dump
+    from linkwright.files.model_file import gallery_names as gallery_names
+    from linkwright.files.model_file import load as load
+    from linkwright.files.model_file import loads as loads
+    from linkwright.files.model_file import read_document as read_document
+    from linkwright.files.schema import json_schema as json_schema
     from linkwright.gears.gear import Gear as Gear
     from linkwright.gears.pair import GearPair as GearPair
     from linkwright.gears.pair import gear_pair as gear_pair
@@ -51,17 +59,9 @@ if TYPE_CHECKING:
     from linkwright.machine import SteadyRunning as SteadyRunning
     from linkwright.machine import TorqueCurve as TorqueCurve
     from linkwright.machine import steady_running as steady_running
+    from linkwright.mechanism.mechanism import Mechanism as Mechanism
     from linkwright.metrics import MetricsTable as MetricsTable
     from linkwright.metrics import metrics as metrics
-    from linkwright.model.build import Model as Model
-    from linkwright.model.file import check as check
-    from linkwright.model.file import dump as dump
-    from linkwright.model.file import gallery_names as gallery_names
-    from linkwright.model.file import load as load
-    from linkwright.model.file import loads as loads
-    from linkwright.model.file import read_document as read_document
-    from linkwright.model.mechanism import Mechanism as Mechanism
-    from linkwright.model.schema import json_schema as json_schema
     from linkwright.optimisation.optimize import optimize as optimize
     from linkwright.optimisation.optimum import OptimizeError as OptimizeError
     from linkwright.optimisation.optimum import Optimum as Optimum
@@ -122,6 +122,9 @@ PUBLIC = {
     "linkwright.errors": ("Finding", "LinkwrightError", "ModelError"),
     "linkwright.export.export": ("export",),
     "linkwright.export.sweep_parts": ("SweepParts", "sweep_parts"),
+    "linkwright.files.build": ("Model",),
+    "linkwright.files.model_file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
+    "linkwright.files.schema": ("json_schema",),
     "linkwright.gears.gear": ("Gear",),
     "linkwright.gears.pair": ("GearPair", "gear_pair"),
     "linkwright.gears.rack": ("Rack",),
@@ -135,11 +138,8 @@ PUBLIC = {
     "linkwright.laws.found": ("FoundProgram", "Window"),
     "linkwright.laws.program": ("MotionProgram", "Segment"),
     "linkwright.machine": ("SteadyRunning", "TorqueCurve", "steady_running"),
+    "linkwright.mechanism.mechanism": ("Mechanism",),
     "linkwright.metrics": ("MetricsTable", "metrics"),
-    "linkwright.model.build": ("Model",),
-    "linkwright.model.file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
-    "linkwright.model.mechanism": ("Mechanism",),
-    "linkwright.model.schema": ("json_schema",),
     "linkwright.optimisation.optimize": ("optimize",),
     "linkwright.optimisation.optimum": ("OptimizeError", "Optimum"),
     "linkwright.page.living": ("LivingPage", "living_page"),

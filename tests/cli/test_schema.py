@@ -9,7 +9,7 @@ import pytest
 import linkwright as lw
 from linkwright import gallery
 from linkwright.cli import main
-from linkwright.model.file import read_root
+from linkwright.files.model_file import read_root
 from linkwright.parts.file import file_schema
 
 

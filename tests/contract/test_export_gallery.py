@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.core.expressions import parse
 from linkwright.errors import LinkwrightError
 from linkwright.export.base import FORMATS
 from linkwright.export.results import Results
-from linkwright.model.expressions import parse
 
 NAMES = lw.gallery_names()
 #: Pictures of every model are made in test_drawing_gallery.

@@ -39,7 +39,7 @@ FRONT = STAGE["report"]
 NOTEBOOK = "linkwright.plot.drawing.draw"
 PLOT = "linkwright.plot.plot"
 LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
-    "model/mechanism.py": {"linkwright.structure", NOTEBOOK},
+    "mechanism/mechanism.py": {"linkwright.structure", NOTEBOOK},
     "kinematics/motion.py": {NOTEBOOK, PLOT},
     "kinetostatics/forces.py": {NOTEBOOK, PLOT},
     "kinetostatics/balancing.py": {PLOT},

@@ -53,8 +53,8 @@ PROGRAM = r'''
 import sys, numpy as np, linkwright as lw
 from linkwright.cli import main
 from linkwright.joints.base import LackingError
-from linkwright.model.file import dump
-from linkwright.model.schema import json_schema
+from linkwright.files.model_file import dump
+from linkwright.files.schema import json_schema
 MODEL = """
 format: 1
 name: slotted lever

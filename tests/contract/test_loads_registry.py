@@ -14,14 +14,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.engine.vector import Vec
-from linkwright.loads import base
-from linkwright.loads.base import LOADS, LinkPoint, Load
-from linkwright.loads.site import Site, Wrench
-from linkwright.model.build import Model
-from linkwright.model.fields import Quantities, Quantity, Word
-from linkwright.model.file import dump, loads
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.reference_fields import (
+from linkwright.fields.base import Quantities, Quantity, Word
+from linkwright.fields.references import (
     JointName,
     LinkName,
     PointName,
@@ -29,8 +23,14 @@ from linkwright.model.reference_fields import (
     PointReference,
     PointReferences,
 )
-from linkwright.model.schema import json_schema
-from linkwright.model.signal_fields import Magnitude
+from linkwright.fields.signals import Magnitude
+from linkwright.files.build import Model
+from linkwright.files.model_file import dump, loads
+from linkwright.files.schema import json_schema
+from linkwright.loads import base
+from linkwright.loads.base import LOADS, LinkPoint, Load
+from linkwright.loads.site import Site, Wrench
+from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.files.build import Model
 from linkwright.metrics import METRICS, Analysis, centrode, instant_centre, metrics
-from linkwright.model.build import Model
 
 
 def four_bar(turn: float = 0.0, mirror: float = 1.0, scale: float = 1.0) -> lw.Mechanism:

@@ -15,9 +15,9 @@ import pytest
 import linkwright as lw
 from linkwright.cli import main
 from linkwright.drivers.base import LAWS
+from linkwright.files.model_file import dump
 from linkwright.loads.base import LOADS
 from linkwright.metrics import METRICS
-from linkwright.model.file import dump
 
 PACKAGE = '''
 """What somebody else's package holds: public base classes and registries, nothing else."""
@@ -34,7 +34,7 @@ from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Wrench
 from linkwright.metrics import METRICS
 from linkwright.metrics.base import Metric
-from linkwright.model.fields import Quantity
+from linkwright.fields.base import Quantity
 
 
 @LOADS.register("wind")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.model.file import read_text
+from linkwright.files.model_file import read_text
 
 MODEL = """\
 format: 1

@@ -14,8 +14,8 @@ from tests.failures.pace import at_once
 
 import linkwright as lw
 from linkwright.errors import Finding
-from linkwright.model.file import gallery_names, read_text
-from linkwright.model.source import read_source
+from linkwright.files.model_file import gallery_names, read_text
+from linkwright.files.source import read_source
 
 COUNT = int(os.environ.get("LINKWRIGHT_DAMAGED", "200"))
 BATCHES = 8

@@ -8,7 +8,7 @@ import pytest
 from tests.failures.pace import at_once
 
 from linkwright.cli import main
-from linkwright.model.file import read_text
+from linkwright.files.model_file import read_text
 
 MODEL = """\
 format: 1

@@ -6,7 +6,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError, ModelError
-from linkwright.model.file import loads
+from linkwright.files.model_file import loads
 
 CRANK_ROCKER = """
 format: 1

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.file import check, load, loads, read_text
-from linkwright.model.source import MAX_BYTES
+from linkwright.files.model_file import check, load, loads, read_text
+from linkwright.files.source import MAX_BYTES
 
 MODEL = """\
 format: 1

@@ -11,7 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.limits import limit_positions
-from linkwright.model.mechanism import Cycle, Mechanism
+from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 
 def fourbar(a: float, b: float, c: float, d: float, *, start: float = 0.0, cycle: str = "") -> Mechanism:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from linkwright.errors import LinkwrightError, ModelError
-from linkwright.model.build import Model
-from linkwright.model.file import check, dump, gallery_names, load, loads, read_document
-from linkwright.model.schema import json_schema
+from linkwright.files.build import Model
+from linkwright.files.model_file import check, dump, gallery_names, load, loads, read_document
+from linkwright.files.schema import json_schema
 
 BLOCK = """\
 # head

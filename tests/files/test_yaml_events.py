@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-from linkwright.model import events
-from linkwright.model.compose import compose
-from linkwright.model.events import _below
-from linkwright.model.file import gallery_names, loads
-from linkwright.model.nodes import Mapping, Node, Scalar
-from linkwright.model.source import read_source
+from linkwright.fields.nodes import Mapping, Node, Scalar
+from linkwright.files import events
+from linkwright.files.compose import compose
+from linkwright.files.events import _below
+from linkwright.files.model_file import gallery_names, loads
+from linkwright.files.source import read_source
 
 
 def texts_at(text: str) -> list[str]:

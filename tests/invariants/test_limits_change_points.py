@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 
 def fourbar(a: float, b: float, c: float, d: float, *, start: float, mode: str = "left") -> Mechanism:

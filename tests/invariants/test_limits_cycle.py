@@ -13,7 +13,7 @@ import pytest
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.kinematics.limits import LimitPosition, limit_positions
-from linkwright.model.mechanism import Cycle, Mechanism
+from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
 CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}

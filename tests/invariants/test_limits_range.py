@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics.input_range import InputRange, input_range, range_sentence
 from linkwright.kinematics.limits import limit_positions
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 FOURBAR = """
 format: 1

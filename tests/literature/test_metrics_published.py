@@ -7,8 +7,8 @@ import pytest
 from scipy.special import ellipe
 
 import linkwright as lw
+from linkwright.files.build import Model
 from linkwright.metrics import MetricsTable, coupler_curve, four_bars, metrics
-from linkwright.model.build import Model
 
 
 def of(name: str, steps: int = 360) -> MetricsTable:

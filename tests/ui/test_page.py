@@ -14,7 +14,7 @@ from tests.unit import test_drawing_cams as drawn_cams
 
 import linkwright as lw
 from linkwright.joints.cam_shape import CamShape
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page import content
 
 pytestmark = needs_chromium

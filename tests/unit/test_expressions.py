@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from linkwright import units
+from linkwright.core.expressions import array_functions, parse, parse_quantity
 from linkwright.errors import QuantityError
-from linkwright.model.expressions import array_functions, parse, parse_quantity
 
 LENGTH, TIME, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["time"], units.NONE
 KINDS = {"l2": LENGTH, "t": TIME, "k": NONE, "m": LENGTH, "g": units.DIMENSIONS["acceleration"]}

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.model.file import loads
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output, SwingPhase
+from linkwright.fields.signals import Output, SwingPhase
+from linkwright.files.model_file import loads
+from linkwright.mechanism.mechanism import Mechanism
 
 SLIDER = """
 format: 1

@@ -11,10 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.loads.phases import activity
 from linkwright.loads.signals import Limit, Whole
 from linkwright.loads.tables import interpolated
-from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
 
 JAW = Output("angle", "jaw", "jaw")
 PERIOD = 2.0

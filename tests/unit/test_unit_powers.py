@@ -12,8 +12,8 @@ import linkwright as lw
 from linkwright import units
 from linkwright.cli import main
 from linkwright.cli.tables import csv_of
+from linkwright.core.expressions import parse_quantity
 from linkwright.errors import QuantityError
-from linkwright.model.expressions import parse_quantity
 from linkwright.words.carried import terminal_text
 
 LENGTH, FORCE, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["force"], units.NONE

@@ -19,8 +19,8 @@ from linkwright.cams.result import CamDesign
 from linkwright.cams.sizes import CamChoice, chosen
 from linkwright.cams.undercut import undercuts
 from linkwright.errors import Finding, ModelError
+from linkwright.fields.base import Field
 from linkwright.laws.program import Program
-from linkwright.model.fields import Field
 from linkwright.parts.base import Problem, fault
 
 CLOSURES = ("force", "groove", "conjugate")

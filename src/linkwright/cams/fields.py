@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.cams.follower import KINDS, MOTIONS, Follower
 from linkwright.errors import ModelError
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word
+from linkwright.fields.nodes import Node
 from linkwright.laws.found import ORDERS, FoundProgram, Window
 from linkwright.laws.program_fields import RATES, ProgramField
-from linkwright.model.fields import Field, Quantities, Quantity, Schema, Word
-from linkwright.model.nodes import Node
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Flag, Listed, Table, Whole
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 _FOLLOWER: Mapping[str, Field] = {
     "kind": Word(KINDS, required=True, doc="what touches the cam"),

@@ -14,7 +14,7 @@ from linkwright.joints.cam import CamJoint
 from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.traced import LiftCurve
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, eq=False)

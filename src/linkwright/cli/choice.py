@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.solving import Solved, steady
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
 

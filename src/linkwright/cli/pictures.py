@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.kinematics.motion import Motion
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence

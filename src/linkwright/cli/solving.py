@@ -16,9 +16,9 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
-from linkwright.model.mechanism import Mechanism
 from linkwright.words import Say
 
 #: Steps of the grid on which largest values are sought, at least.

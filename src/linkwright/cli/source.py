@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from linkwright.cli.session import Session
 from linkwright.errors import Finding, ModelError
-from linkwright.model.file import read_text
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.source import GALLERY, read_source
+from linkwright.files.model_file import read_text
+from linkwright.files.source import GALLERY, read_source
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import has, say
 
 

@@ -16,7 +16,7 @@ from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.worked.solution import worked
 from linkwright.worked.terms import TWO, ZERO, Term

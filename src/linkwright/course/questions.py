@@ -17,8 +17,8 @@ from linkwright.course.task import Question
 from linkwright.course.variants import Variant, Variants
 from linkwright.drivers.base import Law
 from linkwright.errors import RequestError
+from linkwright.files.write import to_data
 from linkwright.kinematics.motion import Motion
-from linkwright.model.write import to_data
 from linkwright.plot.drawing.draw import draw
 from linkwright.words import Say, speaker
 from linkwright.words.sentence import Sentence

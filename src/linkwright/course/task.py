@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.registry import offered
 from linkwright.units import SI_UNITS, parse

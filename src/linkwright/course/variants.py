@@ -14,10 +14,10 @@ import numpy as np
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
-from linkwright.model.file import load
-from linkwright.model.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from linkwright.export.modelica.laws import LawText
-    from linkwright.model.fields import Field
+    from linkwright.fields.base import Field
 
     Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.drivers.base import LAWS, Law
-from linkwright.model.fields import Field, Quantity
+from linkwright.fields.base import Field, Quantity
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array

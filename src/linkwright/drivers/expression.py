@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.core.expressions import Expression, array_functions
 from linkwright.drivers.base import LAWS, Law
-from linkwright.model.expressions import Expression, array_functions
-from linkwright.model.fields import Field, Formula
+from linkwright.fields.base import Field, Formula
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array

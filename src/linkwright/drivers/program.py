@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.drivers.base import LAWS, Law
 from linkwright.errors import LinkwrightError
+from linkwright.fields.base import Field
 from linkwright.laws.program_fields import ProgramField
-from linkwright.model.fields import Field
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

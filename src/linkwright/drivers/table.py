@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.drivers.base import LAWS, Law
 from linkwright.errors import LinkwrightError
-from linkwright.model.fields import Field, TimeTable, TimeTableValues
+from linkwright.fields.base import Field, TimeTable, TimeTableValues
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import LANGUAGES

@@ -10,8 +10,8 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.table import MetricsTable
-from linkwright.model.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.words.sentence import Sentence
 

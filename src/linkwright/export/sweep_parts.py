@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import RequestError
 from linkwright.export.base import package
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import wanted
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
 from linkwright.study.ranges import Range, parse_range

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from linkwright.errors import LinkwrightError
-from linkwright.model.fields import Field, Schema
+from linkwright.fields.base import Field, Schema
 from linkwright.registry import Registry
 from linkwright.words import has
 from linkwright.words.sentence import Sentence
@@ -21,6 +21,10 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
     from linkwright.engine.vector import Vec
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.joints.marks import Following, Mark
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
@@ -29,12 +33,8 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.kinetostatics.forces import Forces
-    from linkwright.model.drawing import Drawing
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.drawing import Drawing
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, Group, TreeJoint

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, maximum, reciprocal, sqrt
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Poses
 from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import WheelCut, WheelPair, length
-from linkwright.model.fields import Field, Quantity, Word
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.model.mechanism import Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
 
 

@@ -9,13 +9,16 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
+from linkwright.fields.base import Field, Quantity, Word
+from linkwright.fields.references import LinkName, PointName
 from linkwright.joints.base import JOINTS, Cut, HigherPair, Joint, LackingError, carried_steadily
 from linkwright.laws.program_fields import ProgramField
-from linkwright.model.fields import Field, Quantity, Word
-from linkwright.model.reference_fields import LinkName, PointName
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.joints.cam_cuts import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
@@ -24,10 +27,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.group import Connection, Group
 
 TOUCH = ("roller", "knife", "flat")
@@ -96,7 +96,7 @@ class CamJoint(HigherPair):
     # the model file ---------------------------------------------------------------------------
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
-        from linkwright.model.fields import Quantities
+        from linkwright.fields.base import Quantities
 
         return {
             "cam": LinkName(required=True, doc="the link with the cam, pinned on the carrier"),

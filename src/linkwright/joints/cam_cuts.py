@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from linkwright.joints.cam import CamJoint
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.laws.traced import LiftCurve
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
 
 _TURN = 2 * math.pi

@@ -17,7 +17,7 @@ from linkwright.joints.marks import Mark, Vec
 if TYPE_CHECKING:
     from linkwright.joints.cam import CamJoint
     from linkwright.laws.base import Floats
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 Points = NDArray[np.complex128]
 #: Points of a drawn curve over a turn of the cam; how far a face goes on beyond its contacts, as a share.

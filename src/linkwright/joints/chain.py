@@ -8,19 +8,19 @@ from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
+from linkwright.fields.base import Field, Quantity
 from linkwright.joints.base import JOINTS, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
-from linkwright.model.fields import Field, Quantity
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.model.mechanism import Link
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Link
 
 
 @JOINTS.register("chain")

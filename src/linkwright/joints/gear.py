@@ -13,20 +13,20 @@ import numpy as np
 
 from linkwright.engine.trace import Scalar, absolute, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Joint, Poses
 from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
-from linkwright.model.fields import Field, Quantity, Word
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.cycle import Floats
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.group import Connection
 
 #: The pressure angle of standard teeth.

@@ -11,7 +11,7 @@ from linkwright.joints.base import Joint
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)

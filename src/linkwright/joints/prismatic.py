@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, angle
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity
+from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import FRICTION
-from linkwright.model.fields import Field, Quantity
-from linkwright.model.reference_fields import Direction, LinkName, PointName
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar, absolute, tan
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity
+from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.joints.base import (
     JOINTS,
     Angles,
@@ -26,18 +28,16 @@ from linkwright.joints.gear import STANDARD
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.marks import Amount, Mark, RackWay, Wheel
 from linkwright.joints.toothed import FITS, length
-from linkwright.model.fields import Field, Quantity
-from linkwright.model.reference_fields import Direction, LinkName, PointName
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.model.drawing import Drawing
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.drawing import Drawing
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.group import Connection, Group
 
 

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity
 from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
 from linkwright.joints.lower import TurningJoint
 from linkwright.joints.pose import Pose, Rotor, State
-from linkwright.model.fields import Field, Quantity
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.model.mechanism import Link
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.mechanism import Link
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from linkwright.fields.base import Field
 from linkwright.joints.base import JOINTS
 from linkwright.joints.gear import GearPair
-from linkwright.model.fields import Field
 
 
 @JOINTS.register("rolling")

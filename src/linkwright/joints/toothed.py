@@ -18,21 +18,21 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.references import LinkName, LinkNames
 from linkwright.joints.base import Angles, Cut, HigherPair, Joint, Poses, States
 from linkwright.joints.marks import Amount, Wheel, Wheels
-from linkwright.model.fields import Field, Quantities, Quantity
-from linkwright.model.reference_fields import LinkName, LinkNames
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.model.drawing import Drawing
-    from linkwright.model.mechanism import Link, Mechanism
-    from linkwright.model.nodes import Mapping as MappingNode
-    from linkwright.model.plain_reader import Place as Where
-    from linkwright.model.reader import Reader
+    from linkwright.mechanism.drawing import Drawing
+    from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection

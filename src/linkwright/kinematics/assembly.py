@@ -15,8 +15,8 @@ from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.closed_loops import counted
 from linkwright.kinematics.groups import closed_form, dyad_shape, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.model.drawing import Drawing
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.group import Group, Structure
 from linkwright.words.sentence import Sentence, lines

@@ -19,7 +19,7 @@ from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.groups import state_name
-from linkwright.model.drawing import Drawing
+from linkwright.mechanism.drawing import Drawing
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

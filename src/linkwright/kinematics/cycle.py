@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.whole_turns import whole_turns
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
 from linkwright.words.sentence import Sentence

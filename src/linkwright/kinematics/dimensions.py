@@ -9,8 +9,8 @@ from math import sin as sine
 from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.joints.lower import RigidJoint, SlidingJoint
-from linkwright.model.geometry import centre, local_points
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.mechanism.geometry import centre, local_points
+from linkwright.mechanism.mechanism import Link, Mechanism
 
 
 class Dimensions:
@@ -44,7 +44,7 @@ class Dimensions:
 
     def _from_expression(self, address: str) -> Scalar:
         """The traced value of an expression; parameters that follow others are traced in their order, once."""
-        from linkwright.model.traced_expressions import traced
+        from linkwright.core.traced_expressions import traced
 
         expressions = self.mechanism.expressions
         waiting, needed = [address], set[str]()

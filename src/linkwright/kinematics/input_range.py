@@ -17,7 +17,7 @@ from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times,
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 from linkwright.core.search import ends, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.signals import Output, resolve_output
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.size import mechanism_size
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output, resolve_output
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 

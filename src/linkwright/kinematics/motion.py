@@ -17,7 +17,7 @@ from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence

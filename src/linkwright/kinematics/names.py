@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
 

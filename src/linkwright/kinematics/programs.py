@@ -13,7 +13,7 @@ from linkwright.engine.program import Program
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.shape import shape
 from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
 
 _KEPT = 32

@@ -23,8 +23,8 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
 from linkwright.kinematics.size import mechanism_size
-from linkwright.model.drawing import Drawing
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
 from linkwright.words.sentence import Sentence

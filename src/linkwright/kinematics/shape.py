@@ -7,9 +7,9 @@ import math
 from collections.abc import Hashable, Mapping
 from typing import Any
 
+from linkwright.core.expressions import Expression
 from linkwright.kinematics.size import mechanism_size
-from linkwright.model.expressions import Expression
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.mechanism.mechanism import Link, Mechanism
 
 _NUMBER = "#"
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 
 def mechanism_size(mechanism: Mechanism) -> float:

@@ -24,7 +24,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 
 def solve_motion(

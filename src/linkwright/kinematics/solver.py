@@ -16,7 +16,7 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
 
 

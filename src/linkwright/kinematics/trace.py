@@ -13,7 +13,7 @@ from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.inputs import DriverInput, driver_input
 from linkwright.kinematics.rates import RateTracer
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 
 

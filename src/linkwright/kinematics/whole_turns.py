@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kinematics.closed_loops import Floats, LoopBuilder
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Structure
 
 if TYPE_CHECKING:

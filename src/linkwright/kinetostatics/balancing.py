@@ -13,7 +13,7 @@ from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.words.sentence import Sentence
 

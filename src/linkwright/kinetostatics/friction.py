@@ -13,7 +13,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)

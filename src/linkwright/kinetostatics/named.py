@@ -18,7 +18,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.closure import closable, conditioning, transmission
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence

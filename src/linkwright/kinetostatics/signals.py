@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, over_cycle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import MotionRun
 from linkwright.loads.signals import Limit, Whole
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
+from linkwright.mechanism.mechanism import Mechanism
 
 #: Steps of the cycle that anchors angles and brackets limit positions.
 STEPS = 360

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
+from linkwright.fields.signals import Output
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
-from linkwright.model.signal_fields import Output
 
 
 def limit_name(output: Output, kind: str) -> str:

@@ -15,7 +15,7 @@ from linkwright.core.piecewise import Piecewise
 from linkwright.registry import Registry
 
 if TYPE_CHECKING:
-    from linkwright.model.fields import Field
+    from linkwright.fields.base import Field
 
 Floats = NDArray[np.float64]
 #: Below this share of the largest value a velocity or acceleration at an end is zero.

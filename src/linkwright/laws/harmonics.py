@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.fields.base import Field, Quantity
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
-from linkwright.model.fields import Field, Quantity
 
 
 def sines(u: Any, shares: Sequence[tuple[int, float]]) -> tuple[Any, Any, Any, Any]:

@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.base import Field, Quantities, Quantity, Word
 from linkwright.laws.base import MOTION_LAWS, Floats, MotionLaw
 from linkwright.laws.pieces import Pieces
-from linkwright.model.fields import Field, Quantities, Quantity, Word
 from linkwright.words.sentence import Sentence
 
 AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}

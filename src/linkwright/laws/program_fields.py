@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from linkwright.errors import LinkwrightError, ModelError, RequestError
-from linkwright.model.fields import Field, Quantities, Quantity, Schema, Word, table_schema
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
     from linkwright.laws.base import MotionLaw
     from linkwright.laws.program import MotionProgram, Segment
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
 
 #: Dimension of lift, velocity and acceleration, by what the lift is and over what.
 RATES = {

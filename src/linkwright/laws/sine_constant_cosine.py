@@ -12,8 +12,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.base import Field, Quantity
 from linkwright.laws.base import MOTION_LAWS, Floats, MotionLaw
-from linkwright.model.fields import Field, Quantity
 from linkwright.words.sentence import Sentence
 
 _SHARE = "dimensionless"

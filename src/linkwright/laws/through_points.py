@@ -10,9 +10,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
 from linkwright.laws.pieces import Pieces
-from linkwright.model.fields import Field, Quantities, Quantity
 from linkwright.words.sentence import Sentence
 
 _PLACES = Quantities("dimensionless", required=True, doc="places u between 0 and 1, increasing")

@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from linkwright.core.expression_tree import Number
+from linkwright.core.expressions import Expression
+from linkwright.core.traced_expressions import traced
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, floor, maximum, minimum, select, sign
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators, output_named
 from linkwright.loads.phases import NEAR, TURN
-from linkwright.model.expression_tree import Number
-from linkwright.model.expressions import Expression
-from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
-from linkwright.model.traced_expressions import traced
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 class Course(Protocol):

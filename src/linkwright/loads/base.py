@@ -20,9 +20,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.joints.base import JointName
-from linkwright.model.fields import Field, Quantities, Quantity, Schema, Text, Word, table_schema
-from linkwright.model.reference_fields import (
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Text, Word, table_schema
+from linkwright.fields.references import (
     LinkName,
     LinkPoint,
     PointName,
@@ -30,20 +29,21 @@ from linkwright.model.reference_fields import (
     PointReference,
     PointReferences,
 )
-from linkwright.model.signal_fields import Magnitude, Output, OutputName, Phase, PhaseField, Table, TableField
+from linkwright.fields.signals import Magnitude, Output, OutputName, Phase, PhaseField, Table, TableField
+from linkwright.joints.base import JointName
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
     from linkwright.kinematics.motion import Motion
     from linkwright.loads.along_input import Course
     from linkwright.loads.marks import Mark
     from linkwright.loads.signals import Array, Signals
     from linkwright.loads.site import Site, Wrench
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
     from linkwright.worked.terms import Pair, Term
@@ -293,7 +293,7 @@ def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: 
 
 def links(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
     """The names of two different links ``[a, b]``."""
-    from linkwright.model.reference_fields import LinkNames
+    from linkwright.fields.references import LinkNames
 
     return _declare(LinkNames(doc=doc, key=key), default)
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.expressions import Expression
 from linkwright.engine.trace import select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
@@ -14,7 +15,6 @@ from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.marks import Push, sign_of
 from linkwright.loads.site import Site, Wrench
-from linkwright.model.expressions import Expression
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
+from linkwright.core.expressions import Expression, array_functions
 from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.fields.signals import Output, resolve_output
 from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot
-from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
-from linkwright.model.expressions import Expression, array_functions
-from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import offered
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 _HALVINGS = 60
 #: Any magnitude is below the largest torque.

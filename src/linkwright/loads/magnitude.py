@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.expressions import Expression
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.loads.formulas import calculated
 from linkwright.loads.phases import activity
 from linkwright.loads.signals import Array, Mask, Signals, column
 from linkwright.loads.tables import interpolated
-from linkwright.model.expressions import Expression
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase
+from linkwright.fields.strokes import StrokePart
 from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
-from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, Phase, SwingPhase
-from linkwright.model.stroke_parts import StrokePart
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

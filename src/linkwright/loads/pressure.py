@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.expressions import Expression
 from linkwright.engine.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Phase, Table
 from linkwright.loads.marks import Press, sign_of
 from linkwright.loads.site import Site, Wrench, guide_and_block
-from linkwright.model.expressions import Expression
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.model.signal_fields import Output
+from linkwright.fields.signals import Output
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

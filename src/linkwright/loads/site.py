@@ -9,7 +9,7 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)

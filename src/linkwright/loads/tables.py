@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import Output, Table
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.loads.signals import Array, Mask, Signals, input_dimension, shown
-from linkwright.model.signal_fields import Output, Table
 from linkwright.words.sentence import Sentence, together
 
 

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.expressions import Expression
 from linkwright.engine.trace import select
 from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
 from linkwright.loads.marks import Turn, sign_of
 from linkwright.loads.site import Site, Wrench
-from linkwright.model.expressions import Expression
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

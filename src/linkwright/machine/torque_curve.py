@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.expressions import Expression, array_functions, parse
 from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
-from linkwright.model.expressions import Expression, array_functions, parse
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from linkwright.core.piecewise import POINTS, Piecewise, largest, nodes
 from linkwright.core.search import lowest
 from linkwright.engine.recent import Recent
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -25,7 +26,6 @@ from linkwright.metrics.cycle_grid import CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs, value
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
-from linkwright.model.signal_fields import Output
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]

@@ -12,13 +12,13 @@ from linkwright.core.piecewise import POINTS, SMOOTH, Extreme, Piecewise, edges_
 from linkwright.core.search import ends
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import Phase
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import activity, switch_times
 from linkwright.metrics.resolve import Resolver
-from linkwright.model.signal_fields import Phase
 
 #: Pieces of one cycle before the places where something jumps or bends are cut out.
 PIECES = 24

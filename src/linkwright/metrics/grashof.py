@@ -8,10 +8,10 @@ from itertools import combinations
 from math import hypot
 
 from linkwright.joints.lower import TurningJoint
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
 from linkwright.metrics.quantities import shown
-from linkwright.model.mechanism import Mechanism
 
 #: A Grashof sum this near to zero, relative to the longest link, is a change point.
 EQUAL = 1e-12

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
+from linkwright.mechanism.mechanism import Mechanism
 
 
 def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:

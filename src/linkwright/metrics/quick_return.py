@@ -10,10 +10,10 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.engine.trace import Scalar, floor, maximum
+from linkwright.fields.signals import Output
 from linkwright.loads.phases import outermost
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Metric, Number
-from linkwright.model.signal_fields import Output
 
 
 @METRICS.register("quick_return_ratio")

@@ -9,9 +9,9 @@ import numpy as np
 
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
-from linkwright.model.mechanism import Mechanism
 
 
 def sides(mechanism: Mechanism) -> Iterator[tuple[str, str, str]]:

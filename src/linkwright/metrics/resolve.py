@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import Output, Phase
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion
@@ -18,7 +19,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import activity
 from linkwright.loads.signals import Limit, Whole
-from linkwright.model.signal_fields import Output, Phase
 
 
 class _SameCycle(MotionSignals):

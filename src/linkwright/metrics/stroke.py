@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.fields.signals import Output
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
 from linkwright.metrics.outputs import turns_fully
-from linkwright.model.signal_fields import Output
 
 
 @METRICS.register("stroke")

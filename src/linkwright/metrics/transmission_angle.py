@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from math import radians
 from typing import Any, ClassVar
 
+from linkwright.fields.signals import Output
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
-from linkwright.model.signal_fields import Output
 from linkwright.structure.group import Group
 
 LIMIT = radians(40)

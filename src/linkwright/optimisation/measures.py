@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.expressions import Expression, array_functions, parse
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.summary import is_summary, one, wanted
-from linkwright.model.expressions import Expression, array_functions, parse
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn

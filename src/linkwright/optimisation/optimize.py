@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import RequestError
-from linkwright.model.document import Document
-from linkwright.model.file import read_document
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.document import Document
+from linkwright.files.model_file import read_document
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.evolution import (
     State,
     begin,

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from linkwright import units
 from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError
-from linkwright.model.document import Document
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.document import Document
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.problem import Problem
 from linkwright.words.sentence import Sentence
 
@@ -84,7 +84,7 @@ class Optimum(Frozen):
     def model_text(self, index: int = 0) -> str:
         """The model file with the design's values in it; all else stays as it was written, comments too."""
         if self.document is None:
-            from linkwright.model.file import dump
+            from linkwright.files.model_file import dump
 
             return dump(self.mechanism(index))
         changed = Document(self.document.text, self.document.name, self.document._read_text)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.ranges import parse_range
 from linkwright.study.vary import checked_addresses

@@ -17,9 +17,9 @@ import numpy as np
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
+from linkwright.files.document import Document
+from linkwright.files.model_file import dump, read_text
 from linkwright.kinematics.motion import Motion
-from linkwright.model.document import Document
-from linkwright.model.file import dump, read_text
 from linkwright.page.dimensions import dimensions
 from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.programs import PagePrograms

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 
 from linkwright import units
 from linkwright.errors import QuantityError
-from linkwright.model.document import Document
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.document import Document
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.ranges import dimension_of
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\"'#,\]}]*)")

@@ -20,7 +20,7 @@ from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.loads.marks import Turn
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.loads import named_points

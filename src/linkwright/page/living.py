@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
+from linkwright.files.document import Document
 from linkwright.kinematics.solve import solve_motion
-from linkwright.model.document import Document
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.content import page
 from linkwright.whole_files import write_whole
 

@@ -20,7 +20,7 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.site import guide_state
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group

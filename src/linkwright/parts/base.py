@@ -24,7 +24,7 @@ from linkwright.words.width import aligned
 if TYPE_CHECKING:
     from typing import Self
 
-    from linkwright.model.fields import Field
+    from linkwright.fields.base import Field
     from linkwright.plot import Diagram
     from linkwright.worked.page import Step
 

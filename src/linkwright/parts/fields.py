@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
+from linkwright.core import expressions
+from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
-from linkwright.model import expressions
-from linkwright.model.expressions import Expression
-from linkwright.model.fields import Field, Schema, table_schema
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar
+from linkwright.fields.base import Field, Schema, table_schema
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 Make = Callable[..., Any]
 

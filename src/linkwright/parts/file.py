@@ -10,16 +10,16 @@ from typing import Any, cast
 
 from linkwright import gallery
 from linkwright.errors import Finding, ModelError
-from linkwright.model.fields import Count, Field, Free, Text, Word, table_schema
-from linkwright.model.file import read_root
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar
-from linkwright.model.nodes import Sequence as SequenceNode
-from linkwright.model.plain_reader import Place
-from linkwright.model.read_model import FORMAT, TASK_KEYS, read_parameters
-from linkwright.model.reader import Reader
-from linkwright.model.schema import json_schema
-from linkwright.model.source import read_source
+from linkwright.fields.base import Count, Field, Free, Text, Word, table_schema
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.files.model_file import read_root
+from linkwright.files.plain_reader import Place
+from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
+from linkwright.files.reader import Reader
+from linkwright.files.schema import json_schema
+from linkwright.files.source import read_source
 from linkwright.parts.base import Problem
 from linkwright.words.sentence import Sentence
 

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.errors import NO_FILE, Finding, ModelError
-from linkwright.model.fields import Text
-from linkwright.model.file import load
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.source import GALLERY
+from linkwright.fields.base import Text
+from linkwright.files.model_file import load
+from linkwright.files.source import GALLERY
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.words.sentence import Sentence
 

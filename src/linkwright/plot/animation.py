@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, written

@@ -15,7 +15,7 @@ from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.report.numbers import Heads
 from linkwright.report.settings import Settings

@@ -8,7 +8,7 @@ import re
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
 from linkwright.words import Say

@@ -8,8 +8,8 @@ from itertools import chain
 from pathlib import Path
 
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
-from linkwright.model.file import load
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.model_file import load
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.report.case import Case

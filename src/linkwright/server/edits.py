@@ -7,12 +7,12 @@ from typing import Any
 
 from linkwright import units
 from linkwright.errors import LinkwrightError, QuantityError
-from linkwright.model.compose import compose
-from linkwright.model.document import Document
-from linkwright.model.file import read_text
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.write import flow
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.compose import compose
+from linkwright.files.document import Document
+from linkwright.files.model_file import read_text
+from linkwright.files.write import flow
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -284,7 +284,7 @@ def with_values(text: str, values: Mapping[str, float]) -> str:
     if len(rest) == len(values):
         return document.text
     from linkwright.kinematics.solve import solve_motion
-    from linkwright.model.drawing import Drawing
+    from linkwright.mechanism.drawing import Drawing
 
     drawing = Drawing(document.mechanism)
     at = {name: drawing.driver(name) for name in mechanism.drivers}

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError
-from linkwright.model.source import decode
+from linkwright.files.source import decode
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.model.file import gallery_names, read_text
-from linkwright.model.source import read_source
+from linkwright.files.model_file import gallery_names, read_text
+from linkwright.files.source import read_source
 from linkwright.server.edits import edited, picture, with_values
 from linkwright.server.files import Files
 from linkwright.words.sentence import in_language

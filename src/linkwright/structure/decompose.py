@@ -11,7 +11,7 @@ from collections.abc import Iterable, Set
 
 from linkwright.drivers.base import Driver
 from linkwright.joints.base import Joint
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.chains import make_group
 from linkwright.structure.constraints import FRAME, ConstraintGraph
 from linkwright.structure.group import Connection, Group, Structure

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.constraints import FRAME, ConstraintGraph
 from linkwright.structure.trains import GearTrain, gear_trains
 from linkwright.words.sentence import Sentence, together

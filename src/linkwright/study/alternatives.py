@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.signals import Output
+from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine import flywheel_inertia
 from linkwright.machine.running import require_steady
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
-from linkwright.model.file import load
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
 from linkwright.study.terms import pivot
 from linkwright.words.sentence import Sentence

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import html_table
 from linkwright.errors import RequestError, with_remedy
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import si_unit
-from linkwright.model.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, alternatives
 from linkwright.study.criteria import USUAL, Criterion, Measured, criteria, numbers_of

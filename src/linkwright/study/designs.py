@@ -15,8 +15,8 @@ from linkwright.engine.sweep import Backend, Progress
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named import Quantity
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, wanted
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.failures import Failure, explained
 from linkwright.study.metric_cycle import numbers_of

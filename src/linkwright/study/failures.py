@@ -12,7 +12,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.one_by_one import changes_of, sentence_of
 from linkwright.study.traced import Traced
 

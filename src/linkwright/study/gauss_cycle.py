@@ -15,18 +15,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.expressions import Expression
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, cos, floor, maximum, minimum, sign, sin
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import limit_name
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
-from linkwright.model.expressions import Expression
-from linkwright.model.signal_fields import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.study.limit_stages import edge_name, part_edge
 from linkwright.study.loaded_cycle import AlongInput
 from linkwright.study.traced import VALID, Traced

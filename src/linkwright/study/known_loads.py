@@ -17,14 +17,14 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import InputPhase
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.loads.along_input import outputs_of
 from linkwright.loads.base import Load
 from linkwright.loads.phases import activity
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import InputPhase
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import AlongInput, numbers_of_loads, one_turn
 from linkwright.study.traced import Traced

@@ -14,11 +14,11 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin
+from linkwright.fields.signals import Output, SwingPhase
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
 from linkwright.loads.phases import NEAR
-from linkwright.model.signal_fields import Output, SwingPhase
 from linkwright.study.traced import VALID, Traced
 
 #: Names of an output's rate and second derivative among the motion's outputs.

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.expressions import Expression
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import MovingPhase, Output, SwingPhase
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, constant_name, middle_name
 from linkwright.loads.along_input import constants as of_load
@@ -21,8 +23,6 @@ from linkwright.loads.along_input import followed, magnitude, outputs_of
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators
 from linkwright.loads.phases import TURN
-from linkwright.model.expressions import Expression
-from linkwright.model.signal_fields import MovingPhase, Output, SwingPhase
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.traced import TURNING, VALID, Traced
 

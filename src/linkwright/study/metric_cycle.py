@@ -24,9 +24,9 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.site import limit_name
 from linkwright.loads.phases import TURN
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.summary import Summary, one
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
 from linkwright.study.limit_stages import limit_stages
 from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn

@@ -21,8 +21,8 @@ from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinetostatics.named import Quantity
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import along_input
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle

@@ -28,7 +28,7 @@ from linkwright.kinetostatics.site import TracedSite, limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.along_input import magnitude
 from linkwright.loads.phases import TURN
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.limit_stages import CONVERGED, constants, near_limits, rate_name
 from linkwright.study.loaded_cycle import AlongInput, along_input

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import units
 from linkwright.errors import QuantityError, RequestError
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]

@@ -16,8 +16,8 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal
 from linkwright.kinetostatics.named import Quantity
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.known_loads import known_loads
 from linkwright.study.objective import of_metrics
 from linkwright.study.slopes import Slopes

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.fields.signals import Output
 from linkwright.machine import flywheel_inertia
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria

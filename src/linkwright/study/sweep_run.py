@@ -19,8 +19,8 @@ from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.threads import chunks, cores
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinetostatics.named import Quantity
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
-from linkwright.model.mechanism import Mechanism
 from linkwright.study.change_points import ChangePoints, near_enough
 from linkwright.study.iterated_groups import MARGIN, Following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle

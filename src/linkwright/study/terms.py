@@ -8,13 +8,13 @@ from functools import reduce
 
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.base import Metric, Number
 from linkwright.metrics.flywheel import Flywheel
 from linkwright.metrics.outputs import turns_fully
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 

@@ -21,7 +21,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.named import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.vary import positions_steps
 from linkwright.words.sentence import Sentence
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, over_cycle
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 

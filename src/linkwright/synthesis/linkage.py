@@ -7,8 +7,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from linkwright.model.file import loads
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.model_file import loads
+from linkwright.mechanism.mechanism import Mechanism
 
 #: Digits of lengths and angles in a model file: rounding below every demand, short enough to read.
 DIGITS = 12

@@ -10,13 +10,13 @@ from typing import Any
 
 from linkwright import units
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.model.compose import compose
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.plain_reader import Place
-from linkwright.model.read_model import TASK_KEYS
-from linkwright.model.reader import Reader
-from linkwright.model.source import read_source
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.compose import compose
+from linkwright.files.plain_reader import Place
+from linkwright.files.read_model import TASK_KEYS
+from linkwright.files.reader import Reader
+from linkwright.files.source import read_source
 from linkwright.registry import nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence

@@ -22,7 +22,7 @@ from linkwright.joints.revolute import RevoluteJoint
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.loads.base import Load
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Floats
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance.turned import TurnedByReaction

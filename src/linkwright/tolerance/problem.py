@@ -12,8 +12,8 @@ import numpy as np
 
 from linkwright import units
 from linkwright.errors import Finding, LinkwrightError, ModelError
-from linkwright.model.fields import Quantity, Text, Word
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.fields.base import Quantity, Text, Word
+from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Floats, fault
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism

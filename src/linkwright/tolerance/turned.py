@@ -11,11 +11,11 @@ import numpy as np
 from linkwright.core.spline import Floats, Spline
 from linkwright.drivers.base import Law
 from linkwright.drivers.table import TableLaw
-from linkwright.model.fields import TimeTableValues
+from linkwright.fields.base import TimeTableValues
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
-    from linkwright.model.fields import Field
+    from linkwright.fields.base import Field
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.file import load
 from linkwright.plot.force_names import carries
 from linkwright.units import parse
 

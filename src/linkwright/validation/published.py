@@ -9,7 +9,7 @@ from importlib.resources import files
 from typing import Any
 
 from linkwright import gallery
-from linkwright.model.file import load
+from linkwright.files.model_file import load
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.structure.group import TreeJoint
 from linkwright.words import Say
 from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol

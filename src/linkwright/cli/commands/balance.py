@@ -16,7 +16,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import Balancing
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 ENDINGS = (".yaml", ".yml")
 #: A peak below this share of the one without counterweights is rounding.
@@ -114,7 +114,7 @@ def _length(text: str, say: Say) -> float:
 
 def _model_text(found: Balancing) -> str:
     """The balanced model; masses that were expressions become the new numbers."""
-    from linkwright.model.file import dump
+    from linkwright.files.model_file import dump
 
     changed = tuple(
         f"{weight.link}.{key}"

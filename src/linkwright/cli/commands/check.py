@@ -10,7 +10,7 @@ from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -39,10 +39,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
+    from linkwright.files.model_file import read_text
+    from linkwright.files.source import read_source
     from linkwright.kinematics.rank import analysed
     from linkwright.kinematics.solve import try_motion
-    from linkwright.model.file import read_text
-    from linkwright.model.source import read_source
     from linkwright.parts.file import check as check_calculation
     from linkwright.parts.file import kind_of
     from linkwright.synthesis.tasks import check_text as check_task

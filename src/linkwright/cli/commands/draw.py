@@ -24,7 +24,7 @@ from linkwright.words import Say
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.plot.drawing.dimensions import Dimension
 
 ENDINGS = (".svg", ".png", ".pdf")

@@ -81,8 +81,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
     """The text of the file, which the page gives back changed, and the files of the machines beside it."""
-    from linkwright.model.file import read_document
-    from linkwright.model.source import read_source
+    from linkwright.files.model_file import read_document
+    from linkwright.files.source import read_source
 
     return {"text": read_source(file)[0], "beside": [read_document(each) for each in beside]}
 

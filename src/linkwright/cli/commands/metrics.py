@@ -13,9 +13,9 @@ from linkwright.words.sentence import Sentence, in_words
 
 if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
-    from linkwright.model.mechanism import Mechanism
 
 ENDINGS = (".csv", ".json")
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")

@@ -11,7 +11,7 @@ from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.engine.program import Program
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:

@@ -48,7 +48,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
-    from linkwright.model.source import GALLERY
+    from linkwright.files.source import GALLERY
     from linkwright.synthesis.names import TASK_NAMES
     from linkwright.synthesis.tasks import synthesize_file, synthesize_text
 

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.labels import Obstacles, place
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.names import link_labels, point_labels

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
-from linkwright.model.document import Document
-from linkwright.model.mechanism import Mechanism
+from linkwright.files.document import Document
+from linkwright.mechanism.mechanism import Mechanism
 
 
 def content(

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.view import placements
 from linkwright.structure.group import Connection, TreeJoint
 

@@ -7,10 +7,10 @@ from typing import assert_never
 
 import numpy as np
 
+from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, Variable
 from linkwright.drivers.expression import ExpressionLaw
 from linkwright.drivers.table import TableLaw
 from linkwright.export.modelica.names import number
-from linkwright.model.expression_tree import Binary, Call, Negative, Node, Number, Variable
 
 
 @dataclass(frozen=True)

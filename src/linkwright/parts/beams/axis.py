@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial import Polynomial, legendre
 from numpy.typing import NDArray
 
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.parts.base import Floats
 
 Numbers = NDArray[np.intp]

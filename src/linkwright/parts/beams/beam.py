@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Quantities, Quantity, Schema, Word, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, Schema, Word, quantity_schema
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import Material, material_field
@@ -84,7 +84,7 @@ class LineLoad(Quantities):
     """One value, or ``[first, last]``."""
 
     def read(self, reader: Any, node: Any, place: Any, given: Mapping[str, Any]) -> tuple[float, ...] | None:
-        from linkwright.model.nodes import Sequence as SequenceNode
+        from linkwright.fields.nodes import Sequence as SequenceNode
 
         if isinstance(node, SequenceNode):
             return super().read(reader, node, place, given)

@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import Finding, LinkwrightError
+from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.fields import Quantity, Text
-from linkwright.model.mechanism import Link, Mechanism
+from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.beams.axis import LinkAxis, Numbers, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text

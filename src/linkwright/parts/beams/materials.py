@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from linkwright.model.fields import Field, Quantity, Text
+from linkwright.fields.base import Field, Quantity, Text
 from linkwright.parts.fields import Either, Table, unknown_name
 
 if TYPE_CHECKING:
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 
 @dataclass(frozen=True)

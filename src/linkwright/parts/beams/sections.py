@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Field, Quantities, Quantity, Text
+from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Either, Table, unknown_name
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 #: IPE profiles, EN 10365: h, b, web, flange, root radius (mm), area (mm²), I (mm⁴), W (mm³).
 IPE: Mapping[str, tuple[float, ...]] = {

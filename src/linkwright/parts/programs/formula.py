@@ -10,9 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from linkwright import units
+from linkwright.core import expressions
+from linkwright.core.expressions import Expression, array_functions
 from linkwright.errors import QuantityError
-from linkwright.model import expressions
-from linkwright.model.expressions import Expression, array_functions
 from linkwright.parts.base import Floats
 from linkwright.words.sentence import Sentence
 

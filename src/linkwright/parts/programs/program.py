@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from linkwright import units
+from linkwright.core import expressions
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.model import expressions
-from linkwright.model.fields import Field
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Scalar
+from linkwright.fields.base import Field
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Scalar
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import UNITS, shown, si_unit
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
@@ -37,9 +37,9 @@ from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Word
+from linkwright.fields.base import Word
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Listed, Named, Table

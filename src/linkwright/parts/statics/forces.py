@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Quantities, Quantity
+from linkwright.fields.base import Quantities, Quantity
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Either, Named, Table
@@ -21,9 +21,9 @@ from linkwright.words import Say
 from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
-    from linkwright.model.nodes import Node
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12

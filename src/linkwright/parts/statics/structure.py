@@ -11,7 +11,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.rank import ConstraintSystem
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure

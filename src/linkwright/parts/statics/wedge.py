@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.errors import Finding
-from linkwright.model.fields import Quantity
+from linkwright.fields.base import Quantity
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.steps import put
 from linkwright.words import Say

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright import units
 from linkwright.errors import Finding
-from linkwright.model.fields import Quantity, Text, Word
+from linkwright.fields.base import Quantity, Text, Word
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, Scale, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole

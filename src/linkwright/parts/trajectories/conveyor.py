@@ -11,10 +11,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import Finding, LinkwrightError
+from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.model.fields import Quantity, Text
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.display import shown
 from linkwright.parts.fields import Whole

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.expressions import Expression, array_functions, parse
 from linkwright.errors import Finding, QuantityError, RequestError
+from linkwright.fields.base import Quantity
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.choice import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.model.expressions import Expression, array_functions, parse
-from linkwright.model.fields import Quantity
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.steps import put
@@ -27,8 +27,8 @@ from linkwright.words import Say
 from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 #: Points of curves.
 POINTS = 801

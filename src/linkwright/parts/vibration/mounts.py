@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.fields.base import Quantities, Quantity
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.model.fields import Quantities, Quantity
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.display import number, shown
 from linkwright.parts.fields import Named, Table, Whole

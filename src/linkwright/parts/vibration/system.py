@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.fields import Quantities, Quantity, Text
+from linkwright.fields.base import Quantities, Quantity, Text
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look

@@ -9,7 +9,7 @@ from linkwright.errors import QuantityError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import LinkwrightError
+from linkwright.fields.signals import Output
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import activity
 from linkwright.metrics.analysis import Kind
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.units import Unit, size

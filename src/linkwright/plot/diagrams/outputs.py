@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinematics.limits import output_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, owners
 from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words.sentence import Sentence

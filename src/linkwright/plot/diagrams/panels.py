@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import Kind, Request
 from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, mark_peaks, phase_marks

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel

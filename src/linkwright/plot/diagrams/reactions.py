@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.reactions import size as magnitude
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look

@@ -15,8 +15,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Kind
-from linkwright.model.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.plot.svg.characters import one_line
 from linkwright.words import Say

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.outputs import rate, second, value
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.model.signal_fields import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel

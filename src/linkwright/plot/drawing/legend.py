@@ -16,7 +16,7 @@ from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from linkwright.fields.references import PointName
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
 from linkwright.loads.marks import Press, Push, Turn
-from linkwright.model.reference_fields import PointName
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.machine import Machine

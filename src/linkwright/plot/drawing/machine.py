@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
-from linkwright.model.mechanism import Link
+from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.view import Placement, View
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, points

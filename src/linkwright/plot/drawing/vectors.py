@@ -21,7 +21,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
-    from linkwright.model.mechanism import Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
 
 LONGEST = 120.0
 NAME_SIZE = 12.0

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from linkwright import units
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright import units
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.model.write import to_data
+from linkwright.files.write import to_data
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.section import SECTIONS, Section

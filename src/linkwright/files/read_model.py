@@ -10,20 +10,20 @@ from pathlib import Path
 from typing import Any
 
 from linkwright import units
+from linkwright.core import expressions
 from linkwright.errors import Finding, QuantityError
+from linkwright.fields.base import Count, Field, Free, Quantities, Text
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar
+from linkwright.files.check_mechanism import check_whole
+from linkwright.files.plain_reader import Place, TooManyFindings
+from linkwright.files.read_drivers import complete, read_cycle, read_drivers, scan_input
+from linkwright.files.read_joints import IMPLIED, read_joints, scan_joints
+from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
+from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
-from linkwright.model import expressions
-from linkwright.model.drawing import Drawing
-from linkwright.model.fields import Count, Field, Free, Quantities, Text
-from linkwright.model.mechanism import Mechanism, Vec
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar
-from linkwright.model.plain_reader import Place, TooManyFindings
-from linkwright.model.read_drivers import complete, read_cycle, read_drivers, scan_input
-from linkwright.model.read_joints import IMPLIED, read_joints, scan_joints
-from linkwright.model.read_links import legible, read_drawing, read_frame, read_links, scan_points
-from linkwright.model.reader import Reader
-from linkwright.model.whole import check_whole
+from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mechanism import Mechanism, Vec
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1

@@ -6,16 +6,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.errors import Finding, ModelError
-from linkwright.model.compose import compose
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.nodes import Node, Scalar
-from linkwright.model.read_model import read_model
-from linkwright.model.source import gallery_names, read_source
-from linkwright.model.write import dump
+from linkwright.fields.nodes import Node, Scalar
+from linkwright.files.compose import compose
+from linkwright.files.read_model import read_model
+from linkwright.files.source import gallery_names, read_source
+from linkwright.files.write import dump
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.document import Document
+    from linkwright.files.document import Document
 
 __all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
 
@@ -51,7 +51,7 @@ def check(source: str | Path) -> list[Finding]:
 
 def read_document(source: str | Path) -> Document:
     """A model file that can be changed and saved with its comments and order. Raises ModelError."""
-    from linkwright.model.document import Document
+    from linkwright.files.document import Document
 
     text, name = read_source(source)
     return Document(text, name, read_text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from linkwright.model.nodes import Remark
+from linkwright.fields.nodes import Remark
 from linkwright.words.sentence import Sentence
 
 #: What the reader's complaints mean: keys of the catalogue ``yaml``, the remedy under KEY_do.

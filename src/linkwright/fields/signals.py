@@ -6,8 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from linkwright.model.expressions import Expression
-from linkwright.model.fields import (
+from linkwright.core.expressions import Expression
+from linkwright.fields.base import (
     Field,
     Quantities,
     Schema,
@@ -16,14 +16,14 @@ from linkwright.model.fields import (
     table_schema,
     written_quantity,
 )
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
-from linkwright.model.stroke_parts import PARTS, StrokePart, StrokePartField
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node
+from linkwright.fields.strokes import PARTS, StrokePart, StrokePartField
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class TableField(Field):
         return Table(over, values["x"], values["y"], across)
 
     def _fields(self, across: str) -> dict[str, Field]:
-        from linkwright.model.fields import Text
+        from linkwright.fields.base import Text
 
         return {
             "over": Text(required=True, doc="input, time, or an output"),

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node
+from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
-from linkwright.model.mechanism import Link, Mechanism, Vec
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
-from linkwright.model.reader import Reader
+from linkwright.mechanism.mechanism import Link, Mechanism, Vec
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 

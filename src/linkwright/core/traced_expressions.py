@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from linkwright.core.expressions import Expression
 from linkwright.engine import trace
 from linkwright.engine.trace import Scalar
-from linkwright.model.expressions import Expression
 
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sin": trace.sin,

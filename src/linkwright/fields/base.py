@@ -14,13 +14,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.model.expressions import Expression
-from linkwright.model.nodes import Node, Scalar
+from linkwright.core.expressions import Expression
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 Schema = dict[str, Any]
 

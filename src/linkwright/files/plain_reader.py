@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
 from linkwright.errors import Finding, Severity
-from linkwright.model.fields import Field
-from linkwright.model.nodes import Entry, Node, Scalar, Sequence, noun
-from linkwright.model.nodes import Mapping as MappingNode
+from linkwright.fields.base import Field
+from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.reader import Reader
+    from linkwright.files.reader import Reader
 
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 NAME = re.compile(r"[^\W\d][\w'-]*")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
-    from linkwright.model.mechanism import Link
+    from linkwright.mechanism.mechanism import Link
 
 T = TypeVar("T")
 Pair = tuple[Any, Any]

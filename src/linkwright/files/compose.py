@@ -17,9 +17,9 @@ from yaml.events import (
     StreamEndEvent,
 )
 
-from linkwright.model.events import Source, event_reader
-from linkwright.model.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
-from linkwright.model.syntax import explain, tab_remarks
+from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
+from linkwright.files.events import Source, event_reader
+from linkwright.files.syntax import explain, tab_remarks
 from linkwright.words.carried import UNFIT
 from linkwright.words.sentence import Sentence
 

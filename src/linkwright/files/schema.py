@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.drivers.base import LAWS
+from linkwright.fields.base import Field, Schema, Word, quantity_schema, table_schema
+from linkwright.files.read_drivers import SLIDE_FIELDS, TURN_FIELDS
+from linkwright.files.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
+from linkwright.files.read_model import HEADER, WORDS
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
-from linkwright.model.fields import Field, Schema, Word, quantity_schema, table_schema
-from linkwright.model.read_drivers import SLIDE_FIELDS, TURN_FIELDS
-from linkwright.model.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
-from linkwright.model.read_model import HEADER, WORDS
 
 #: Version of the format of model files.
 FORMAT = 1

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from linkwright.model.fields import Field, Schema, quantity_schema, written_quantity
-from linkwright.model.nodes import Node, Sequence
+from linkwright.fields.base import Field, Schema, quantity_schema, written_quantity
+from linkwright.fields.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.model.plain_reader import Place
-    from linkwright.model.reader import Reader
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 
 @dataclass(frozen=True)

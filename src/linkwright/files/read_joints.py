@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.fields.base import Text
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.plain_reader import Place
+from linkwright.files.reader import Reader
 from linkwright.joints.base import JOINTS, Joint
 from linkwright.joints.revolute import RevoluteJoint
-from linkwright.model.fields import Text
-from linkwright.model.mechanism import Link
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.plain_reader import Place
-from linkwright.model.reader import Reader
+from linkwright.mechanism.mechanism import Link
 from linkwright.words.sentence import Sentence
 
 #: The kind of the joints that shared points imply.

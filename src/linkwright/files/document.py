@@ -7,10 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
-from linkwright.model.compose import compose
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.nodes import Entry, Mapping, Node, Scalar, Sequence
-from linkwright.model.write import flow
+from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence
+from linkwright.files.compose import compose
+from linkwright.files.write import flow
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence

@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from linkwright import units
+from linkwright.core import expressions
+from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, noun
+from linkwright.fields.references import LinkPoint
+from linkwright.fields.signals import Output, resolve_output
+from linkwright.files.plain_reader import NUMBER, Place, PlainReader
 from linkwright.joints.base import JOINTS
-from linkwright.model import expressions
-from linkwright.model.expressions import Expression
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, noun
-from linkwright.model.plain_reader import NUMBER, Place, PlainReader
-from linkwright.model.reference_fields import LinkPoint
-from linkwright.model.signal_fields import Output, resolve_output
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence
 

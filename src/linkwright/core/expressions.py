@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from linkwright import units
-from linkwright.errors import QuantityError
-from linkwright.model.expression_tree import (
+from linkwright.core.expression_tree import (
     ARITY,
     Binary,
     Call,
@@ -28,6 +27,7 @@ from linkwright.model.expression_tree import (
     evaluate,
     scalar_functions,
 )
+from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence
 

@@ -12,7 +12,7 @@ from functools import cache
 from itertools import accumulate
 from typing import Any
 
-from linkwright.model.nodes import Mapping, Node, Sequence
+from linkwright.fields.nodes import Mapping, Node, Sequence
 
 #: What libyaml takes for the end of a line, and YAML 1.2 does not.
 _OLD_BREAKS = re.compile("[\x85\u2028\u2029]")

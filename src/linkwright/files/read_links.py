@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from linkwright import units
-from linkwright.model.fields import Field, Quantities, Quantity, Schema, quantity_schema
-from linkwright.model.geometry import from_drawing
-from linkwright.model.mechanism import Geometry, Link, Vec
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node, Scalar, Sequence
-from linkwright.model.plain_reader import NAME, Place
-from linkwright.model.reader import Reader
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, quantity_schema
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.plain_reader import NAME, Place
+from linkwright.files.reader import Reader
+from linkwright.mechanism.geometry import from_drawing
+from linkwright.mechanism.mechanism import Geometry, Link, Vec
 from linkwright.words.sentence import Sentence, together
 
 #: Links of a model, at most; more than that no machine has, and none is answered quickly.

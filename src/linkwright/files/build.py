@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from linkwright.errors import ModelError
-from linkwright.model.mechanism import Mechanism
-from linkwright.model.nodes import Entry, Node, Scalar, Sequence
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.read_model import read_model
+from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.files.read_model import read_model
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 
 Value = float | str

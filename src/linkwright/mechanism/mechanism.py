@@ -13,14 +13,14 @@ from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.loads.base import Load
-from linkwright.model.geometry import centre, local_points, point_addresses, second_point_address
+from linkwright.mechanism.geometry import centre, local_points, point_addresses, second_point_address
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, Dimension
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.core.expressions import Expression
     from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
-    from linkwright.model.expressions import Expression
 
 Vec = tuple[float, float]
 Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
+from linkwright.fields.base import Field, Quantity
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node
+from linkwright.fields.references import LinkName
+from linkwright.files.plain_reader import Place
+from linkwright.files.reader import Reader
 from linkwright.joints.base import JointName
-from linkwright.model.fields import Field, Quantity
-from linkwright.model.mechanism import Cycle
-from linkwright.model.nodes import Mapping as MappingNode
-from linkwright.model.nodes import Node
-from linkwright.model.plain_reader import Place
-from linkwright.model.reader import Reader
-from linkwright.model.reference_fields import LinkName
+from linkwright.mechanism.mechanism import Cycle
 from linkwright.words.sentence import Sentence, together
 
 TURN_FIELDS: Mapping[str, Field] = {

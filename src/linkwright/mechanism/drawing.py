@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from linkwright.joints.lower import SlidingJoint
-from linkwright.model.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 
 Vec = tuple[float, float]
 

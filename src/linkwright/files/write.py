@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.drivers.base import Driver
+from linkwright.fields.base import written_quantity
+from linkwright.files.read_joints import IMPLIED
+from linkwright.files.read_links import LINK_FIELDS
 from linkwright.joints.base import Joint
-from linkwright.model.fields import written_quantity
-from linkwright.model.geometry import STRUCTURAL_POINTS, from_drawing
-from linkwright.model.mechanism import Link, Mechanism, Vec
-from linkwright.model.read_joints import IMPLIED
-from linkwright.model.read_links import LINK_FIELDS
+from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
+from linkwright.mechanism.mechanism import Link, Mechanism, Vec
 from linkwright.units import NONE, number, si_symbol
 
 Plain = dict[str, Any]

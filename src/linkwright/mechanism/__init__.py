@@ -1,0 +1,1 @@
+"""What a mechanism is: links, their geometry, the one frozen type, its drawing."""

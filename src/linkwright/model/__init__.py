@@ -1,1 +1,0 @@
-"""Models: reading and checking of files, and the one type for a mechanism."""
