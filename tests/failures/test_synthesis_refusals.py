@@ -14,6 +14,31 @@ from linkwright.synthesis.requirements.slider_crank import (
 from linkwright.synthesis.requirements.toggle import toggle
 from linkwright.synthesis.tasks import synthesize_text
 
+CORNERS = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+def test_points_apart_at_one_crank_angle() -> None:
+    with pytest.raises(lw.SynthesisError, match="points 1 and 3 have the same crank angle") as caught:
+        lw.path_generation(CORNERS, angles=[1.0, 2.0, 1.0, 4.0])
+    assert caught.value.nearest is not None and caught.value.nearest.best.error >= 1 - 1e-9
+    assert "of 1 m²" in str(caught.value)
+
+
+def test_points_beyond_the_bound() -> None:
+    with pytest.raises(lw.SynthesisError, match=r"point 4 lies 8 m away.* reaches 3\.828 m") as caught:
+        lw.path_generation([(0, 0), (1, 0), (1, 1), (8, 0)], bound=1.0)
+    nearest = caught.value.nearest
+    assert nearest is not None and max(nearest.best.linkage.lengths().values()) <= 1 + 1e-9
+
+
+def test_poses_without_turn_need_a_circle() -> None:
+    lying = [(math.cos(t), math.sin(t), 0.3) for t in (0.1, 0.5, 1.2, 1.9)]
+    best = lw.motion_generation(lying).best
+    assert best.link_ratio < 10 and best.error < 1e-12
+    with pytest.raises(lw.SynthesisError, match="the nearest parallelogram is off by") as caught:
+        lw.motion_generation([*lying, (0.9, 0.9, 0.3)])
+    assert caught.value.nearest is not None and caught.value.nearest.best.error > 0
+
 
 def test_a_crank_that_cannot_turn() -> None:
     with pytest.raises(lw.SynthesisError, match=r"λ = 1\.2 is too small .* 1\.305") as caught:
@@ -77,6 +102,18 @@ def test_all_findings_at_once() -> None:
         ("path", {"points": [(0, 0), (1, 1), (2, float("nan"))]}, "finite"),
         ("path", {"points": [(0, 0), (1, 1), (2, 1)], "angles": [0, 1]}, "2 crank angles"),
         ("path", {"points": [(1, 1), (1, 1), (1, 1)]}, "one place"),
+        ("path", {"points": CORNERS, "angles": [1, 1, 1, 1]}, "the same crank angle"),
+        ("path", {"points": CORNERS, "angles": [1, 2, float("nan"), 3]}, "3 crank angles"),
+        ("path", {"points": CORNERS, "bound": 0.0}, "bound is 0"),
+        ("path", {"points": CORNERS, "count": 0}, "count is 0; give a whole number of 1 or more"),
+        ("path", {"points": CORNERS, "seed": -1}, "seed is -1"),
+        ("path", {"points": CORNERS, "transmission_angle": math.pi / 2}, "90 deg cannot be had"),
+        ("exact_path", {"points": [*CORNERS, (1, 0)]}, "points 2 and 5 are the same"),
+        ("function", {"inputs": [0.1, 0.1, 0.5], "outputs": [0.2, 0.4, 0.5]}, "0.2 apart"),
+        ("function", {"inputs": [0.1, 0.1, 0.5], "outputs": [0.2, 0.2, 0.5]}, "pairs 1 and 2 are the same"),
+        ("function", {"inputs": [0.1, 0.2, 0.5], "outputs": [0.2, 0.2, 0.2]}, "all outputs are equal"),
+        ("motion", {"poses": [(0, 0, 0), (0, 0, 0.2), (0, 0, 0.4)]}, r"turns about one point, \(0, 0\) m"),
+        ("motion", {"poses": [(0, 0, 1), (1, 1, 1), (3, 3, 1)]}, "a straight guide leads the body"),
         ("motion", {"poses": [(0, 0, 0), (0, 0, 0)]}, "poses 1 and 2 are the same"),
         ("crank_rocker", {"swing_angle": 4.0, "quick_return_ratio": 1.1, "frame": 1.0}, "180 deg"),
         ("crank_rocker", {"swing_angle": 1.0, "quick_return_ratio": 0.5, "frame": 1.0}, "below 1"),

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.demands import allowed_transmission, whole
 from linkwright.synthesis.function_generation.exact import families, freudenstein
 from linkwright.synthesis.function_generation.fit import FunctionDemand, fit
 from linkwright.synthesis.function_generation.generators import (
@@ -80,8 +81,13 @@ def function_generation(
     """
     x, y = np.asarray(inputs, float), np.asarray(outputs if places is None else places, float)
     _check(x, y, linkage, frame)
+    whole(count=count)
+    whole(least=0, seed=seed)
+    allowed_transmission(transmission_angle)
     demand = FunctionDemand(x, y, input_zero, output_zero, scale_free)
     free = (input_zero is None) + (output_zero is None)
+    fitting = linkage != "four_bar" or least_squares or equation_error
+    _distinct(x, y, fitting or len(x) > 5)
     exact = len(x) == 3 or (len(x) == 4 and free) or (len(x) == 5 and free == 2)
     if linkage == "four_bar" and equation_error:
         return _by_equation(demand, frame)
@@ -101,6 +107,24 @@ def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
         raise refuse("function.few", count=len(x))
     if not 0 < frame < math.inf:
         raise refuse("not_positive", name="frame", given=f"{frame:g}")
+
+
+def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
+    """Raises SynthesisError for outputs that stand still, and for pairs of the same input.
+
+    What is ``fitting`` may hold a pair twice, but not one input with two outputs.
+    """
+    if np.ptp(y) <= 1e-12 * max(1e-300, float(np.abs(y).max())):
+        raise refuse("function.constant")
+    same = np.triu(np.abs(np.exp(1j * x[:, None]) - np.exp(1j * x)) < 1e-9, 1)
+    apart = np.where(same, np.abs(y[:, None] - y), -1.0)
+    full = np.abs(apart - 2 * np.pi) < 1e-9
+    apart = np.where(full, 0.0, apart)
+    i, j = np.unravel_index(int(apart.argmax()), apart.shape)
+    if not fitting and 0 <= apart[i, j] <= 1e-9:
+        raise refuse("function.same", first=int(i) + 1, second=int(j) + 1)
+    if apart[i, j] > 1e-9:
+        raise refuse("function.repeated", first=int(i) + 1, second=int(j) + 1, apart=f"{apart[i, j]:.4g}")
 
 
 def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synthesis:

@@ -17,6 +17,7 @@ from linkwright.synthesis.build import (
     slider_crank,
     working_span,
 )
+from linkwright.synthesis.demands import whole
 from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, join, relative_poses
 from linkwright.synthesis.motion_generation.families import (
     LINES,
@@ -38,6 +39,8 @@ Flags = NDArray[np.bool_]
 Pose = Sequence[float]
 
 MOST_DYADS = 360
+#: Body points of the parallelograms for poses that do not turn.
+AROUND: Complexes = np.array([0, 1, 1j, -1, -1j, 1 + 1j], complex)
 
 
 def motion_generation(
@@ -72,9 +75,11 @@ def motion_generation(
         SynthesisError: fewer than two real dyads, or no pair that moves through the poses in order without being
             dismantled; ``nearest`` has the best ones with their defects or errors.
     """
+    whole(count=count)
     p, phi = _read(poses)
     if np.isnan(phi).any():
         return _mixed(p, phi, link_ratio, count)
+    _special(p, phi, link_ratio, count)
     window = usual_window(p) if within is None else Window(complex(*within[0]), complex(*within[1]))
     found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
@@ -109,6 +114,30 @@ def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
     if same:
         raise refuse("motion.same", first=same[0][1], second=same[0][0])
     return p, phi
+
+
+def _special(p: Complexes, phi: Floats, link_ratio: float, count: int) -> None:
+    """Raises SynthesisError for poses that one pin or slide guides, or that do not turn and lie on no circle."""
+    d, e = relative_poses(p, phi)
+    size = _scale(p)
+    turns = np.abs(e - 1).max() > 1e-9
+    if turns and len(p) > 2:
+        pole = complex(np.linalg.lstsq((e - 1)[:, None], -d, rcond=None)[0][0])
+        if np.abs(d + (e - 1) * pole).max() <= 1e-9 * (size + abs(pole)):
+            place = p[0] + pole
+            raise refuse("motion.one_pin", x=f"{place.real:.6g}", y=f"{place.imag:.6g}")
+    if turns or len(p) < 3:
+        return
+    if np.linalg.matrix_rank(np.stack([d.real, d.imag]), 1e-9 * size) < 2:
+        raise refuse("motion.slide")
+    found = circles(size * AROUND, p, d, e)
+    off = np.abs(found.positions - found.centre[:, None])
+    error = ((off - off.mean(1, keepdims=True)) ** 2).sum(1)
+    if np.sqrt(error.max()) > 1e-9 * size:
+        made = _pairs(found, error, p, phi, link_ratio, count)
+        notes = (note("motion.fitted", poses=len(p)),)
+        nearest = Synthesis("motion", made, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes)
+        raise refuse("motion.no_turn", nearest, off=f"{np.sqrt(error.max() / len(p)):.4g}")
 
 
 def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesis:
@@ -155,6 +184,9 @@ def _all_dyads(
         return found, np.zeros(len(found))
     if len(p) > 5:
         return fitted(p, phi, np.random.default_rng(0))
+    if len(p) > 3 and np.abs(np.exp(1j * (phi - phi[0])) - 1).max() <= 1e-9:
+        found = circles(_scale(p) * AROUND, p, *relative_poses(p, phi))
+        return found, np.zeros(len(found))
     found = dyads(p, phi, window)
     thin = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_DYADS)).astype(int))
     found = found[thin] if len(found) else found

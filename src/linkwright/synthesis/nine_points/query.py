@@ -26,8 +26,8 @@ from linkwright.synthesis.nine_points.tracker import MOST_STEPS, TOLERANCE, trac
 Complexes = NDArray[np.complex128]
 Whole = NDArray[np.int64]
 
-#: Other ways that are tried at most.
-TURNS = 8
+#: Other ways that are tried at most; with more classes missing the points are special, and other ways miss them too.
+TURNS, SPECIAL = 8, 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ def _completed(
         ends = track(again, q0, q, tolerance=0.1 * TOLERANCE, most=10 * MOST_STEPS)
         found, extra = filled(found, ends.solutions[ends.arrived]), 1
     for turn in range(1, TURNS + 1):
-        if len(found) == CLASSES:
+        if len(found) == CLASSES or CLASSES - len(found) > SPECIAL:
             break
         way = np.exp(1j * turn)
         ends = track(u0, q0, q * np.array([[way], [1 / way]]))

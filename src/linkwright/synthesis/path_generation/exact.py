@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
+from linkwright.synthesis.demands import whole
 from linkwright.synthesis.nine_points.classes import is_real, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.path_generation.generate import complex_points, path_generation
@@ -36,12 +37,17 @@ def exact_path_generation(points: ArrayLike, *, count: int = 6, seed: int = 0) -
         points
             in order on one branch (``nearest``: the best with its defects, or that of least squares).
     """
+    whole(count=count)
+    whole(least=0, seed=seed)
     z = complex_points(points)
     if not 3 <= len(z) <= 9:
         raise refuse("path.exact_few", count=len(z))
     size = float(np.sqrt(np.mean(np.abs(z - z.mean()) ** 2)))
-    if np.abs(z[:, None] - z)[~np.eye(len(z), dtype=bool)].min() <= 1e-9 * size or not size > 0:
+    if not size > 0:
         raise refuse("path.one_place")
+    same = np.argwhere(np.triu(np.abs(z[:, None] - z) <= 1e-9 * size, 1))
+    if len(same):
+        raise refuse("path.same_point", first=int(same[0, 0]) + 1, second=int(same[0, 1]) + 1)
     if len(z) < 9:
         return _fewer(z, size, count, seed)
     found = nine_points(z)

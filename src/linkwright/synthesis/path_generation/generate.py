@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
+from linkwright.synthesis.demands import allowed_transmission, whole
 from linkwright.synthesis.path_generation.projection import Demand
 from linkwright.synthesis.path_generation.search import Found, search
+from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
 
 Floats = NDArray[np.float64]
@@ -54,8 +58,14 @@ def path_generation(
         point are projected out, ratios and timing iterated from an atlas of starts.
 
     Raises:
-        SynthesisError: fewer than three points, points that coincide, angles that do not fit.
+        SynthesisError: fewer than three points, points that coincide, angles that do not fit; points that lie apart
+            at one crank angle, or beyond what the bound reaches (``nearest``: the least squares).
     """
+    whole(count=count)
+    whole(least=0, seed=seed)
+    allowed_transmission(transmission_angle)
+    if bound is not None:
+        positive(bound=bound)
     demand = _demand(points, angles, phase, pivot, direction)
     rng = np.random.default_rng(seed)
     candidates = _candidates(search(demand, bound, transmission_angle, False, rng))
@@ -66,7 +76,31 @@ def path_generation(
     if not chosen:
         raise refuse("path.none")
     notes = (note("path.ordered"),) if chosen[0].defects else ()
-    return Synthesis("path", chosen, "squares", demand.points, notes=notes)
+    result = Synthesis("path", chosen, "squares", demand.points, notes=notes)
+    _contradictions(demand, bound, result)
+    return result
+
+
+def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> None:
+    """Raises SynthesisError, with the result as the nearest, where no four-bar at all can meet the demands."""
+    if demand.timed:
+        turn = np.exp(1j * demand.angles)
+        same = np.triu(np.abs(turn[:, None] - turn) < 1e-9, 1)
+        apart = np.where(same, np.abs(demand.points[:, None] - demand.points), 0.0)
+        i, j = np.unravel_index(int(apart.argmax()), apart.shape)
+        if apart[i, j] > 1e-9 * demand.size:
+            least = f"{apart[i, j] ** 2 / 2:.4g}"
+            raise refuse(
+                "path.same_angle", result, first=i + 1, second=j + 1, apart=f"{apart[i, j]:.4g}", least=least
+            )
+    if bound is not None:
+        far = np.abs(demand.points - (demand.pivot or 0.0))
+        most = bound * (1 + math.sqrt(2) * (2 if demand.pivot is None else 1))
+        if far.max() > most:
+            number, given = int(far.argmax()) + 1, f"{bound:.4g}"
+            raise refuse(
+                "path.reach", result, number=number, far=f"{far.max():.4g}", bound=given, most=f"{most:.4g}"
+            )
 
 
 def _demand(
@@ -77,12 +111,14 @@ def _demand(
     if len(z) < 3:
         raise refuse("path.few", count=len(z))
     theta = np.zeros(len(z)) if angles is None else np.asarray(angles, float)
-    if theta.shape != z.shape:
-        raise refuse("path.angles", angles=len(theta), points=len(z))
+    if theta.shape != z.shape or not np.isfinite(theta).all():
+        raise refuse("path.angles", angles=int(np.isfinite(theta).sum()), points=len(z))
     place = None if pivot is None else complex(*pivot)
     found = Demand(z, theta, phase, angles is not None, place, direction)
     if not found.size > 0:
         raise refuse("path.one_place")
+    if found.timed and np.abs(np.exp(1j * theta) - np.exp(1j * theta[0])).max() < 1e-9:
+        raise refuse("path.one_angle")
     return found
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.demands import whole
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
@@ -35,6 +36,7 @@ def crank_rocker(
     Raises:
         SynthesisError: no crank-rocker has this swing and K (0 < ψ < π, 1 ≤ K < 3).
     """
+    whole(count=count)
     positive(swing_angle=swing_angle, frame=frame)
     theta = angle_between_limits(quick_return_ratio)
     if not swing_angle < math.pi or not theta < math.pi / 2:

@@ -30,12 +30,12 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     if stroke < distance:
         raise refuse("toggle.stroke", stroke=f"{stroke:g}", distance=f"{distance:g}")
     alpha = math.atan(1 / (2 * force_ratio))
-    length = distance / (2 * (1 - math.cos(alpha)))
+    length = distance / (4 * math.sin(alpha / 2) ** 2)
     begin = 1 - stroke / (2 * length)
     if begin <= 0:
         longest = 2 * length
         raise refuse("toggle.too_long", toggle(force_ratio, distance, 0.95 * longest), most=f"{longest:.6g}")
-    first = math.acos(begin)
+    first = 2 * math.asin(math.sqrt(stroke / (4 * length)))
     knee = cmath.rect(length, first)
     linkage = slider_crank(0, knee, complex(2 * length * begin), 1, span=(0.002 * first, first), turns=False)
     angle = np.linspace(first, alpha / 4, 181)

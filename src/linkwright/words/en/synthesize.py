@@ -72,6 +72,8 @@ linkwright synthesize press.yaml --json""",
     "type.eight_bar": "eight-bar",
     "type.ten_bar": "ten-bar",
     "points": "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
+    "not_whole": "{name} is {given}; give a whole number of {least} or more",
+    "transmission": "a smallest transmission angle of {given} deg cannot be had; ask for 0 deg or more, below 90 deg",
     "not_positive": "{name} is {given}; it must be positive and finite",
     "negative": "{name} is {given}; it must not be negative",
     "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 "
@@ -114,6 +116,13 @@ linkwright synthesize press.yaml --json""",
     "path.few": "{count} points are too few for a path; give 3 or more",
     "path.angles": "{angles} crank angles do not fit {points} points; give one for each point",
     "path.one_place": "all points of the path lie in one place; give different points",
+    "path.one_angle": "all points have the same crank angle, at which a coupler point is at one place; give "
+    "different angles",
+    "path.same_angle": "points {first} and {second} have the same crank angle and lie {apart} m apart; no path comes "
+    "below a sum of squared distances of {least} m² there (the nearest solution is shown); change one of the angles",
+    "path.same_point": "points {first} and {second} are the same; leave one out",
+    "path.reach": "point {number} lies {far} m away, and within the bound {bound} m a four-bar reaches {most} m "
+    "at most; allow a larger bound (the nearest solution is shown)",
     "path.none": "no four-bar was found for the path; check the points",
     "path.ordered": "no candidate passes the points in the given order on one branch: the best one has the "
     "defects shown; leave out points or allow larger lengths",
@@ -130,6 +139,12 @@ linkwright synthesize press.yaml --json""",
     "cognates.pin": "the coupler point lies on a pin, so its path is a circle without cognates; move it",
     "motion.poses": "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
     "motion.same": "poses {first} and {second} are the same; leave one out",
+    "motion.one_pin": "all poses are turns about one point, ({x}, {y}) m: a single pin there guides the body, and no "
+    "linkage is needed; move a pose if a four-bar is wanted",
+    "motion.slide": "the poses do not turn and lie on one line: a straight guide leads the body, and no four-bar "
+    "does; turn or move a pose",
+    "motion.no_turn": "the poses do not turn, so all points of the body move alike, and their places lie on no "
+    "circle: the nearest parallelogram is off by {off} m (shown); turn a pose or move it",
     "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
     "motion.line": "{poses} poses do not fit pivots on a line; give three or four poses",
     "motion.mixed": "{poses} poses are too few where angles are free; give three or more",
@@ -147,6 +162,11 @@ linkwright synthesize press.yaml --json""",
     "function.few": "{count} pairs of values are too few for a function; give 3 or more",
     "function.values": "inputs and outputs must be lists of the same number of finite values; given: "
     "{inputs} and {outputs}",
+    "function.constant": "all outputs are equal: no linkage of this kind stands still while its input moves; the "
+    "task dwell has one that rests for a part of the turn",
+    "function.repeated": "pairs {first} and {second} have the same input, and their outputs are {apart} apart, "
+    "half of which every linkage is off at one of them; leave one out",
+    "function.same": "pairs {first} and {second} are the same; leave one out",
     "function.linkage": 'there is no function generator "{linkage}"; known: {known}',
     "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or "
     "change the function",
