@@ -114,3 +114,52 @@ def test_a_kind_that_lacks_something_says_so_when_it_is_needed() -> None:
 
     with pytest.raises(LackingError, match='"half" does not supply "fields"'):
         Half.fields()
+
+
+MOVED = """format: 1
+frame: {{points: {{O: [0 mm, 0 mm], Q: [60 mm, 0 mm]}}}}
+links:
+  a: {{points: {{O: [0 mm, 0 mm]}}}}
+  b: {{points: {{Q: [0 mm, 0 mm]}}}}
+driver: {{turn: a, about: O, speed: 1 rad/s}}
+joints:
+  m: {{{pair}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("pair", "distances", "fits", "words"),
+    [
+        (
+            "kind: gear, links: [a, b], radii: [20 mm, 40 mm]",
+            [0.06, 0.0601],
+            [1, 0],
+            "external pair needs 0.06 m",
+        ),
+        ("kind: gear, links: [a, b], teeth: [20, 40], module: 2 mm", [0.06, 0.059], [1, 0], "0.059 m apart"),
+        ("kind: gear, links: [a, b], teeth: [20, 40]", [0.06, 0.061], [1, 1], ""),
+        (
+            "kind: belt, links: [a, b], radii: [20 mm, 10 mm]",
+            [0.06, 0.02],
+            [1, 0],
+            "the radii add up to 0.03 m",
+        ),
+    ],
+)
+def test_a_distance_that_no_longer_fits_is_noticed(
+    pair: str, distances: list[float], fits: list[int], words: str
+) -> None:
+    """Designs of a sweep whose wheels do not fit count as not assembled; one alone is refused with the reason."""
+    mechanism = lw.loads(MOVED.format(pair=pair))
+    found = lw.sweep(mechanism, {"frame.Q.x": distances}, outputs=["b.angular_velocity"], steps=12)
+    assert (found.assembled > 0).tolist() == [bool(each) for each in fits]
+    for distance, good in zip(distances, fits, strict=True):
+        changed = mechanism.with_dimensions({"frame.Q.x": distance})
+        if good:
+            assert lw.solve_motion(changed, steps=4).ok.all()
+            continue
+        with pytest.raises(lw.LinkwrightError, match=words):
+            lw.solve_motion(changed, steps=4)
+        assert {each.kind for each in lw.solve_motion(changed, steps=4, failures="mark").outcomes} == {
+            "misfit"
+        }

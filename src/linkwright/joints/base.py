@@ -19,7 +19,7 @@ from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.engine.trace import Scalar
+    from linkwright.engine.trace import Mask, Scalar
     from linkwright.engine.vector import Vec
     from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.fields.nodes import Node
@@ -254,6 +254,14 @@ class Joint(ABC):
     def linear(cls, group: Group, cut: Connection) -> bool:
         """Whether the row of the pair is linear in the unknowns of a group in which it is cut."""
         return cls.rotations_only
+
+    def fits(self, dimensions: Dimensions) -> Mask:
+        """Whether the sizes of the pair fit the places of its links, traced."""
+        return True
+
+    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+        """What does not fit, where :meth:`fits` is false."""
+        return None
 
     def slide_direction(self, dimensions: Dimensions) -> Vec:
         """Unit vector along which point ``at`` of link ``block`` slides from ``through``, in the axes of ``guide``;

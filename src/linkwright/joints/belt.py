@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.engine.trace import Scalar, maximum, reciprocal, sqrt
+from linkwright.engine.trace import Mask, Scalar, maximum, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Poses
@@ -68,17 +68,27 @@ class BeltPair(WheelPair):
         return self.pitch_radii()
 
     def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+        problem = self._touching(distance)
+        if problem is not None:
+            held = node.get("radii") or node.get("teeth") or node
+            reader.error(held, place, problem, Sentence("joints.pulleys_apart"), "range")
+
+    def _touching(self, distance: float) -> Sentence | None:
         a, b = self.pitch_radii()
-        if a + b >= distance:
-            reader.error(
-                node.get("radii") or node.get("teeth") or node,
-                place,
-                Sentence(
-                    "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
-                ),
-                Sentence("joints.pulleys_apart"),
-                "range",
-            )
+        if a + b < distance:
+            return None
+        return Sentence(
+            "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
+        )
+
+    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+        return self._touching(abs(self.line(mechanism)))
+
+    def fits(self, dimensions: Dimensions) -> Mask:
+        first, second = self.traced_radii(dimensions)
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        both = first + second
+        return both * both < (b - a).square
 
     def written(self) -> dict[str, Any]:
         found = super().written()

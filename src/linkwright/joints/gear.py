@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from linkwright.engine.trace import Scalar, absolute, reciprocal, sqrt, tan
+from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Joint, Poses
@@ -115,27 +115,44 @@ class GearPair(WheelPair):
                 "range",
             )
             return
-        radii = self.radii
-        if self.module is not None and self.teeth is not None:
-            radii = (0.5 * self.module * self.teeth[0], 0.5 * self.module * self.teeth[1])
-        if radii is None:
-            return
-        wanted = abs(radii[0] - radii[1]) if i > 0 else radii[0] + radii[1]
-        if abs(wanted - distance) > FITS * distance:
+        problem = self._apart(distance)
+        if problem is not None:
             reader.error(
                 node.get("radii") or node.get("module"),
                 place.child("radii" if self.radii else "module"),
-                Sentence(
-                    "joints.distance_misfit",
-                    centres=self.centres,
-                    carrier=self.carrier,
-                    distance=length(distance),
-                    wanted=length(wanted),
-                    mesh=Sentence("joints.internal" if i > 0 else "joints.external"),
-                ),
+                problem,
                 Sentence("joints.fit_distance"),
                 "range",
             )
+
+    def _apart(self, distance: float) -> Sentence | None:
+        """What is wrong where the sizes ask for another distance of the centres."""
+        size = 1.0 if self.radii else 0.5 * (self.module or 0.0)
+        a, b = self.radii or self.teeth or (0.0, 0.0)
+        wanted = size * abs(a - self.sense * b)
+        if not wanted or abs(wanted - distance) <= FITS * distance:
+            return None
+        return Sentence(
+            "joints.distance_misfit",
+            centres=self.centres,
+            carrier=self.carrier,
+            distance=length(distance),
+            wanted=length(wanted),
+            mesh=Sentence("joints.internal" if self.sense > 0 else "joints.external"),
+        )
+
+    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+        return self._apart(abs(self.line(mechanism)))
+
+    def fits(self, dimensions: Dimensions) -> Mask:
+        """Radii, or teeth and module, ask for their distance of the centres; a ratio or teeth alone take any."""
+        if self.radii is None and (self.teeth is None or self.module is None):
+            return True
+        key, size = ("radii", 1.0) if self.radii else ("teeth", 0.5 * (self.module or 0.0))
+        first, second = (dimensions(f"{self.name}.{key}.{k}") for k in (0, 1))
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        wanted, line = size * (first - self.sense * second), b - a
+        return absolute(wanted * wanted - line.square) <= 2.0 * FITS * line.square
 
     def written(self) -> dict[str, Any]:
         found = super().written()

@@ -104,6 +104,11 @@ class _Facts:
         if code == 0 or not np.isfinite(code):
             return Outcome(False, Sentence("outcome.barred"), None, "barred")
         group = self.groups[int(abs(code)) - 1]
+        for joint in self.motion.mechanism.joints.values():
+            misfit = joint.misfit(self.motion.mechanism) if set(joint.joined) & set(group.links) else None
+            if misfit is not None:
+                said = Sentence("outcome.misfit", joint=joint.name, reason=misfit)
+                return Outcome(False, said, group.name, "misfit")
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
             return self._lost(group, index)

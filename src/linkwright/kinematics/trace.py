@@ -93,13 +93,24 @@ def _add_rates(motion: MotionTrace) -> None:
 
 
 def _judge(motion: MotionTrace) -> None:
-    """Outcome of the position: the first group that is out of reach or singular."""
+    """Outcome of the position: the first group that is out of reach or singular, or has a pair that does not fit."""
     outcome: Scalar = 0.0
     valid: Mask = True
     for number, placed in reversed(list(enumerate(motion.placed.values(), 1))):
-        if placed.valid is True:
+        fits = _fits(motion, placed.group)
+        good = motion.trace.logic("and", placed.valid, fits)
+        if good is True:
             continue
-        failed = select(placed.reached, -float(number), float(number))
-        outcome = select(placed.valid, outcome, failed)
-        valid = motion.trace.logic("and", placed.valid, valid)
+        lost = select(motion.trace.logic("and", placed.reached, fits), -float(number), float(number))
+        outcome = select(good, outcome, lost)
+        valid = motion.trace.logic("and", good, valid)
     motion.valid, motion.outcome = valid, outcome
+
+
+def _fits(motion: MotionTrace, group: Group) -> Mask:
+    """Whether the sizes of all pairs at a group's links fit."""
+    found: Mask = True
+    for joint in motion.mechanism.joints.values():
+        if set(group.links) & set(joint.joined):
+            found = motion.trace.logic("and", found, joint.fits(motion.dimensions))
+    return found

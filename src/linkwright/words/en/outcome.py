@@ -10,6 +10,7 @@ WORDS = {
     "followed": "assembled; the assembly is followed, but not certified",
     "singular": "group {signature} ({links}) is at a singular position (dead point or change point), where its "
     "motion is not determined by the driver",
+    "misfit": "the pair {joint!r} does not fit: {reason}",
     "apart": "group {signature} ({links}) cannot be assembled: {reason}",
     "rrr_far": "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: {missing} "
     "missing",
