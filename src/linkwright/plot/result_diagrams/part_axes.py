@@ -67,7 +67,7 @@ def panes(
         _pane(one, pane, below, legend)
         if logx:
             one.set_xscale("log")
-            _plain_ticks(one.xaxis)
+            _plain_ticks(one.xaxis, one.get_xlim())
     axes[-1].set_xlabel(below.label(across[0]))
     framed(figure, title, request)
     figure.align_ylabels(axes)
@@ -89,21 +89,23 @@ def _pane(axes: Axes, pane: Pane, below: Unit, legend: Legend) -> None:
             axes.fill_between(x, y, 0.0, color=colour, alpha=0.12, linewidth=0)
         for index in line.marks:
             axes.plot(x[index], y[index], "o", color=colour, markersize=3.5)
-            axes.annotate(shown.text(float(line.y[index])), (x[index], y[index]), (3, 4),
-                          textcoords="offset points", fontsize=7.5, color=INK)  # fmt: skip
+            low = y[index] <= y.min() < y.max()
+            axes.annotate(shown.text(float(line.y[index])), (x[index], y[index]), (3, -4 if low else 4),
+                          textcoords="offset points", fontsize=7.5, color=INK,
+                          va="top" if low else "bottom")  # fmt: skip
     if pane.log:
         axes.set_yscale("log")
-        _plain_ticks(axes.yaxis)
+        _plain_ticks(axes.yaxis, axes.get_ylim())
     else:
         axes.margins(y=0.16)
     axes.set_ylabel(shown.label(pane.title, "\n"))
 
 
-def _plain_ticks(axis: Axis) -> None:
-    """Ticks of a logarithmic axis at 1, 2 and 5 times powers of ten, as plain numbers."""
+def _plain_ticks(axis: Axis, limits: tuple[float, float]) -> None:
+    """Ticks of a logarithmic axis as plain numbers: at 1, 2, 5 times powers of ten, over many at these alone."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if limits[1] <= 1000.0 * limits[0] else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -119,15 +121,23 @@ def plane(title: str, request: Request, count: int = 1) -> tuple[Figure, list[Ax
     return figure, found
 
 
-def arrow(axes: Axes, start: Floats, vector: Floats, colour: str, label: str) -> None:
-    """An arrow from a place, named at its head; nothing for a vector that is zero."""
+def arrow(
+    axes: Axes, start: Floats, vector: Floats, colour: str, label: str, *, middle: float | None = None
+) -> None:
+    """An arrow from a place, named at its head, or beside its ``middle``: to its left (1) or right (-1); nothing for
+    a vector that is zero."""
     if not np.any(vector):
         return
     end = start + vector
     axes.plot([start[0], end[0]], [start[1], end[1]], color=colour, linewidth=0.01)
     look = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", tuple(end), tuple(start), zorder=3, arrowprops=look)
-    axes.annotate(label, tuple(end), (4, 4), textcoords="offset points", fontsize=7.5, color=colour)
+    place, offset, align = tuple(end), np.array([4.0, 4.0]), "left"
+    if middle is not None:
+        place, align = tuple(start + 0.5 * vector), "center"
+        offset = 9.0 * middle * np.array([-vector[1], vector[0]]) / np.hypot(*vector)
+    axes.annotate(label, place, tuple(offset), textcoords="offset points", fontsize=7.5, color=colour,
+                  ha=align, va="center" if middle is not None else "bottom")  # fmt: skip
 
 
 def point(axes: Axes, place: Floats, name: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,11 +39,18 @@ class ResultantDiagram(ResultKind):
         planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
         figure, axes = plane(f"{result.title}: {request.say('kind.resultant')}", request, len(planes))
         for one, (a, b) in zip(axes, planes, strict=True):
-            place = np.zeros(2)
+            place, whole = np.zeros(2), result.force[[a, b]]
             for name, vector in vectors.items():
-                arrow(one, place, vector[[a, b]], COLOURS[0], name)
+                arrow(
+                    one,
+                    place,
+                    vector[[a, b]],
+                    COLOURS[0],
+                    name,
+                    middle=_outside(place, vector[[a, b]], whole),
+                )
                 place = place + vector[[a, b]]
-            arrow(one, np.zeros(2), result.force[[a, b]], COLOURS[1], "R")
+            arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
             one.set_xlabel(f"F{'xyz'[a]} (N)")
             one.set_ylabel(f"F{'xyz'[b]} (N)")
         return figure
@@ -117,6 +125,18 @@ class WedgeDiagram(ResultKind):
         lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
         title = f"{result.title}: {request.say('kind.wedge_push')}"
         return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+
+
+def _outside(place: Floats, vector: Floats, whole: Floats) -> float:
+    """The side of a vector of the polygon that looks away from the middle of the resultant."""
+    away = place + 0.5 * vector - 0.5 * whole
+    return 1.0 if vector[0] * away[1] - vector[1] * away[0] >= 0 else -1.0
+
+
+def _side(vectors: Mapping[str, Floats], whole: Floats, a: int, b: int) -> float:
+    """The side of the resultant on which the polygon lies."""
+    corners = np.cumsum([vector[[a, b]] for vector in vectors.values()], axis=0)
+    return 1.0 if float((whole[0] * corners[:, 1] - whole[1] * corners[:, 0]).sum()) >= 0 else -1.0
 
 
 def _reaction(result: Reactions, support: str) -> Floats:
