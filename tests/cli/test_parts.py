@@ -59,6 +59,23 @@ def test_check_reads_calculations(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert "too few supports: the beam can turn about" in capsys.readouterr().out
 
 
+def test_what_only_the_solution_shows_has_its_place(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "p.yaml"
+    lines = [
+        "format: 1",
+        "kind: program",
+        "variables: {x: {from: 0}}",
+        "maximize: x",
+        "subject_to:",
+        "  a: x >= 9",
+    ]
+    path.write_text("\n".join([*lines, "  b: x <= 3", ""]), encoding="utf-8")
+    assert main(["program", str(path)]) == 1
+    assert "p.yaml:6:6: subject_to.a: no solution" in capsys.readouterr().err
+
+
 def test_structures_of_model_files(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["statics", "gallery:truss", "--json"]) == 0
     reactions = json.loads(capsys.readouterr().out)["reactions"]

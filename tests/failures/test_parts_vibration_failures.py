@@ -40,6 +40,8 @@ def test_followers(law: str, words: str) -> None:
 
 
 def test_mounts() -> None:
+    with pytest.raises(lw.ModelError, match="nothing shakes the machine"):
+        parts.Mounts(lw.load("gallery:crank_rocker"), 100.0, 1e6, 1e6).solve()
     crusher = lw.load("gallery:jaw_crusher_sixbar")
     with pytest.raises(lw.ModelError, match="lighter than its moving links"):
         parts.Mounts(crusher, 100.0, 1e6, 1e6).solve()

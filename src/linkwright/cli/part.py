@@ -34,8 +34,10 @@ def part_arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run_part(options: argparse.Namespace, session: Session, kinds: Sequence[str]) -> int:
     """Reads a file of one of the kinds, solves it, and shows or writes what came out."""
+    from linkwright.parts.file import solve
+
     refuse_outputs(options, session)
-    show(read(options.file, kinds, session).solve(), options, session)
+    show(solve(read(options.file, kinds, session), options.file), options, session)
     return 0
 
 

@@ -20,7 +20,7 @@ from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
-from linkwright.parts.base import Problem
+from linkwright.parts.base import Problem, Result
 from linkwright.words.sentence import Sentence
 
 #: Kinds of calculations: the class that holds the problem.
@@ -77,6 +77,18 @@ def check(source: str | Path) -> list[Finding]:
         return _read(text, name, folder)[1]
     except ModelError as error:
         return list(error.findings)
+
+
+def solve(problem: Problem, source: str | Path) -> Result:
+    """The result of a file's problem; what only the solution shows to be wrong is said with its place in the file."""
+    try:
+        return problem.solve()
+    except ModelError as error:
+        text, name, _ = _text(source)
+        root, _ = read_root(text, name)
+        if root is None:
+            raise
+        raise ModelError([_placed(each, root, Reader(name)) for each in error.findings]) from None
 
 
 def gallery_names() -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from linkwright.parts.display import number, shown, unit
 from linkwright.parts.steps import put
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
+from linkwright.study.vary import design_values
 from linkwright.tolerance.curves import CurveSpread, curve_spreads
 from linkwright.tolerance.followed import FollowedPins, follow
 from linkwright.tolerance.pressed import is_position, require_forces, shifts
@@ -66,6 +67,8 @@ class Spread(Result):
             if len(wanted([text])) != 1:
                 raise ModelError([fault("tolerance.no_kind", f"of.{self.study.of.index(text)}", name=text)])
         _ = self.derivatives
+        if self.drawn:
+            design_values(self.study.prepared, self.drawn)
         if self.study.holes("pressed"):
             _ = self.forces
             if not all(is_position(self.study, output) for output in self._over_positions):

@@ -115,6 +115,8 @@ class Mounts(OfMechanism):
         even = len(gaps) and np.ptp(gaps) < 1e-9 * abs(gaps[0]) and self.forces.motion.positions.closed
         found = [] if even else [fault("vibration.uneven", "mechanism")]
         moving = sum(link.mass for link in self.mechanism.links.values())
+        if not moving:
+            found.append(fault("vibration.nothing_shakes", "mechanism"))
         if self.mass < moving:
             found.append(fault("vibration.too_light", "mass", moving=moving))
         together = self.stiffness_x is not None and self.stiffness_y is not None
