@@ -86,7 +86,7 @@ def solve(problem: Problem, source: str | Path) -> Result:
     except ModelError as error:
         text, name, _ = _text(source)
         root, _ = read_root(text, name)
-        if root is None:
+        if not isinstance(root, MappingNode):
             raise
         raise ModelError([_placed(each, root, Reader(name)) for each in error.findings]) from None
 
