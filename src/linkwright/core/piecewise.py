@@ -50,7 +50,13 @@ def nodes(edges: Floats) -> Floats:
 def edges_between(start: float, end: float, pieces: int, knots: Floats) -> Floats:
     """Edges of equal pieces, with the knots that lie inside."""
     edges = np.linspace(start, end, pieces + 1)
-    return np.unique(np.append(edges, knots[(knots > start) & (knots < end)]))
+    return increasing(np.append(edges, knots[(knots > start) & (knots < end)]))
+
+
+def increasing(places: Floats) -> Floats:
+    """Places in increasing order, each once; ``np.unique`` would bring masked arrays along at start."""
+    ordered = np.sort(places)
+    return ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, nodes
+from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, increasing, nodes
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
@@ -60,7 +60,7 @@ def of_energy(energy: Function, edges: Floats, *, balance: float) -> EnergyFluct
     """The fluctuation of an excess energy E(θ), smooth between ``edges``, which span one period."""
     pieces = Piecewise(edges, energy(nodes(edges).ravel()).reshape(-1, POINTS))
     low, high = pieces.extremes()
-    angle = np.union1d(np.linspace(edges[0], edges[-1], 361), [low.place, high.place])
+    angle = increasing(np.append(np.linspace(edges[0], edges[-1], 361), [low.place, high.place]))
     return EnergyFluctuation(high.value - low.value, low.place, high.place, angle, pieces(angle), balance)
 
 

@@ -8,7 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.core.piecewise import POINTS, SMOOTH, Extreme, Piecewise, edges_between, nodes, tails
+from linkwright.core.piecewise import (
+    POINTS,
+    SMOOTH,
+    Extreme,
+    Piecewise,
+    edges_between,
+    increasing,
+    nodes,
+    tails,
+)
 from linkwright.core.search import ends
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
@@ -152,7 +161,7 @@ class CycleGrid:
         period = self._motion.positions.period
         if self._motion.positions.closed and period:
             times = self.start + (times - self.start) % period
-        return np.unique(times[np.isfinite(times)])
+        return increasing(times[np.isfinite(times)])
 
     def _bisected(self, phase: Phase, signals: MotionSignals) -> Floats:
         """Times at which a phase switches, by halving the steps in which it does."""

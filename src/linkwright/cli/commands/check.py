@@ -80,6 +80,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
 
 def _of_settings(name: str, mechanism: Mechanism) -> list[Finding]:
     """What is wrong with the sections that only some commands read, report and course."""
+    if not (mechanism.report or mechanism.course):
+        return []
     from linkwright.course.task import task
     from linkwright.report.settings import settings
 
