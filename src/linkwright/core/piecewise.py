@@ -56,7 +56,7 @@ def edges_between(start: float, end: float, pieces: int, knots: Floats) -> Float
 def increasing(places: Floats) -> Floats:
     """Places in increasing order, each once; ``np.unique`` would bring masked arrays along at start."""
     ordered = np.sort(places)
-    return ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
+    return np.asarray(ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]])
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,9 @@ _ZERO = np.zeros(())
 class BoundPlan:
     """Buffers and calls for ``designs`` designs (None: one, without an axis) and ``positions`` positions.
 
-    Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the
-    boundary through :meth:`set_design`) and ``tables`` in the program's order, call :meth:`run`,
+    Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the boundary through
+    :meth:`set_design`; ``numbers``: the parameters that these are for) and ``tables`` in the program's order, call
+    :meth:`run`,
     read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions).
     """
 
@@ -50,6 +51,7 @@ class BoundPlan:
         }
         self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *self._full))
         self.tables: list[Table] = []
+        self.numbers: list[float] | None = None
         self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in self._shapes}
         self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]

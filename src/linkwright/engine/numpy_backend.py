@@ -69,18 +69,25 @@ class NumpyProgram:
             return self._continued(parameters, positions, given, start, length, tables)
         n = self._length(positions, {**given, **states}, length)
         plan = self._plan(None, n)
-        plan.tables[:] = given_tables(self.program.tables, tables)
-        values = [*self._start, *plan.tables]
-        for index, value in zip(self._parameter_lines, _numbers(parameters), strict=True):
-            values[index] = value
-        self._design.run(values)
-        plan.set_design(values)
+        self._set_design(plan, _numbers(parameters), tables)
         for kind, names, arrays in self._sources(positions, given, states):
             for buffer, name in zip(plan.inputs[kind], names, strict=True):
                 buffer[...] = arrays[name]
         with np.errstate(all="ignore"):
             plan.run()
         return plan.outputs.copy()
+
+    def _set_design(self, plan: BoundPlan, numbers: list[float], tables: Tables | None) -> None:
+        """The lines per design; those of the call before where the same numbers are given again."""
+        if numbers == plan.numbers and not self.program.tables:
+            return
+        plan.tables[:] = given_tables(self.program.tables, tables)
+        values = [*self._start, *plan.tables]
+        for index, value in zip(self._parameter_lines, numbers, strict=True):
+            values[index] = value
+        self._design.run(values)
+        plan.set_design(values)
+        plan.numbers = numbers
 
     def run_designs(
         self,

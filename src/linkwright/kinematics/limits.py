@@ -231,7 +231,8 @@ class _Search:
             self.count -= 1
 
     def limits(self) -> tuple[LimitPosition, ...]:
-        rate, second = (row[: self.count] for row in self.motion.evaluate(self.rate_names))
+        rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
+        rate, second = (row[: self.count] for row in rows)
         still = self._still(rate)
         if still is None:
             return ()
@@ -242,10 +243,8 @@ class _Search:
 
     def _still(self, rate: Floats) -> float | None:
         """Rates that count as zero; None where the output does not move."""
-        largest = float(np.nanmax(np.abs(rate), initial=0.0))
-        speed = np.nanmax(np.abs(self._stored("w:")), initial=0.0)
-        size = mechanism_size(self.motion.mechanism)
-        speed = max(speed, np.nanmax(np.abs(self._stored("v:")), initial=0.0) / size)
+        largest, size = _largest(rate), mechanism_size(self.motion.mechanism)
+        speed = max(_largest(self._stored("w:")), _largest(self._stored("v:")) / size)
         if self.output.kind != "angle":
             speed *= size
         return None if largest <= CONSTANT * speed else max(STILL * largest, 1e-3 * STILL * speed)
@@ -376,16 +375,23 @@ def _program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...
     return (f"p:{key}",), (f"v:{key}", f"a:{key}")
 
 
+def _largest(values: Floats) -> float:
+    """The largest size among values, of which some may be NaN; zero for none."""
+    return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
+
+
 def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:
     """Whether a rate of one sign at both ends may cross zero in between, by the cubic through rates and seconds."""
     sign = np.sign(a)
     found: NDArray[np.bool_] = (sign * second_a < 0) & (sign * second_b > 0) & (sign == np.sign(b))
     some = np.flatnonzero(found)
+    if not len(some):
+        return found
     u = np.linspace(0.0, 1.0, 33)[:, None]
     h00, h10 = (1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2
     a, b, second_a, second_b = (each[some] for each in (a, b, second_a, second_b))
     cubic = h00 * a + h10 * second_a + (1 - h00) * b - u**2 * (1 - u) * second_b
-    lowest = (sign[some] * cubic).min(axis=0, initial=np.inf)
+    lowest = (sign[some] * cubic).min(axis=0)
     found[some] = lowest < 0.5 * np.minimum(np.abs(a), np.abs(b))
     return found
 

@@ -125,6 +125,7 @@ class Motion:
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
     followed: Followed | None = None
+    _links: dict[str, LinkMotion] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def mechanism(self) -> Mechanism:
@@ -182,9 +183,11 @@ class Motion:
 
     def link(self, name: str) -> LinkMotion:
         """Motion of a link."""
-        if name != "frame" and name not in self.design.base.links:
-            self.design.base.link(name)
-        return LinkMotion(self, name)
+        if name not in self._links:
+            if name != "frame" and name not in self.design.base.links:
+                self.design.base.link(name)
+            self._links[name] = LinkMotion(self, name)
+        return self._links[name]
 
     def joint(self, name: str) -> JointMotion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
