@@ -2,6 +2,7 @@
 
 import io
 import itertools
+import re
 import zipfile
 from dataclasses import replace
 from pathlib import Path
@@ -267,3 +268,39 @@ def test_a_language_may_have_texts_of_its_own() -> None:
     assert settings(given).title == "Crusher" and settings(given, "zh").title == "破碎机"
     with pytest.raises(LinkwrightError, match=r"report\.zh\.titel"):
         settings({"zh": {"titel": "x"}})
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (r"A price of \$5 and $\unknown{x}$ [[nowhere]] #panic()", r"\unknown"),
+        ("typst\n#panic()", "panicked"),
+        ("typst\n#let x = ( [ $", "unclosed"),
+    ],
+)
+def test_own_text_that_no_form_can_print_is_shown_as_written_with_the_reason(text: str, told: str) -> None:
+    crank = replace(lw.load("gallery:crank_rocker"), report={"text": {"limits": text}})
+    found = report(crank, sections=["limits"])
+    assert any(told in sentence for sentence in found.missing) and not found.broken
+    assert any("panic" in plain(b.text) or "#let" in plain(b.text)
+               for b in found.document.blocks if isinstance(b, Paragraph))  # fmt: skip
+    assert found.content(".pdf").startswith(b"%PDF") and found.content(".docx") and found.content(".html")
+
+
+def test_a_machine_that_cannot_be_assembled_has_a_report_that_says_so_in_every_section() -> None:
+    stretched = lw.loads(lw.dump(lw.load("gallery:crank_rocker"))).with_dimensions({"crank.length": 90.0})
+    found = report(stretched)
+    assert not found.broken and found.content(".pdf").startswith(b"%PDF")
+    told = {sentence.partition(":")[0] for sentence in found.missing}
+    assert {"Kinematic drawing", "Method", "Tables over the cycle", "Curves"} <= told
+    assert any(isinstance(b, Formula) and b.label == "mobility" for b in found.document.blocks)
+
+
+def test_chinese_reports_of_the_reference_cases_hold_no_english_sentence() -> None:
+    for name in ("swing_conveyor", "jaw_crusher_fourbar", "fourbar_lecture", "rack_and_rocker"):
+        found = report(f"gallery:{name}", sections=["task", "structure", "errata"], language="zh")
+        texts = [plain(b.text) for b in found.document.blocks if isinstance(b, Paragraph | Heading)]
+        texts += [plain(cell) for b in found.document.blocks if isinstance(b, Table) and b.label == "errata"
+                  for row in b.rows for cell in row]  # fmt: skip
+        english = [text for text in texts if re.search(r"[a-z]{3,} [a-z]{2,} [a-z]{2,}", text)]
+        assert english == []

@@ -51,8 +51,8 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 
 def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
-    from linkwright.cli.source import gallery_title
     from linkwright.parts.file import GALLERY, KINDS, kind_of, load
+    from linkwright.words.titles import gallery_title
 
     kind = kind_of(source)
     if kind is not None and kind in KINDS and kind not in kinds:

@@ -9,7 +9,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.files.model_file import read_text
 from linkwright.files.source import GALLERY, read_source
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import has, say
+from linkwright.words.titles import gallery_title
 
 
 def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
@@ -24,10 +24,3 @@ def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]
         title = gallery_title(source.removeprefix(GALLERY), mechanism.name, session.language)
         mechanism = replace(mechanism, name=title)
     return mechanism, findings
-
-
-def gallery_title(name: str, given: str, language: str) -> str:
-    """Title of a file of the gallery in a language; as it is given where the catalogue has none."""
-    own = name.removesuffix(".yaml")
-    keys = (f"gallery_titles.{own}", f"calculation_titles.{own}")
-    return next((say(key, language) for key in keys if language != "en" and has(key)), given)

@@ -181,6 +181,10 @@ class Case:
         source, index = self.worked_result
         return (source.motion if isinstance(source, Forces) else source), index
 
+    def require_position(self) -> None:
+        """Raises LinkwrightError where the worked position is not reached, or nothing can be solved."""
+        _ = self.worked_result
+
     @cached_property
     def worked(self) -> Worked:
         """The worked solution of that position."""

@@ -28,6 +28,12 @@ def symbols(text: str) -> str:
     return _INDEXED.sub(lambda found: f"${found[1]}_{{{found[2]}}}$", literal(text))
 
 
+def strong(text: str) -> str:
+    """Marked text in bold, its formulas as they are."""
+    return "".join(f"**{part}**" if part and not part.startswith("$") else part
+                   for part in re.split(r"(\$[^$]+\$)", text))  # fmt: skip
+
+
 def shown(text: str) -> str:
     """The text behind ``literal``."""
     return "".join(_SHOWN.get(c, c) for c in text)
@@ -44,7 +50,8 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """A paragraph; ``kind`` is empty, ``missing`` (why something is not there), ``note`` or ``bullet``."""
+    """A paragraph; ``kind`` is empty, ``missing`` (why something is not there), ``note``, ``bullet``, or ``lead``: it
+    stays with what follows."""
 
     text: str
     kind: str = ""
@@ -173,9 +180,9 @@ def _longest_word(text: str) -> int:
     from linkwright.report.formula import formula, width
     from linkwright.words.width import cells
 
-    joined = "".join("m" * round(2.0 * width(formula(part))) if kind == "formula" else part
+    joined = "".join("m" * round(2.6 * width(formula(part))) if kind == "formula" else part
                      for kind, part in spans(text))  # fmt: skip
-    return max((cells(word) for word in joined.split()), default=1)
+    return max((cells(word) for word in joined.split(" ")), default=1)
 
 
 def fitted(table: Table, widest: int) -> Sequence[Table]:

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
-from linkwright.report.document import Block, Heading, Paragraph, Source, Table
+from linkwright.errors import LinkwrightError
+from linkwright.report.document import Block, Heading, Paragraph, Source, Table, literal
+from linkwright.report.formula import formula
+from linkwright.report.typst_pages import typst_fault
+from linkwright.words.sentence import Sentence
 
 _HEADING = re.compile(r"(#{1,4})\s+(.*)")
 _ITEM = re.compile(r"\s*(?:[-*+]|\d+[.)])\s+(.*)")
@@ -17,8 +22,40 @@ def own_text(text: str, level: int = 2) -> Iterator[Block]:
     if first.strip().lower() == "typst":
         yield Source(rest)
         return
+    text = re.sub(r"\\([$*`\[\]])", lambda found: literal(found[1]), text)
     for part in re.split(r"\n\s*\n", text.strip()):
         yield from _part(part.splitlines(), level)
+
+
+def printable(block: Block) -> tuple[Block, list[str]]:
+    """A block of own text that every form can print, and sentences on what had to be changed.
+
+    What stands between dollar signs and is no formula comes as it is written; Typst that does not compile is shown
+    as text.
+    """
+    if isinstance(block, Source) and (fault := typst_fault(block.text)):
+        return Paragraph(literal(block.text)), [Sentence("report.bad_typst", message=fault)]
+    said: list[str] = []
+    if isinstance(block, Paragraph | Heading):
+        block = replace(block, text=_formulas(block.text, said))
+    elif isinstance(block, Table):
+        head, *rows = (tuple(_formulas(cell, said) for cell in row) for row in (block.head, *block.rows))
+        block = replace(block, head=head, rows=tuple(rows))
+    return block, said
+
+
+def _formulas(text: str, said: list[str]) -> str:
+    """A text whose formulas that cannot be printed are texts; why goes to ``said``."""
+    parts = []
+    for part in re.split(r"(\$[^$]+\$)", text):
+        if part.startswith("$") and len(part) > 2:
+            try:
+                formula(part[1:-1])
+            except LinkwrightError as error:
+                said.append(error.sentence)
+                part = literal(part)
+        parts.append(part)
+    return "".join(parts)
 
 
 def _part(lines: list[str], level: int) -> Iterator[Block]:

@@ -18,6 +18,8 @@ from linkwright.worked.book import tex
 DIGITS = 6
 #: An input or a number below this share of a turn (rad) or of a metre is zero but for rounding.
 FADED = 1e-9
+#: Keeps a unit such as rad/s on one line.
+JOINER = "\u2060"
 _UNITS = {"rad": ("°", 180.0 / math.pi), "m": ("mm", 1e3)}
 _TURNS = {"angle": r"\varphi", "angular_velocity": r"\omega", "angular_acceleration": r"\alpha"}
 _SLIDES = {"displacement": "s", "velocity": r"\dot{s}", "acceleration": r"\ddot{s}"}
@@ -45,7 +47,8 @@ class Heads:
         label, _, unit = name.removesuffix("]").rpartition(" [")
         shown, factor = _UNITS.get(unit, (unit, 1.0))
         symbol = self.symbol(label)
-        return f"{f'${symbol}$' if symbol else literal(label)} / {shown}", factor
+        quantity = f"${symbol}$" if symbol else literal(label)
+        return f"{quantity}\u00a0/\u00a0{shown.replace('/', f'/{JOINER}')}", factor
 
     def symbol(self, label: str) -> str:
         """LaTeX of a result, such as ``crank.angle`` or ``A on rod.x``; empty where the books have none."""

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.files.model_file import load
+from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import listed
@@ -24,13 +25,14 @@ from linkwright.report.document import (
     fitted,
     literal,
 )
-from linkwright.report.markdown import own_text
+from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, CommonSection, Section
 from linkwright.report.settings import Settings, settings
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, speaker
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.titles import gallery_title
 
 #: Characters across a page in a table.
 WIDEST = 108
@@ -176,7 +178,7 @@ def _cases(
 ) -> list[Case]:
     found = []
     for index, each in enumerate(given):
-        mechanism = each if isinstance(each, Mechanism) else load(str(each))
+        mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
         source = sources[index] if index < len(sources) else "" if isinstance(each, Mechanism) else str(each)
         own = dict(mechanism.report)
         if position:
@@ -194,6 +196,14 @@ def _cases(
         if names.count(case.mechanism.name) > 1:
             case.mechanism = replace(case.mechanism, name=f"{case.mechanism.name} ({number})")
     return found
+
+
+def _loaded(source: str, language: str) -> Mechanism:
+    """The model of a file; one of the gallery has its title in the language."""
+    mechanism = load(source)
+    if not source.startswith(GALLERY):
+        return mechanism
+    return replace(mechanism, name=gallery_title(source.removeprefix(GALLERY), mechanism.name, language))
 
 
 def _chosen(names: Iterable[str]) -> list[str]:
@@ -249,7 +259,7 @@ def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> N
     prefix = f"{first.mechanism.name}: " if several else ""
     try:
         made = part.blocks(first) if isinstance(part, Section) else part.blocks(cases)
-        for block in chain(own_text(text) if text else (), made):
+        for block in chain(_own(text, document) if text else (), made):
             if isinstance(block, Paragraph) and block.kind == "missing":
                 document.missing.append(f"{prefix}{title}: {_unmarked(block.text)}")
             found += [_placed(each, shift, prefix) for each in _parts_of(block, document)]
@@ -277,6 +287,15 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
     yield first
     for part in rest:
         yield replace(part, caption=document.say("report.continued", caption=block.caption))
+
+
+def _own(text: str, document: Document) -> Iterator[Block]:
+    """The blocks of own text; behind one that cannot be printed as it was meant stands why."""
+    for block in own_text(text):
+        shown, faults = printable(block)
+        yield shown
+        for fault in faults:
+            yield Paragraph(literal(in_language(fault, document.language)), "missing")
 
 
 def _unmarked(text: str) -> str:

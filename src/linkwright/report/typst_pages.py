@@ -100,6 +100,10 @@ _HEAD = """\
     image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
   }}
 }}
+#let lw-need = if not lw-is-html {{
+  block(height: 7em, breakable: false, above: 0pt, below: 0pt)
+  v(-7em)
+}}
 #let lw-note(body) = {{
   if lw-is-html {{ html.elem("p", attrs: (class: "note"))[#body] }} else {{
     block(width: 100%, inset: 7pt, fill: luma(244), stroke: (left: 2pt + rgb("#c8501e")), body) }}
@@ -132,14 +136,30 @@ def compiled(document: Document, form: str) -> bytes:
         raise LinkwrightError(Sentence("report.needs_typst")) from None
     text, pictures = pages(document)
     given: Any = form
-    found, warnings = program.compile_with_warnings(
-        text.encode(), sys_inputs={**pictures, "form": form}, format=given
-    )
+    try:
+        found, warnings = program.compile_with_warnings(
+            text.encode(), sys_inputs={**pictures, "form": form}, format=given
+        )
+    except program.TypstError as error:
+        raise LinkwrightError(Sentence("report.typst_says", sentence=str(error))) from None
     said = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
     if said:
         raise LinkwrightError(Sentence("report.typst_says", sentence="; ".join(dict.fromkeys(said))))
     assert isinstance(found, bytes)
     return found if form == "pdf" else _styled(found, document)
+
+
+def typst_fault(text: str) -> str:
+    """What Typst has against a text; empty where it has nothing, or is not there."""
+    try:
+        import typst as program
+    except ImportError:
+        return ""
+    try:
+        program.compile(text.encode())
+    except program.TypstError as error:
+        return " ".join(str(error).split())
+    return ""
 
 
 def _styled(page: bytes, document: Document) -> bytes:
@@ -210,9 +230,7 @@ class _Writer:
                 number = self.numbers.of[index]
                 return f"{'=' * block.level} {_words(f'{number}  {block.text}')} <{_place(index)}>\n"
             case Paragraph():
-                follower = self.document.blocks[index + 1 : index + 2]
-                leads = bool(follower) and isinstance(follower[0], Table | Figure) and len(block.text) < SHORT
-                return self._paragraph(block, sticky=leads)
+                return self._paragraph(block, sticky=self._leads(index, block))
             case Formula():
                 return self._formula(index, block)
             case Table():
@@ -222,11 +240,17 @@ class _Writer:
             case Source():
                 return f"{block.text}\n"
 
+    def _leads(self, index: int, block: Paragraph) -> bool:
+        """Whether a short paragraph stays with what follows: a table, a figure, or anything behind a heading."""
+        before, after = (self.document.blocks[i : i + 1] for i in (max(index - 1, 0), index + 1))
+        close = isinstance(before[0], Heading) or (bool(after) and isinstance(after[0], Table | Figure))
+        return bool(after) and close and len(block.text) < SHORT
+
     def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
         text = self.inline(block.text)
         if block.kind == "bullet":
             return f"- {text}"
-        if not block.kind and (sticky or block.text.endswith((":", "：", "**"))):
+        if block.kind == "lead" or (not block.kind and (sticky or block.text.endswith((":", "：")))):
             return f"#block(sticky: true)[{text}]\n"
         return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
 
@@ -247,7 +271,9 @@ class _Writer:
         sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
-        parted = "#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
+        parted = (
+            "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
+        )
         return (
             f"{parted}#figure(lw-table(({columns},), ({sides},), {quoted(aligned_by(marks))}, ({head},), {cells}), "
             "kind: table, numbering: none, supplement: none, "

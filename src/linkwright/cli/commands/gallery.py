@@ -47,7 +47,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
 
         session.show(json_text(entries))
         return 0
-    from linkwright.cli.source import gallery_title
+    from linkwright.words.titles import gallery_title
 
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:

@@ -48,7 +48,7 @@ def _motion_tables(case: Case, columns: Mapping[str, Floats]) -> Iterator[tuple[
     """Titles and columns: of links that turn, of guides, of points."""
     turning = [link for link in case.mechanism.links if f"{link}.angle [rad]" in columns]
     links = [name for link in turning for name in _starting(columns, f"{link}.angle", f"{link}.angular")
-             if _varies(columns[name])]  # fmt: skip
+             if varies(columns[name])]  # fmt: skip
     if links:
         yield "report.links_table", links
     ends = (".displacement [m]", ".velocity [m/s]", ".acceleration [m/s²]")
@@ -56,13 +56,13 @@ def _motion_tables(case: Case, columns: Mapping[str, Floats]) -> Iterator[tuple[
               and name.partition(".")[0] in case.mechanism.joints]  # fmt: skip
     if guides:
         yield "report.guides_table", guides
-    points = [name for name in columns if ".position." in name and _varies(columns[name])]
+    points = [name for name in columns if ".position." in name and varies(columns[name])]
     if points:
         yield "report.points_table", points
     rates = [
         name
         for name in columns
-        if (".velocity." in name or ".acceleration." in name) and _varies(columns[name])
+        if (".velocity." in name or ".acceleration." in name) and varies(columns[name])
     ]
     if rates:
         yield "report.rates_table", rates
@@ -72,7 +72,8 @@ def _starting(columns: Mapping[str, Floats], *starts: str) -> list[str]:
     return [name for name in columns if name.startswith(starts)]
 
 
-def _varies(values: Floats) -> bool:
+def varies(values: Floats) -> bool:
+    """Whether a result changes over the cycle."""
     known = values[np.isfinite(values)]
     return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
 

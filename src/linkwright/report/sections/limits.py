@@ -13,7 +13,7 @@ from linkwright.report.section import SECTIONS, Section
 from linkwright.words.sentence import Sentence, in_words
 
 #: Numbers that other sections print.
-ELSEWHERE = ("peak_reaction", "rms_reaction")
+ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 #: Rows of one number of one thing, such as dead points.
 REPEATED = 6
 

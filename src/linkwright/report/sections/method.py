@@ -7,7 +7,7 @@ from itertools import chain
 
 from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case
-from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, symbols
+from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
 from linkwright.report.formula import formula, width
 from linkwright.report.loops import loops
 from linkwright.report.section import SECTIONS, Section
@@ -26,6 +26,7 @@ class Method(Section):
 
     def blocks(self, case: Case) -> Iterator[Block]:
         say, steps = case.say, list[Step]()
+        case.require_position()
         try:
             solution = case.worked
         except LinkwrightError as error:
@@ -61,7 +62,7 @@ def formulas(step: Step) -> Iterator[Block]:
     shown = [item for item in step.items if not isinstance(item, Equation) or item.formula]
     if not any(isinstance(item, Equation | Relation) for item in shown):
         return
-    yield Paragraph(f"**{symbols(step.title)}**")
+    yield Paragraph(strong(symbols(step.title)), "lead")
     held: list[str] = []
     for item in shown:
         if isinstance(item, Equation):

@@ -6,11 +6,13 @@ import re
 from collections.abc import Iterator, Sequence
 from inspect import getdoc
 
+from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.section import SECTIONS, CommonSection
+from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence
 
 
@@ -25,13 +27,21 @@ class References(CommonSection):
         for case in cases:
             if case.origin:
                 found[case.origin] = None
-            for group in case.structure.groups:
+            for group in _groups(case):
                 found.update(dict.fromkeys(_of_group(group.signature)))
         if not found:
             raise Missing(Sentence("report.no_references"))
         for number, source in enumerate(found, 1):
             yield Paragraph(literal(f"[{number}] {source}"))
         yield from _definitions(cases)
+
+
+def _groups(case: Case) -> Sequence[Group]:
+    """The groups, none where the machine cannot be taken apart."""
+    try:
+        return case.structure.groups
+    except LinkwrightError:
+        return ()
 
 
 def _definitions(cases: Sequence[Case]) -> Iterator[Block]:

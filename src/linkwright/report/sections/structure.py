@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank import rank_sentence
 from linkwright.report.case import Case
@@ -33,10 +34,7 @@ class StructureAnalysis(Section):
             yield Paragraph(say("structure.rank", sentence=literal(sentence)))
         yield _groups(case)
         if len(built.groups) > 1:
-            pictures = to_one_scale([group_picture(case, group) for group in built.groups])
-            yield Figure(
-                say("report.groups_caption", names=literal(_names(case))), pictures, "group-pictures"
-            )
+            yield _pictures(case)
         chain = " + ".join(group.signature for group in built.groups)
         yield Paragraph(
             say(
@@ -46,6 +44,16 @@ class StructureAnalysis(Section):
                 table="[[groups]]",
             )
         )
+
+
+def _pictures(case: Case) -> Block:
+    """The groups drawn apart, or why they cannot be."""
+    try:
+        pictures = to_one_scale([group_picture(case, group) for group in case.structure.groups])
+    except LinkwrightError as error:
+        return Paragraph(literal(case.told(error)), "missing")
+    caption = case.say("report.groups_caption", names=literal(_names(case)))
+    return Figure(caption, pictures, "group-pictures")
 
 
 def _mobility(case: Case) -> Formula:

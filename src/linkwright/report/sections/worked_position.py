@@ -29,6 +29,7 @@ class WorkedPosition(Section):
 
     def blocks(self, case: Case) -> Iterator[Block]:
         say = case.say
+        case.require_position()
         if case.worked_text:
             yield Paragraph(say("report.worked_at", input=literal(case.worked_text)))
         try:

@@ -231,6 +231,8 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "why": "why",
     "appendix_text": "All results at the numbered positions; $\\Delta P$ and $\\Delta F$ are what "
     "is left over in the balance of powers and of forces.",
+    "constant": "Constant over the cycle: {values}.",
+    "bad_typst": "Typst cannot read this text: {message}",
     "appendix_table": "All results",
     "no_references": "no source is known for what was used",
     "continued": "{caption} (continued)",
