@@ -90,6 +90,7 @@ def test_path_error_is_the_mean_square_distance_and_vanishes_on_its_own_path():
     f = lw.objective(fourbar, lw.PathError("coupler.P", track + away), vary=names)
     value, gradient = f(f.start)
     assert value == pytest.approx(away @ away, rel=1e-12)
+    assert f.values(f.start[None]) == pytest.approx([value], rel=1e-12)
 
     def alone(x):
         moved = lw.solve_motion(fourbar.with_dimensions(dict(zip(names, x, strict=True))), steps=60)

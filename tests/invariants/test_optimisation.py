@@ -1,5 +1,6 @@
 """Optimisation: optima known in closed form, written models that keep what they claim, interruption without loss."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -116,6 +117,84 @@ def test_tolerances_worst_case_and_yield(press: Path) -> None:
     assert 0.0302 < worst.best.values["crank.length"] <= 0.0308  # 30 mm and most of the tolerance
     plain = lw.optimize(press, tolerance=tolerance, evaluations=800)
     assert plain.best.made is not None and plain.best.made < 0.6
+
+
+def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
+    start = lw.load("gallery:crank_rocker")
+    known = {"crank.length": 1.04, "coupler.length": 3.45, "rocker.length": 2.52}
+    target = lw.solve_motion(start.with_dimensions(known), steps=36).point("coupler.P").position
+    vary = {name: f"{0.9 * value}..{1.1 * value} m" for name, value in known.items()}
+    found = lw.optimize(start, vary=vary, minimize=lw.PathError("coupler.P", target), evaluations=1500)
+    assert found.exact
+    assert dict(found.best.values) == pytest.approx(known, rel=1e-5)
+    assert found.best.numbers["path_error"] < 1e-10
+    assert "m²" in found.text() or "mm²" in found.text()
+    rows = [[f"{x:.15g} m", f"{y:.15g} m"] for x, y in target]
+    define = {"shape": {"point": "coupler.P", "target": rows}, "c": "crank.length"}
+    both = lw.optimize(start, vary=vary, minimize=["shape", "c"], define=define, evaluations=1200)
+    assert min(each.numbers["shape"] for each in both) < 1e-7
+    assert min(each.numbers["c"] for each in both) == pytest.approx(0.9 * 1.04, rel=1e-3)
+    with pytest.raises(lw.ModelError, match="list of places"):
+        lw.optimize(
+            start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}}
+        )
+
+
+def test_teeth_change_the_cycle_and_are_varied_one_by_one() -> None:
+    gears = lw.load("gallery:external_gear_pair")  # 40 N·m on the wheel, 20 teeth on the pinion
+    found = lw.optimize(
+        gears, vary={"mesh.teeth.1": {"whole": "45..60"}}, minimize="z", define={"z": "mesh.teeth.1"},
+        keep={"peak_input_torque": "at most 15 N·m"}, evaluations=60,
+    )  # fmt: skip
+    assert found.best.values["mesh.teeth.1"] == 54  # 800 / 15 = 53.3
+    assert found.best.numbers["peak_input_torque"] == pytest.approx(800 / 54)
+    assert found.mechanism().dimension("mesh.teeth.1") == 54
+
+
+CAM = """\
+format: 1
+name: Lobe
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}, mass: 1 kg, inertia: 0.001 kg·m², mass_centre: [0 mm, 0 mm]}
+  slide: {points: {P: [0 mm, 0 mm], Q: [0 mm, 40 mm]}, mass: 0.5 kg, inertia: 0.001 kg·m²}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}
+  lobe:
+    kind: cam
+    cam: cam
+    follower: slide
+    at: P
+    touch: roller
+    roller_radius: 10 mm
+    base_radius: 50 mm
+    turn: counterclockwise
+    program:
+      - {rise: 20 mm, over: 110 deg, law: cycloidal}
+      - {dwell: 70 deg}
+      - {fall: 20 mm, over: 110 deg, law: cycloidal}
+      - {dwell: 70 deg}
+driver: {turn: cam, about: O, speed: 120 rpm}
+loads: {spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}}
+"""
+
+
+def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
+    found = lw.optimize(
+        lw.loads(CAM), vary={"lobe.base_radius": "20..80 mm"}, minimize="b", define={"b": "lobe.base_radius"},
+        keep={"peak_reaction guide": "at most 15 N"}, evaluations=400, steps=720,
+    )  # fmt: skip
+    # by hand: the guide takes (F + m a) tan α, tan α = s' / (R + s), R = base radius + roller
+    over, lift, speed = math.radians(110), 0.02, 4 * math.pi
+    t = np.linspace(0, 1, 200001)
+    place = lift * (t - np.sin(2 * np.pi * t) / (2 * np.pi))
+    slope = lift / over * (1 - np.cos(2 * np.pi * t))
+    force = 60 + 0.5 * lift * 2 * np.pi / over**2 * np.sin(2 * np.pi * t) * speed**2
+
+    def press(base: float) -> float:
+        return float((force * slope / (base + 0.01 + place)).max())
+
+    assert press(found.best.values["lobe.base_radius"]) == pytest.approx(15, rel=2e-5)
 
 
 def test_hypervolume_and_crowding_in_closed_form() -> None:

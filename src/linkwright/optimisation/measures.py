@@ -21,6 +21,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.summary import is_summary, one, wanted
+from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn
@@ -48,14 +49,16 @@ class Measures:
         )
         self.expressions = {text: self._expression(text) for text in texts}
         self.numbers = tuple(dict.fromkeys(
-            name for _, names in self.expressions.values() for name in names.values() if name not in self._dimensions
+            name for _, names in self.expressions.values() for name in names.values()
+            if name not in self._dimensions and name not in problem.paths
         ))  # fmt: skip
-        extremes = {each.address: np.array([each.low, each.high]) for each in problem.variables}
-        refuse_moved_positions(self.mechanism, over_cycle(self.mechanism, problem.steps), extremes)
-        self.cycle = self._cycle()
-        self.side_by_side = self.cycle is not None
+        self.cycle = None if self._moves_positions() else self._cycle()
+        self.side_by_side = self.cycle is not None or not self.numbers
         self.backend: Backend = "llvm" if available() else "numpy"
+        self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
         self.evaluations = 0
+        self._order: tuple[str, ...] = ()
+        self._judged: dict[tuple[tuple[str, ...], tuple[float, ...]], tuple[float, ...]] = {}
 
     @cached_property
     def _dimensions(self) -> Mapping[str, float]:
@@ -63,10 +66,11 @@ class Measures:
 
     def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
         """An expression with the design numbers of its names; None for a number that stands alone."""
-        given = str(self.problem.define.get(text, text))
+        paths = self.problem.paths
+        given = text if text in paths else str(self.problem.define.get(text, text))
         if self._is_number(given):
             return None, {"": given}
-        defined = {name: str(value) for name, value in self.problem.define.items()}
+        defined = {name: name if name in paths else str(value) for name, value in self.problem.define.items()}
         known = [*defined, *self.mechanism.parameters]
         found = parse(text, known)
         names = {name: defined.get(name, name) for name in found.names}
@@ -81,7 +85,7 @@ class Measures:
         return found, names
 
     def _is_number(self, name: str) -> bool:
-        if _is_metric(name) or name in self._dimensions:
+        if _is_metric(name) or name in self._dimensions or name in self.problem.paths:
             return True
         if is_summary(name):
             wanted([name])
@@ -91,6 +95,15 @@ class Measures:
         except RequestError:
             return False
         return True
+
+    def _moves_positions(self) -> bool:
+        """Whether designs have cycles of their own, as with numbers of teeth."""
+        extremes = {each.address: np.array([each.low, each.high]) for each in self.problem.variables}
+        try:
+            refuse_moved_positions(self.mechanism, over_cycle(self.mechanism, self.problem.steps), extremes)
+        except RequestError:
+            return True
+        return False
 
     # many designs ------------------------------------------------------------------------------------
     def _cycle(self) -> MetricCycle | None:
@@ -121,6 +134,8 @@ class Measures:
     def _kind(self, name: str) -> units.Dimension:
         from linkwright.study.ranges import dimension_of
 
+        if name in self.paths:
+            return units.DIMENSIONS["area"]
         if name in self._dimensions:
             return dimension_of(self.mechanism, name) or units.NONE
         if self.cycle is not None:
@@ -137,10 +152,12 @@ class Measures:
         """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
         count = len(next(iter(columns.values())))
         self.evaluations += count
-        found = self._found(columns, count) | self._held(columns, count)
+        found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
         return {text: self._combined(text, found) for text in self.expressions}
 
     def _found(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        if not self.numbers:
+            return {}
         if self.cycle is not None:
             with np.errstate(all="ignore"):
                 seen = self.cycle.evaluate(columns, backend=self.backend)
@@ -148,20 +165,26 @@ class Measures:
         client = current()
         if client is not None and count > 1:
             return self._shared(client, columns, count)
-        values = {name: np.full(count, np.nan) for name in self.numbers}
-        for index in range(count):
-            try:
-                design = self.mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()})
-                each = self._alternative(design)
-                for name in self.numbers:
-                    measured = criterion(name).measure(each)
-                    values[name][index] = np.nan if measured is None else measured.value
-            except RequestError:
-                raise
-            except LinkwrightError:
-                for name in self.numbers:
-                    values[name][index] = np.nan
-        return values
+        self._order = tuple(columns)
+        rows = [self._alone(tuple(each)) for each in np.column_stack(list(columns.values())).tolist()]
+        return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
+
+    def _alone(self, design: tuple[float, ...]) -> tuple[float, ...]:
+        """Numbers of one design, kept: whole numbers and catalogues come again."""
+        key = self._order, design
+        if key not in self._judged:
+            self._judged[key] = self._measured(dict(zip(self._order, design, strict=True)))
+        return self._judged[key]
+
+    def _measured(self, dimensions: dict[str, float]) -> tuple[float, ...]:
+        try:
+            each = self._alternative(self.mechanism.with_dimensions(dimensions))
+            found = [criterion(name).measure(each) for name in self.numbers]
+        except RequestError:
+            raise
+        except LinkwrightError:
+            return (np.nan,) * len(self.numbers)
+        return tuple(np.nan if number is None else number.value for number in found)
 
     def _shared(self, client: Any, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         """The same, a few designs at a time on a cluster."""
@@ -203,7 +226,7 @@ class Measures:
         expression, names = self.expressions[text]
         if expression is None:
             return self._slope(names[""], columns, by)
-        found = {**self._found(columns, 1), **self._held(columns, 1)}
+        found = {**self._found(columns, 1), **self._held(columns, 1), **self.paths.values(columns)}
         values = {name: found[number] for name, number in names.items()}
         total = np.zeros(len(by))
         for name, number in names.items():
@@ -215,6 +238,8 @@ class Measures:
     def _slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
         if name in self._dimensions:
             return np.array([1.0 if address == name else 0.0 for address in by])
+        if name in self.paths:
+            return self.paths.slope(name, columns, by)
         assert self.cycle is not None
         own = tuple(address for address in by if address in self.cycle.dimensions)
         slope = np.zeros(len(by))

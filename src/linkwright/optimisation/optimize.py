@@ -60,8 +60,9 @@ def optimize(
         settings: those of the section, by the same names, in place of it:
             ``vary``: by address or parameter a range ``"80..120 mm"``, ``{"values": [...]}`` (a catalogue) or
             ``{"whole": "18..40"}``; ``minimize``, ``maximize``: a number or several: a design number
-            (``peak_reaction O5``), ``flywheel``, a summary (``jaw.angle range``), a dimension, or an expression of
-            names that ``define`` gives; ``keep``: by number ``"at least 40 deg"``, ``"at most 60 kN"``, ``"1..2 m"``,
+            (``peak_reaction O5``), ``flywheel``, a summary (``jaw.angle range``), a dimension, a
+            :class:`PathError`, or an expression of names that ``define`` gives to these; ``keep``: by number
+            ``"at least 40 deg"``, ``"at most 60 kN"``, ``"1..2 m"``,
             ``"same within 1 %"`` (of the start); ``tolerance``: ± by address, with ``robust``: ``worst`` (objective
             and demands hold for the worst of the samples) or ``yield`` (a share ``yield`` of them meets the
             demands); ``fluctuation`` δ of flywheels; ``evaluations``, ``population``, ``seed``, ``steps``.

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
+from linkwright.study.objective import PathError
 from linkwright.study.ranges import parse_range
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
@@ -68,13 +70,14 @@ class Demand:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """All of it; ``tolerances``: ± of dimensions, SI."""
+    """All of it; ``paths``: path errors by name; ``tolerances``: ± of dimensions, SI."""
 
     mechanism: Mechanism
     variables: tuple[Variable, ...]
     goals: tuple[Goal, ...]
     demands: tuple[Demand, ...] = ()
     define: Mapping[str, str] = field(default_factory=dict)
+    paths: Mapping[str, PathError] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
     robust: Robust = ""
     least_yield: float = 0.99
@@ -115,10 +118,11 @@ class _Reading:
             if key not in SETTINGS:
                 self._wrong(key, Sentence("optimize.unknown", key_=key, hint=offered(key, SETTINGS)))
         variables = self._variables()
+        define, paths = self._defined()
         goals = [
             Goal(text, sign)
             for key, sign in (("minimize", 1.0), ("maximize", -1.0))
-            for text in self._texts(key)
+            for text in self._texts(key, paths)
         ]
         if not goals:
             self._wrong("minimize", Sentence("optimize.no_goal"))
@@ -134,7 +138,7 @@ class _Reading:
             raise ModelError(self.findings)
         kind: Robust = "worst" if robust == "worst" else "yield" if robust else ""
         return Problem(
-            self.mechanism, tuple(variables), tuple(goals), tuple(demands), self._mapping("define"), tolerances, kind,
+            self.mechanism, tuple(variables), tuple(goals), tuple(demands), define, paths, tolerances, kind,
             numbers["yield"], numbers["fluctuation"], int(numbers["steps"]), int(numbers["evaluations"]),
             int(numbers["population"]), int(numbers["seed"]),
         )  # fmt: skip
@@ -149,9 +153,31 @@ class _Reading:
             return {}
         return {str(name): each for name, each in value.items()}
 
-    def _texts(self, key: str) -> list[str]:
+    def _defined(self) -> tuple[dict[str, str], dict[str, PathError]]:
+        """Texts and path errors by name."""
+        texts, paths = {}, {}
+        for name, value in self._mapping("define").items():
+            try:
+                path = path_error(value)
+            except LinkwrightError as error:
+                self._wrong(f"define.{name}", error.sentence)
+                continue
+            if path is None:
+                texts[name] = str(value)
+            else:
+                paths[name] = path
+        return texts, paths
+
+    def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
+        """Numbers by name; a path error that stands alone gets one."""
         value = self.given.get(key) or []
-        texts = [value] if isinstance(value, str) else value
+        texts = [value] if isinstance(value, (str, PathError)) else value
+        if isinstance(texts, Iterable):
+            texts = list(texts)
+            for place, each in enumerate(texts):
+                if isinstance(each, PathError):
+                    texts[place] = f"path_error_{len(paths) + 1}" if paths else "path_error"
+                    paths[texts[place]] = each
         if not isinstance(texts, Iterable) or not all(isinstance(each, str) for each in texts):
             self._wrong(key, Sentence("optimize.texts", key_=key))
             return []

@@ -90,7 +90,7 @@ class OverPositions:
         found = self.gradient.plain.evaluate(
             self._table(columns), self.arrays, tables=self.tables, threads=threads, backend=self.backend
         )
-        return np.asarray(found[VALUE])
+        return np.asarray(found[self.gradient.value])
 
     def _table(self, columns: Mapping[str, Floats]) -> Floats:
         count = len(next(iter(columns.values())))
@@ -221,6 +221,11 @@ def of_metrics(
         raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
+
+
+def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:
+    """A path error over the cycle; ``names`` on which it does not depend are left out."""
+    return _of_positions(mechanism, names, {path: 1.0}, 0, None, backend)
 
 
 def _of_positions(

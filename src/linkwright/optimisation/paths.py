@@ -1,0 +1,72 @@
+"""Path errors as quantities of a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import units
+from linkwright.engine.stage import Backend
+from linkwright.errors import QuantityError
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.objective import Part, PathError, of_path
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+
+
+def path_error(given: Any) -> PathError | None:
+    """A path error from ``{point: coupler.P, target: [[30 mm, 40 mm], …]}``; None: something else is meant.
+
+    Raises QuantityError where the target cannot be read.
+    """
+    if isinstance(given, PathError):
+        return given
+    if not isinstance(given, Mapping) or set(given) != {"point", "target"}:
+        return None
+    rows = given["target"]
+    if not isinstance(rows, Sequence) or not rows or any(not _is_pair(row) for row in rows):
+        raise QuantityError(Sentence("optimize.target", given=str(rows)[:40]))
+    places = [
+        [each if isinstance(each, float) else units.parse(str(each), "length") for each in row]
+        for row in rows
+    ]
+    return PathError(str(given["point"]), places)
+
+
+def _is_pair(row: Any) -> bool:
+    return isinstance(row, Sequence) and not isinstance(row, str) and len(row) == 2
+
+
+class PathErrors:
+    """Values (designs,) of path errors by name, and their exact gradients."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        addresses: tuple[str, ...],
+        asked: Mapping[str, PathError],
+        backend: Backend,
+    ) -> None:
+        self.parts: dict[str, Part] = {
+            name: of_path(mechanism, addresses, each, backend) for name, each in asked.items()
+        }
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.parts
+
+    def values(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """m²; NaN where a design does not pass its cycle."""
+        with np.errstate(all="ignore"):
+            return {name: part.values(columns, None) for name, part in self.parts.items()}
+
+    def slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
+        """Gradient (k,) of one design by the addresses ``by``."""
+        part, slope = self.parts[name], np.zeros(len(by))
+        _, found = part.many(columns, None)
+        for address, rate in zip(part.names, found[0], strict=True):
+            slope[by.index(address)] = rate
+        return slope
