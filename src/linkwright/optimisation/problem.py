@@ -171,17 +171,19 @@ class _Reading:
     def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
         """Numbers by name; a path error that stands alone gets one."""
         value = self.given.get(key) or []
-        texts = [value] if isinstance(value, (str, PathError)) else value
-        if isinstance(texts, Iterable):
-            texts = list(texts)
-            for place, each in enumerate(texts):
-                if isinstance(each, PathError):
-                    texts[place] = f"path_error_{len(paths) + 1}" if paths else "path_error"
-                    paths[texts[place]] = each
-        if not isinstance(texts, Iterable) or not all(isinstance(each, str) for each in texts):
-            self._wrong(key, Sentence("optimize.texts", key_=key))
-            return []
-        return list(texts)
+        found: list[str] = []
+        for each in (
+            [value] if isinstance(value, (str, PathError)) or not isinstance(value, Iterable) else value
+        ):
+            if isinstance(each, PathError):
+                found.append(f"path_error_{len(paths) + 1}" if paths else "path_error")
+                paths[found[-1]] = each
+            elif isinstance(each, str):
+                found.append(each)
+            else:
+                self._wrong(key, Sentence("optimize.texts", key_=key))
+                return []
+        return found
 
     def _number(self, key: str, usual: float) -> float:
         value = self.given.get(key, usual)
