@@ -150,7 +150,7 @@ def crowding(goals: Floats) -> Floats:
     found = np.zeros(len(goals))
     for column in goals.T:
         order = np.argsort(column, kind="stable")
-        span = column[order[-1]] - column[order[0]]
+        span = column[order[-1]] - column[order[0]] if np.isfinite(column[order[0]]) else 0.0
         found[order[[0, -1]]] = np.inf
         if len(order) > 2 and 0 < span < np.inf:
             found[order[1:-1]] += (column[order[2:]] - column[order[:-2]]) / span
