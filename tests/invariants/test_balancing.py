@@ -35,6 +35,14 @@ def test_full_balance_leaves_no_shaking_force(text: str) -> None:
     before = np.abs(found.before.shaking_force).max()
     assert before > 10
     assert np.abs(found.after.shaking_force).max() < 1e-12 * before
+    title, *weights, head = found.text().splitlines()[: len(found.counterweights) + 2]
+    assert found.mechanism.name in title and head.split() == ["peak", "of", "without", "with"]
+    for weight, line in zip(found.counterweights, weights, strict=True):
+        assert line.strip().startswith(f"{weight.link}: {weight.mass:.6g} kg at ({weight.place[0]:.6g}")
+    for (name, (without, having)), line in zip(
+        found.effect().items(), found.text().splitlines()[len(weights) + 2 :], strict=True
+    ):
+        assert line.split()[-2:] == [f"{without:.6g}", f"{having:.6g}"] and line.strip().startswith(name)
 
 
 def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_force() -> None:

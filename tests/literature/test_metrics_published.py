@@ -105,16 +105,17 @@ def test_ellipse_of_the_trammel() -> None:
     ],
 )
 def test_grashof_types(lengths: tuple[float, float, float, float], kind: str) -> None:
-    """Norton, Design of Machinery, sec. 2.12: which link is shortest decides."""
+    """Norton, Design of Machinery, sec. 2.12: which link is shortest decides, wherever the machine stands."""
     frame, crank, coupler, rocker = lengths
     model = Model("four-bar")
-    model.frame(O1=(0, 0), O2=(frame, 0))
+    model.frame(O1=(0.7, -1.3), O2=(0.7 + frame, -1.3))
     model.link("crank", ["O1", "A"], length=crank)
     model.link("coupler", ["A", "B"], length=coupler)
     model.link("rocker", ["O2", "B"], length=rocker)
     model.drive("crank", about="O1", speed=1)
     (loop,) = four_bars(model.build())
     assert loop.type == kind
+    assert list(loop.lengths.values()) == pytest.approx([frame, crank, coupler, rocker], rel=1e-14)
 
 
 def crunodal(apex: tuple[float, float]) -> lw.Mechanism:

@@ -1,7 +1,8 @@
 """Which tests run which lines of the analysis packages, and how long each test takes.
 
-Recorded once by coverage.py with one context per test. What the package and the tests keep from one test for the
-next (traced programs, cached results) is forgotten before each test, so that every test shows all that it uses.
+Recorded once by coverage.py with one context per test; times are the processor's, so that a busy machine does not
+change them. What the package and the tests keep from one test for the next (traced programs, cached results) is
+forgotten before each test, so that every test shows all that it uses.
 """
 
 from __future__ import annotations
@@ -70,19 +71,23 @@ class Recorder:
     def __init__(self, coverage: Any) -> None:
         self.coverage = coverage
         self.seconds: dict[str, float] = {}
+        self.failed: set[str] = set()
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Any:
         forget()
+        began = sum(os.times()[:4])
         self.coverage.switch_context(item.nodeid)
         try:
             return (yield)
         finally:
             self.coverage.switch_context("")
+            if item.nodeid not in self.failed:
+                self.seconds[item.nodeid] = sum(os.times()[:4]) - began
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        if not report.failed:
-            self.seconds[report.nodeid] = self.seconds.get(report.nodeid, 0.0) + report.duration
+        if report.failed:
+            self.failed.add(report.nodeid)
 
 
 def forget() -> None:

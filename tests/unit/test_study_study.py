@@ -45,6 +45,17 @@ def test_a_grid_has_every_combination_and_closed_form_values() -> None:
     assert found.best("transmission_angle") == int(np.argmax(acute))
 
 
+def test_numbers_of_a_machine_without_groups_of_its_own() -> None:
+    """Wheels of 20 and 40 teeth: at constant speed the input torque is half the load's."""
+    found = study(
+        lw.load("gallery:external_gear_pair"),
+        {"loads.work.magnitude": "20..60 N·m:3"},
+        metrics=["peak_input_torque"],
+        steps=24,
+    )
+    assert np.abs(found["peak_input_torque"]) == pytest.approx([10.0, 20.0, 30.0], rel=1e-12)
+
+
 def test_designs_that_cannot_turn_are_counted_and_the_others_go_on() -> None:
     machine = lw.load("gallery:crank_rocker")
     a, c, d = (machine.dimension(name) for name in ("crank.length", "rocker.length", "frame.O2.x"))

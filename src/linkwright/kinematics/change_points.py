@@ -40,6 +40,8 @@ LARGEST_STEP = 0.55
 #: Largest step of a driver, rad or share of the size, in which a cycle is looked through; samples of laws that are no
 #: straight lines; and the most places that are looked at.
 FINE, SAMPLES, MOST = 0.05, 720, 40_000
+#: From so many groups that pass change points on, the signs of all groups are inputs: their motion is traced once.
+MANY = 3
 
 Kind = Literal["change", "meeting", "gap", "pole"]
 Way = Callable[[Floats], Positions]
@@ -220,6 +222,7 @@ class _Search:
         self.followed = followed
         self.parts = parts
         self.passing: list[Passage] = []
+        self.flipping: dict[str, list[Passage]] = {}
 
     @cached_property
     def way(self) -> Way:
@@ -237,8 +240,10 @@ class _Search:
             blocked = blocked | ~(rows[f"quality:{group}"] > -TOUCH)
             new = [replace(p, flips=self._flips(p, blocked)) for p in self._of_group(group, rows)]
             self.passing += new
-            if any(p.touches for p in new):
-                self.solver = self.base.with_flips({p.group for p in self.passing if p.touches})
+            if touching := [p for p in new if p.touches]:
+                self.flipping[group] = touching
+                many = len(self.flipping) >= MANY
+                self.solver = self.base.with_flips(groups if many else self.flipping)
                 rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
         return self.passing + self._poles()
 
@@ -411,7 +416,7 @@ class _Search:
         return self.solver.evaluate(names, positions, states, modes)
 
     def _signs(self, group: str, place: Floats) -> Floats:
-        return _sign(self.passing, group, self.base.assembly.modes[group], place)
+        return _sign(self.flipping.get(group, ()), group, self.base.assembly.modes[group], place)
 
 
 def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) -> Floats:
