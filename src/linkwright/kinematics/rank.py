@@ -418,38 +418,47 @@ def _numeric_rank(matrix: Floats, zero: float) -> int:
 
 
 def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...]:
-    """Links without which the mobility stays the same and Grübler's count comes up to it; last ones first."""
+    """Links without which the mobility stays the same and Grübler's count comes up to it; last ones first.
+
+    By the states of self-stress, the multipliers that need no load: without a link those remain that put no force on
+    it at any of its joints, and each of them is one redundant equation.
+    """
     full = ConstraintSystem(mechanism)
-    mobility = full.freedoms - _rank(full, x, zero)[0]
+    rows = full.rows(x)
+    left, values, _ = np.linalg.svd(full.matrix(rows))
+    rank = int((values > zero * values[0]).sum()) if len(values) else 0
+    mobility, states = full.freedoms - rank, np.eye(len(rows) - rank)
+    forces = _forces_on_links(full, rows, left[:, rank:])
     keep = {name for driver in mechanism.drivers.values() for name in (driver.link, driver.relative_to)}
     spare: list[str] = []
     for name in reversed(list(mechanism.links)):
-        if name in keep or _deficit(full, x, spare, zero) == 0:
+        if name in keep or not states.size:
             continue
-        trial = [*spare, name]
-        if _mobility_without(full, x, trial, zero) == mobility and _deficit(full, x, trial, zero) < _deficit(
-            full, x, spare, zero
-        ):
-            spare = trial
+        _, sizes, directions = np.linalg.svd(forces[name] @ states)
+        needed = int((sizes > math.sqrt(zero)).sum())
+        trial, remaining = [*spare, name], states @ directions[needed:].T
+        if needed and _freedoms_without(full, x, trial) + remaining.shape[1] == mobility:
+            spare, states = trial, remaining
     return tuple(spare)
 
 
-def _reduced(full: ConstraintSystem, x: Floats, without: Sequence[str]) -> tuple[ConstraintSystem, Floats]:
+def _forces_on_links(system: ConstraintSystem, rows: Sequence[Row], states: Floats) -> dict[str, Floats]:
+    """Forces and moments of every joint on every link in all states of self-stress; by link (3 joints, states)."""
+    found: dict[str, dict[str, Floats]] = {name: {} for name in system.links}
+    none = np.zeros((3, states.shape[1]))
+    for row, multipliers in zip(rows, states, strict=True):
+        for link, part in row.parts.items():
+            if link in found:
+                acting = np.outer(np.array(part, dtype=float), multipliers)
+                found[link][row.joint] = found[link].get(row.joint, none) + acting
+    return {link: np.concatenate([*by_joint.values(), none]) for link, by_joint in found.items()}
+
+
+def _freedoms_without(full: ConstraintSystem, x: Floats, without: Sequence[str]) -> int:
+    """Freedoms by Grübler's count, the equations that are redundant counted as the others."""
     system = ConstraintSystem(full.mechanism, without)
     chosen = [k for i, name in enumerate(full.links) if name not in without for k in range(3 * i, 3 * i + 3)]
-    return system, x[chosen]
-
-
-def _mobility_without(full: ConstraintSystem, x: Floats, without: Sequence[str], zero: float) -> int:
-    system, part = _reduced(full, x, without)
-    return system.freedoms - _numeric_rank(system.jacobian(part), zero)
-
-
-def _deficit(full: ConstraintSystem, x: Floats, without: Sequence[str], zero: float) -> int:
-    """Number of redundant equations that are left."""
-    system, part = _reduced(full, x, without)
-    matrix = system.jacobian(part)
-    return len(matrix) - _numeric_rank(matrix, zero)
+    return system.freedoms - len(system.rows(x[chosen]))
 
 
 # drawings -----------------------------------------------------------------------------------------
