@@ -9,6 +9,9 @@ from linkwright.kinematics.cycle import Floats
 
 #: Rounds in which points that are no corners are left out all at once.
 ROUNDS = 6
+#: Of more points than this those inside a polygon are left out first; whose corners are the farthest that way.
+MANY = 400
+_DIRECTIONS = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False))
 
 
 def cross(a: Floats, b: Floats) -> Floats:
@@ -18,10 +21,23 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 def convex_hull(points: Floats) -> Floats:
     """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chains)."""
-    ordered = np.sort(points[:, 0] + 1j * points[:, 1])
+    given = points[:, 0] + 1j * points[:, 1]
+    ordered = np.sort(_outer(given) if len(given) > MANY else given)
     ordered = ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
     corners = ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
     return np.stack([corners.real, corners.imag], axis=1)
+
+
+def _outer(points: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """The points that do not lie clearly inside the polygon of those farthest in some directions."""
+    along = np.outer(points.real, _DIRECTIONS.real) + np.outer(points.imag, _DIRECTIONS.imag)
+    ring = points[along.argmax(axis=0)]
+    side = np.roll(ring, -1) - ring
+    ring, side = ring[side != 0.0], side[side != 0.0]
+    normal = 1j * side / np.abs(side)
+    depth = np.outer(points.real, normal.real) + np.outer(points.imag, normal.imag)
+    edge = ring.real * normal.real + ring.imag * normal.imag + 1e-12 * np.abs(points).max()
+    return points if len(side) < 3 else points[~(depth > edge).all(axis=1)]
 
 
 def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
