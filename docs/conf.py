@@ -40,7 +40,9 @@ COUNTERPARTS = {
     "en/how-to/model": "zh/model", "en/how-to/drawings": "zh/drawings", "en/how-to/gears": "zh/gears",
     "en/how-to/cams": "zh/cams", "en/how-to/worked": "zh/worked", "en/how-to/report": "zh/report",
     "en/how-to/course": "zh/course", "en/how-to/export": "zh/export", "en/how-to/machine": "zh/machine",
-    "en/how-to/synthesis": "zh/synthesis", "en/how-to/parts": "zh/parts", "en/theory/dyads": "zh/dyads",
+    "en/how-to/synthesis": "zh/synthesis", "en/how-to/parts": "zh/parts",
+    "en/how-to/studio": "zh/studio", "en/how-to/optimisation": "zh/optimisation",
+    "en/cases/jaw_crusher": "zh/cases",
 }  # fmt: skip
 
 
