@@ -1,8 +1,12 @@
 """Settings of the documentation."""
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
+
+from docutils.nodes import SkipNode
+from latex2mathml.converter import convert
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -22,6 +26,7 @@ templates_path = ["_templates"]
 html_static_path = ["_static"]
 html_css_files = ["linkwright.css"]
 html_theme = "furo"
+html_math_renderer = "mathml"
 html_title = "Linkwright"
 html_show_sourcelink = False
 html_copy_source = False
@@ -35,6 +40,8 @@ html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#1565c0", "color-brand-content": "#1565c0"},
     "dark_css_variables": {"color-brand-primary": "#7cb8ff", "color-brand-content": "#7cb8ff"},
 }
+#: A Chinese character or mark.
+CHINESE = "[\u3001-\u3011\u4e00-\u9fff\uff01-\uff1f]"
 #: Pages that have another name in the other language.
 COUNTERPARTS = {
     "en/how-to/model": "zh/model", "en/how-to/drawings": "zh/drawings", "en/how-to/gears": "zh/gears",
@@ -65,5 +72,24 @@ def language_link(app: Any, name: str, template: str, context: dict[str, Any], d
     context["other_page"], context["other_language"] = page, {"zh": "中文", "en": "English"}[language]
 
 
+def inline_formula(page: Any, node: Any) -> None:
+    """A formula within a line as MathML, which browsers show without scripts."""
+    page.body.append(convert(node.astext()))
+    raise SkipNode
+
+
+def formula(page: Any, node: Any) -> None:
+    """A formula on lines of its own."""
+    page.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    raise SkipNode
+
+
+def joined_lines(app: Any, name: str, source: list[str]) -> None:
+    """Chinese lines of one paragraph follow each other without a space."""
+    source[0] = re.sub(rf"(?<={CHINESE})\n(?={CHINESE})", "", source[0])
+
+
 def setup(app: Any) -> None:
     app.connect("html-page-context", language_link)
+    app.connect("source-read", joined_lines)
+    app.add_html_math_renderer("mathml", (inline_formula, None), (formula, None))
