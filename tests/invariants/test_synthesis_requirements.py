@@ -94,3 +94,16 @@ def test_straight_lines_are_as_straight_as_they_say() -> None:
         off = np.abs(chord[0] * (path - path[0])[:, 1] - chord[1] * (path - path[0])[:, 0]) / 0.1
         assert off.max() == pytest.approx(each.error, rel=0.05, abs=1e-9)
         assert each.error <= 2e-4
+
+
+@pytest.mark.parametrize("k", [1.1, 2.4, 4.2, 7.0])
+def test_the_ram_has_its_stroke_and_the_lever_its_ratio(k: float) -> None:
+    """By the solver over the cycle, also where the swing is so large that a short rod would turn the ram back."""
+    found = lw.synthesize("quick_return", quick_return_ratio=k, frame=0.4, stroke=0.5)
+    motion = lw.solve_motion(found.best.mechanism(), steps=7200)
+    assert np.ptp(motion.point("F").position[:, 0]) == pytest.approx(0.5, rel=2e-6)
+    swing = np.unwrap(motion.link("lever").angle)
+    share = abs(int(swing.argmax()) - int(swing.argmin())) / 7200
+    assert max(share, 1 - share) / min(share, 1 - share) == pytest.approx(k, rel=5e-3)
+    with pytest.raises(lw.SynthesisError, match="the rod is too short"):
+        lw.synthesize("quick_return", quick_return_ratio=k, frame=0.4, stroke=0.5, rod=1e-3)

@@ -116,11 +116,12 @@ def quick_return(
     """A crank with a slotted lever (RPR): crank r = d sin(θ/2), the lever swings θ = π (K - 1)/(K + 1).
 
     With a ``stroke`` (m) the lever's arm is H / (2 sin(θ/2)), and a ram on a guide across the lever's middle position
-    follows it by a rod (default: half the arm); the guide halves the sagitta of the arm's end, which makes the
-    largest pressure angle smallest. ``frame``: distance of the pivots, m.
+    follows it by a rod (default: half the arm or more); the guide halves the sagitta s of the arm's end, which makes
+    the largest pressure angle smallest. A rod shorter than s / (2 cos(θ/2)) would turn the ram back before the lever.
+    ``frame``: distance of the pivots, m.
 
     Raises:
-        SynthesisError: K ≤ 1, or so large that the crank is as long as the frame.
+        SynthesisError: K ≤ 1, or so large that the crank is as long as the frame; a rod that is too short.
     """
     positive(frame=frame)
     not_negative(stroke=stroke, rod=rod)
@@ -139,10 +140,11 @@ def quick_return(
     points["E"] = -1j * frame + arm * lever
     if stroke:
         height = arm * (1 + math.cos(theta / 2)) / 2
-        length = rod or arm / 2
         sink = points["E"].imag + frame - height
-        if length <= abs(arm - height) * (1 + 1e-9):
-            raise refuse("quick_return.rod", least=f"{abs(arm - height):.6g}")
+        least = (arm - height) / math.cos(theta / 2)
+        length = rod or max(arm / 2, 1.1 * least)
+        if length < least * (1 - 1e-9):
+            raise refuse("quick_return.rod", least=f"{least:.6g}")
         points["F"] = complex(points["E"].real + math.sqrt(length**2 - sink**2), height - frame)
         links |= {"link": ("E", "F"), "ram": ("F",)}
         guides["guide"] = Guide("frame", "O3", 0.0, "ram", "F", height)

@@ -99,7 +99,7 @@ linkwright synthesize press.yaml --json""",
     "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio",
     "quick_return.most": "K = {given} asks for a crank as long as its distance from the lever's pivot; "
     "ask for a smaller quick-return ratio",
-    "quick_return.rod": "the rod cannot reach the guide; it must be longer than {least} m",
+    "quick_return.rod": "the rod is too short: the ram would turn back before the lever does; give {least} m or more",
     "drag_link.one": "a drag link for quick return has K > 1; ask for a larger quick-return ratio",
     "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or "
     "allow a larger "
