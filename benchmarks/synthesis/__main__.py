@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 import linkwright as lw
-from benchmarks.synthesis.cases import Case, hidden, published
+from benchmarks.synthesis.cases import NINE, Case, hidden, published
 from benchmarks.synthesis.others import OTHERS, Best, Enough
 
 GOAL = 1e-3
@@ -26,21 +26,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--others", type=int, default=5, help="hidden four-bars given to the other optimisers"
     )
     parser.add_argument("--limit", type=float, default=30.0, help="seconds for each of them")
-    parser.add_argument("--nine", type=int, default=0, help="hidden four-bars of nine points")
+    parser.add_argument("--nine", type=int, default=0, help="hidden four-bars of nine points, of each kind")
+    parser.add_argument(
+        "--loops", type=int, default=0, help="triangles around which the start set is carried"
+    )
     options = parser.parse_args(arguments)
     warnings.simplefilter("ignore")
-    for case in published():
+    for case in published() if options.seeds else ():
         print(_published(case, options.seeds), flush=True)
     print(_poses(1000), flush=True)
-    times = [_ours(hidden(seed)) for seed in range(options.hidden)]
-    reached = sum(error <= GOAL for error, _ in times)
-    seconds = [each for _, each in times]
-    print(f"hidden four-bars, 36 timed points: {reached} of {len(times)} within 0.1 %, "
-          f"median {np.median(seconds):.3f} CPU s, slowest {max(seconds):.3f} CPU s", flush=True)  # fmt: skip
-    for name in OTHERS:
+    if options.hidden:
+        print(_hidden(options.hidden), flush=True)
+    for name in OTHERS if options.others else ():
         print(_other(name, options.others, options.limit), flush=True)
-    if options.nine:
-        print(_nine(options.nine), flush=True)
+    for kind in NINE if options.nine else ():
+        print(_nine(options.nine, kind), flush=True)
+    if options.loops:
+        print(_loops(options.loops), flush=True)
     return 0
 
 
@@ -58,6 +60,17 @@ def _published(case: Case, seeds: int) -> str:
         f"{reached} of {seeds} seeds; median {np.median(seconds):.2f} CPU s; μ "
         f"{math.degrees(best.transmission_angle):.1f}°; "
         f"defects {', '.join(best.defects) or 'none'}"
+    )
+
+
+def _hidden(count: int) -> str:
+    _ours(hidden(0))
+    times = [_ours(hidden(seed)) for seed in range(count)]
+    reached = sum(error <= GOAL for error, _ in times)
+    seconds, worst = [each for _, each in times], max(error for error, _ in times)
+    return (
+        f"hidden four-bars, 36 timed points: {reached} of {count} within 0.1 %, worst error {worst:.2g}, "
+        f"median {np.median(seconds):.3f} CPU s, slowest {max(seconds):.3f} CPU s"
     )
 
 
@@ -115,23 +128,51 @@ def _poses(count: int) -> str:
     return f"five poses: {hits} of {count} hidden ones found, {each:.3f} ms each"
 
 
-def _nine(count: int) -> str:
-    """Nine points of hidden crank-rockers: are all classes found, and the hidden one among them?"""
-    from linkwright.synthesis.nine_points.classes import is_real
+def _nine(count: int, kind: str) -> str:
+    """Nine points of hidden four-bars: are all classes found, and the hidden one among the real ones?"""
+    from linkwright.synthesis.nine_points.classes import class_keys, is_real
     from linkwright.synthesis.nine_points.query import nine_points
 
-    complete = found = 0
+    complete = found = lost = 0
     seconds = []
     for seed in range(count):
-        points = hidden(seed, 9).points
+        points, dyads = NINE[kind](seed)
         begin = time.process_time()
         result = nine_points(points)
         seconds.append(time.process_time() - begin)
         complete += result.complete
-        found += bool(is_real(result.solutions).any())
+        lost += result.lost
+        wanted = class_keys(np.concatenate([dyads / result.scale, np.zeros(8)])[None])
+        real = result.solutions[is_real(result.solutions)]
+        found += bool(len(real)) and bool(np.abs(class_keys(real) - wanted).min() < 1e-6)
     return (
-        f"nine points: all 1442 classes in {complete} of {count}, real ones in {found}, "
-        f"median {np.median(seconds):.2f} CPU s"
+        f"nine points, {kind}: the hidden four-bar found in {found} of {count}, all 1442 classes in {complete}, "
+        f"{lost} paths lost at first, median {np.median(seconds):.2f} CPU s, slowest {max(seconds):.2f} CPU s"
+    )
+
+
+def _loops(count: int) -> str:
+    """Saturation: the start set carried around random triangles comes back to itself.
+
+    Were classes missing, a loop that permutes all classes freely would leave the known ones among themselves with a
+    probability of 1/1443 at most.
+    """
+    from linkwright.synthesis.nine_points.classes import class_keys, new_classes
+    from linkwright.synthesis.nine_points.start import around, start_set
+
+    q, u = start_set()
+    new = twice = lost = moved = 0
+    begin = time.process_time()
+    for seed in range(count):
+        ends, missing = around(q, u, np.random.default_rng(seed))
+        new += len(new_classes(ends, class_keys(u)))
+        twice += len(ends) - len(new_classes(ends, np.empty(0, complex)))
+        lost += missing
+        moved += int((np.abs(class_keys(ends[: len(u)]) - class_keys(u)[: len(ends)]) > 1e-6).sum())
+    seconds = time.process_time() - begin
+    return (
+        f"start set around {count} triangles: {3 * count * len(u)} paths, {new} new classes, {twice} ends twice, "
+        f"{lost} lost, {moved / count:.0f} of {len(u)} classes exchanged each time; {seconds:.1f} CPU s"
     )
 
 

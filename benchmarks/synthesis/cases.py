@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.synthesis.nine_points.start import displacements
+
 Complexes = NDArray[np.complex128]
 
 FIVE = [3 + 3j, 2.759 + 3.363j, 2.372 + 3.663j, 1.89 + 3.862j, 1.355 + 3.943j]
@@ -71,3 +73,39 @@ def hidden(seed: int, count: int = 36) -> Case:
         *rng.uniform(-3, 3, 2)
     )
     return Case(f"hidden {seed}", path, {"angles": theta})
+
+
+def nine_in_order(seed: int) -> tuple[Complexes, Complexes]:
+    """Nine points of a hidden crank-rocker in order, and its dyads (x, X, w, W, y, Y, v, V) at the first point."""
+    rng = np.random.default_rng(2000 + seed)
+    while True:
+        d, a, b, c = np.exp(rng.normal(size=4) * 0.5)
+        lengths = np.sort([a, b, c, d])
+        if lengths[0] == a and lengths[0] + lengths[3] < 0.97 * (lengths[1] + lengths[2]):
+            break
+    pin = a * np.exp(2j * np.pi * (np.arange(9) + 0.6 * rng.random(9)) / 9)
+    reach = np.abs(d - pin)
+    cosine = (b * b + reach**2 - c * c) / (2 * b * reach)
+    turn = (d - pin) / reach * (cosine + 1j * np.sqrt(1 - cosine**2))
+    path = pin + b * complex(*rng.normal(size=2)) * turn
+    x, y = pin[0] - path[0], pin[0] + b * turn[0] - path[0]
+    return path, _with_conjugates(np.array([x, -path[0] - x, y, d - path[0] - y]))
+
+
+def nine_scattered(seed: int) -> tuple[Complexes, Complexes]:
+    """Nine points anywhere on the curve of a hidden four-bar, on either branch, and its dyads."""
+    rng = np.random.default_rng(3000 + seed)
+    while True:
+        dyads = _with_conjugates(rng.normal(size=4) + 1j * rng.normal(size=4))
+        g = np.exp(2j * np.pi * rng.random(400)) - 1
+        d, e = displacements(dyads, g, rng.choice([-1, 1], 400))
+        d = d[np.abs(e - d.conj()) < 1e-9 * (1 + np.abs(d))]
+        if len(d) >= 8:
+            return np.concatenate([[0], d[:8]]), dyads
+
+
+def _with_conjugates(z: Complexes) -> Complexes:
+    return np.stack([z, z.conj()], 1).ravel()
+
+
+NINE = {"crank-rockers in order": nine_in_order, "scattered points": nine_scattered}

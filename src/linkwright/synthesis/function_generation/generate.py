@@ -203,9 +203,9 @@ def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: i
     if not chosen:
         raise refuse("function.none", linkage=generator.name)
     name = "angle" if generator.output_is_angle else "length"
-    return Synthesis(
-        "function", chosen, name, np.stack([demand.inputs, demand.outputs]), {"optima": len(made)}
-    )
+    notes = (note("function.sampled", within=FINE, turn=2 * FINE),)
+    target = np.stack([demand.inputs, demand.outputs])
+    return Synthesis("function", chosen, name, target, {"optima": len(made)}, notes)
 
 
 def _candidate(

@@ -24,8 +24,10 @@ TIMED, UNTIMED = (4000, 256, 32), (20000, 1536, 128)
 IN_ARRAYS = (3000, 64, 16), (16000, 256, 16)
 #: Steps before the worse half is given up, and to the end.
 FIRST_STEPS, LAST_STEPS = 15, 500
+#: Sum of squares, in units of the size squared, below which no other basin is sought.
+EXACT = 1e-24
 #: Rounds within a bound: steps, rounds, starts kept, greatest weight of the bound, which doubles from FIRST_WEIGHT.
-ROUNDS = ((12, 12, 24, 100.0), (40, 40, 8, 100.0))
+ROUNDS = ((12, 12, 24, 100.0), (40, 40, 8, 100.0), (150, 20, 3, 100.0))
 FIRST_WEIGHT, INSIDE = 0.1, 0.97
 
 
@@ -51,6 +53,8 @@ def search(
         return _bounded(paths, kept)
     paths = paths.best(kept)
     while len(paths.starts) > last:
+        if paths.deviation[0] < EXACT:
+            paths = paths.best(last)
         paths = paths.iterated(FIRST_STEPS).best(max(last, len(paths.starts) // 2))
     return _found(paths.iterated(LAST_STEPS).best(last))
 

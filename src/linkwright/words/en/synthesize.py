@@ -175,6 +175,8 @@ linkwright synthesize press.yaml --json""",
     "solution has a greatest error of {error}",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
     "{why}",
+    "function.sampled": "defects and transmission angles were looked at in {within} positions between the first and "
+    "last input ({turn} of a turn), not proved in between",
     "function.free": "zero angles: input {input} deg, output {output}",
     "free_curve.measure": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
     "whole turn, every joint within {size} rms radii of the curve's centroid. drawn_as_given: 1 where the curve is "

@@ -145,6 +145,7 @@ linkwright synthesize press.yaml --json""",
     "function.exact": "没有具有所给零位角、精确满足全部 {count} 个位置的实 {linkage}；最近的解最大误差 "
     "{error}",
     "function.no_movable": "精确满足各位置的 {linkage} 都有缺陷；最好的方案有：{why}",
+    "function.sampled": "缺陷与传动角是在首末输入之间的 {within} 个位置（整转时 {turn} 个）上检查的，其间未予证明",
     "function.free": "零位角：输入 {input} deg，输出 {output}",
     "free_curve.measure": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
     "不超过 {size} 个均方根半径。drawn_as_given：1 表示按所给点的次序画出，0 表示反向；"
