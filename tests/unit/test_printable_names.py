@@ -10,7 +10,7 @@ import linkwright as lw
 from linkwright.plot import plot
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import draw
-from linkwright.plot.svg.characters import one_line, printable
+from linkwright.words.characters import one_line, printable
 
 NAME = "a\x01b\ufffe\uffff\x1b[31m\x85 <&> %%c"
 LEFT = "ab[31m <&> %%c"

@@ -14,7 +14,7 @@ from linkwright.cli import main
 from linkwright.cli.tables import csv_of
 from linkwright.core.expressions import parse_quantity
 from linkwright.errors import QuantityError
-from linkwright.words.carried import terminal_text
+from linkwright.words.characters import terminal_text
 
 LENGTH, FORCE, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["force"], units.NONE
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from linkwright.cli.errors import OutputError
 from linkwright.errors import Finding
 from linkwright.words import Say
-from linkwright.words.carried import terminal_text
+from linkwright.words.characters import terminal_text
 from linkwright.words.sentence import Sentence
 
 #: Width of tables where there is no terminal, as in a pipe or a file.

@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import refuse_existing, write_whole
 from linkwright.cli.session import Session
 from linkwright.words import Say
-from linkwright.words.carried import cell_text
+from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
     from linkwright.optimisation.optimum import Optimum

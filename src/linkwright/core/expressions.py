@@ -27,6 +27,8 @@ from linkwright.core.expression_tree import (
     evaluate,
     scalar_functions,
 )
+from linkwright.engine import trace
+from linkwright.engine.trace import Scalar
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence
@@ -434,3 +436,29 @@ class _Parser:
                 column,
             )
         return Call(name, tuple(arguments), column)
+
+
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "sin": trace.sin,
+    "cos": trace.cos,
+    "tan": trace.tan,
+    "asin": trace.asin,
+    "acos": trace.acos,
+    "atan": trace.atan,
+    "atan2": trace.angle,
+    "sqrt": trace.sqrt,
+    "abs": trace.absolute,
+    "exp": trace.exp,
+    "log": trace.log,
+    "min": trace.minimum,
+    "max": trace.maximum,
+    "sign": trace.sign,
+    "step": lambda x: trace.select(x >= 0.0, 1.0, 0.0),
+    "pow": trace.power,
+}
+
+
+def traced(expression: Expression, value: Callable[[str], Scalar]) -> Scalar:
+    """The expression over traced values of its names."""
+    result: Scalar = expression.evaluate({name: value(name) for name in expression.names}, _FUNCTIONS)
+    return result

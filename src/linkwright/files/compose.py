@@ -20,7 +20,7 @@ from yaml.events import (
 from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.events import Source, event_reader
 from linkwright.files.syntax import explain, tab_remarks
-from linkwright.words.carried import UNFIT
+from linkwright.words.characters import UNFIT
 from linkwright.words.sentence import Sentence
 
 _KINDS = ("str", "int", "float", "map", "seq", "null")

@@ -22,9 +22,9 @@ from linkwright.units import number
 if TYPE_CHECKING:
     from linkwright.kinematics.groups import GroupTracer
     from linkwright.structure.group import Group
-    from linkwright.worked.book import Spot
     from linkwright.worked.page import Step
     from linkwright.worked.places import Places
+    from linkwright.worked.symbols import Spot
 
 
 @dataclass(frozen=True)

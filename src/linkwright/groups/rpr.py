@@ -13,9 +13,9 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.structure.group import Group
-    from linkwright.worked.book import Spot
     from linkwright.worked.page import Step
     from linkwright.worked.places import Places
+    from linkwright.worked.symbols import Spot
 
 
 @DYADS.register("RPR")

@@ -21,8 +21,8 @@ from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
-from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
 

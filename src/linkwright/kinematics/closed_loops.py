@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import closed_form, whole_form
-from linkwright.kinematics.size import mechanism_size
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 

@@ -1,4 +1,4 @@
-"""Closure of a group at its cut joints: the Jacobian of their equations."""
+"""A group's joints in the trace: those of its chains, its cuts, and the Jacobian of the cuts' equations."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.joints.base import Cut
-from linkwright.joints.pose import Pose
+from linkwright.joints.base import Cut, Pair
+from linkwright.joints.pose import Pose, Rotor
 from linkwright.kinematics.dimensions import Dimensions
-from linkwright.kinematics.pairs import pair_of
 from linkwright.structure.group import Connection, Group, TreeJoint
 
 
@@ -59,3 +58,11 @@ def _end_shift(step: TreeJoint, end: str, cut: Cut, poses: Mapping[str, Pose], d
     if step.turns and step.child == end:
         return cut.arm(end, poses).perp
     return _shift(step, cut.place(end, poses), poses, dimensions)
+
+
+Coordinate = Rotor | Scalar | None
+
+
+def pair_of(step: TreeJoint, dimensions: Dimensions) -> Pair:
+    """The traced form of a chain's joint."""
+    return dimensions.mechanism.joints[step.joint].hang(step, dimensions)

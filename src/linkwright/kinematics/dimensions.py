@@ -44,7 +44,7 @@ class Dimensions:
 
     def _from_expression(self, address: str) -> Scalar:
         """The traced value of an expression; parameters that follow others are traced in their order, once."""
-        from linkwright.core.traced_expressions import traced
+        from linkwright.core.expressions import traced
 
         expressions = self.mechanism.expressions
         waiting, needed = [address], set[str]()

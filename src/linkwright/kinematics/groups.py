@@ -13,11 +13,10 @@ from linkwright.groups.base import DYADS, Chain, Dyad, WholeGroup
 from linkwright.joints.base import JOINTS, Cut
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
 from linkwright.kinematics.angles import Angles, geared
-from linkwright.kinematics.closure import cut_of, jacobian
+from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.inputs import DriverInput
-from linkwright.kinematics.pairs import Coordinate, pair_of
-from linkwright.kinematics.size import mechanism_size
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure.group import Group, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.

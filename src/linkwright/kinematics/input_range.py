@@ -15,8 +15,8 @@ from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
-from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.structure.group import Group

@@ -22,8 +22,8 @@ from linkwright.joints.rack import RackPair
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
-from linkwright.kinematics.size import mechanism_size
 from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler

@@ -8,7 +8,7 @@ from collections.abc import Hashable, Mapping
 from typing import Any
 
 from linkwright.core.expressions import Expression
-from linkwright.kinematics.size import mechanism_size
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Link, Mechanism
 
 _NUMBER = "#"

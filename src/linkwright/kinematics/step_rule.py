@@ -12,10 +12,10 @@ from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, re
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor
 from linkwright.kinematics.branch import CORRECTION, MISFIT
+from linkwright.kinematics.closure import Coordinate
 from linkwright.kinematics.groups import Placed, carried, moved, state_name
-from linkwright.kinematics.pairs import Coordinate
-from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.trace import MotionTrace
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure.group import TreeJoint
 
 #: Largest change of a coordinate in one step, rad or share of the size.

@@ -16,8 +16,8 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.joints.base import Cut
 from linkwright.joints.pose import Pose
+from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.groups import Placed
-from linkwright.kinematics.pairs import pair_of
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import ACTS, TracedSite
 from linkwright.loads.site import Wrench

@@ -9,8 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from linkwright.core.expression_tree import Number
-from linkwright.core.expressions import Expression
-from linkwright.core.traced_expressions import traced
+from linkwright.core.expressions import Expression, traced
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.loads.base import Load

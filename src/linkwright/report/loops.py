@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from linkwright.report.case import Case
 from linkwright.structure.group import Group
-from linkwright.worked.book import Book, tex
 from linkwright.worked.chains import Chain, closures
+from linkwright.worked.symbols import Book, tex
 
 #: Joints whose closure is a sum of vectors; that of others, such as gears, stands among the formulas.
 VECTORS = ("revolute", "prismatic")

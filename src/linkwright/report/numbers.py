@@ -12,7 +12,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
 from linkwright.words import Say
-from linkwright.worked.book import tex
+from linkwright.worked.symbols import tex
 
 #: Significant digits of the largest number of a column.
 DIGITS = 6

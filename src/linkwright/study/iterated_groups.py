@@ -14,9 +14,9 @@ from linkwright.engine.sweep import Backend, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
-from linkwright.kinematics.size import mechanism_size
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import trace_motion
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
 

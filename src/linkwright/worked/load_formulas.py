@@ -12,8 +12,8 @@ from linkwright.loads.pressure import Pressure
 from linkwright.loads.spring import Spring
 from linkwright.loads.torsion_damper import TorsionDamper
 from linkwright.loads.torsion_spring import TorsionSpring
-from linkwright.worked.book import Book, tex
 from linkwright.worked.page import Step
+from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import FOUR, NOWHERE, Pair, Term, root, symbol
 
 #: Shorter than this (m) a spring or damper has no direction.

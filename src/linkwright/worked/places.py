@@ -7,9 +7,9 @@ import math
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.structure.group import Group, TreeJoint
-from linkwright.worked.book import Book, Slide, Spot, tex
-from linkwright.worked.chains import attach
+from linkwright.worked.chains import Trail, attach, trail
 from linkwright.worked.page import Step
+from linkwright.worked.symbols import Book, Slide, Spot, tex
 from linkwright.worked.terms import (
     FOUR,
     NOWHERE,
@@ -24,7 +24,6 @@ from linkwright.worked.terms import (
     sine,
     symbol,
 )
-from linkwright.worked.trail import Trail, trail
 
 
 class Places:

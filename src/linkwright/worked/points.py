@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.structure.group import Group, TreeJoint
-from linkwright.worked.book import Book, Slide, Spot
-from linkwright.worked.chains import attach
+from linkwright.worked.chains import attach, turned
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
+from linkwright.worked.symbols import Book, Slide, Spot
 from linkwright.worked.terms import TWO, Pair, Term, number, symbol
-from linkwright.worked.trail import turned
 
 
 def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:

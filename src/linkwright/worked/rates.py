@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.structure.group import Group
-from linkwright.worked.book import Book, tex
 from linkwright.worked.chains import Closure, Drift, bends, drift, matrix, unknown_names
 from linkwright.worked.page import Step
+from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, symbol, total
 
 

@@ -11,11 +11,11 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.structure.group import Connection, Group, TreeJoint
-from linkwright.worked.book import Book, tex
+from linkwright.worked.applied import Known, KnownForces
 from linkwright.worked.chains import attach, closures
-from linkwright.worked.known import Known, KnownForces
 from linkwright.worked.page import Step
 from linkwright.worked.rates import name_matrix, solve
+from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
 from linkwright.worked.wheels import Wheels
 

@@ -15,12 +15,12 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
 from linkwright.words import LANGUAGES, speaker
 from linkwright.words.sentence import Sentence
-from linkwright.worked.book import Book
 from linkwright.worked.chains import closures
 from linkwright.worked.page import Equation, Step
 from linkwright.worked.places import Places
 from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked.rates import RateWriter, System
+from linkwright.worked.symbols import Book
 from linkwright.worked.text import page
 from linkwright.worked.wheels import Wheels
 

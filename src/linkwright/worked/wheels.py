@@ -9,9 +9,9 @@ import numpy as np
 
 from linkwright.joints.base import Contact
 from linkwright.structure.group import Connection, Group, TreeJoint
-from linkwright.worked.book import Book, tex
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
+from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import ZERO, Pair, Term, cosine, number, root, sine, symbol, total
 
 

@@ -17,9 +17,9 @@ from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.characters import one_line
 from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import PIN, Vec, points
+from linkwright.words.characters import one_line
 from linkwright.words.sentence import Sentence
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a

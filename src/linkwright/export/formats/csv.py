@@ -8,7 +8,7 @@ import io
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
-from linkwright.words.carried import cell_text
+from linkwright.words.characters import cell_text
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:

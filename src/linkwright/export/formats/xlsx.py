@@ -14,9 +14,9 @@ from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
-from linkwright.plot.svg.characters import printable
 from linkwright.units import si_symbol
 from linkwright.words import say
+from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
 
 Cell = str | float | int | bool | None

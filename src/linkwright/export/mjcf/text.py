@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from linkwright.kinematics.motion import Motion
-from linkwright.plot.svg.characters import printable
+from linkwright.words.characters import printable
 
 
 def numbers(values: Iterable[float]) -> str:

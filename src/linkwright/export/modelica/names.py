@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from linkwright.plot.svg.characters import one_line, printable
+from linkwright.words.characters import one_line, printable
 
 
 def number(value: float) -> str:

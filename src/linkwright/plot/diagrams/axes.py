@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.plot.diagrams.picture import INK
-from linkwright.plot.svg.characters import printable
+from linkwright.words.characters import printable
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -13,10 +13,10 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
-from linkwright.plot.svg.characters import printable
 from linkwright.registry import listed
 from linkwright.units import parse
 from linkwright.words import LANGUAGES
+from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.plot.svg.characters import printable
+from linkwright.words.characters import printable
 
 Floats = NDArray[np.float64]
 Attribute = str | float

@@ -19,7 +19,7 @@ from linkwright.report.section import SECTIONS, Section
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import has
 from linkwright.words.sentence import Sentence
-from linkwright.worked.book import tex
+from linkwright.worked.symbols import tex
 
 
 @SECTIONS.register("gears")

@@ -11,9 +11,9 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
 from linkwright.kinetostatics.forces import Forces
-from linkwright.worked.book import Book, Spot, tex
 from linkwright.worked.load_formulas import LoadFormulas
 from linkwright.worked.page import Step
+from linkwright.worked.symbols import Book, Spot, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
 
 

@@ -21,3 +21,13 @@ def cell_text(text: str) -> str:
     Numbers are no texts and stay as they are.
     """
     return f"'{text}" if _FORMULA.match(text) else text
+
+
+def printable(text: str) -> str:
+    """A text without what neither XML nor a font can hold; tabs and line ends stay."""
+    return UNFIT.sub("", text)
+
+
+def one_line(text: str) -> str:
+    """A printable text on one line."""
+    return " ".join(printable(text).split())
