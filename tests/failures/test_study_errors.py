@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.errors import RequestError
 from linkwright.study import sensitivity, sweep
 from linkwright.study.compare import compare
 from linkwright.study.study import study
@@ -168,3 +169,38 @@ def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:
     )
     assert all(row.values[0] is None for row in found.rows if row.criterion.name == "flywheel")
     assert any("mean torque" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("load", ["no output 'load'"]),
+        ("load nothing", ["no output 'load nothing'"]),
+        ("load crushing x", ["no output 'load crushing x'"]),
+        ("transmission_angle", ["no output 'transmission_angle'"]),
+        ("transmission_angle B x", ["no output 'transmission_angle B x'"]),
+        ("transmission_angle nope", ["'nope' is not the inner joint of a group", "B, C"]),
+        ("closeness nope", ["'nope' is not the inner joint of a group"]),
+        ("conditioning a b", ["no output 'conditioning a b'"]),
+        ("reaction B", ["say on which link"]),
+        ("reaction B nope", ['did you mean "reaction B on']),
+        ("reaction C toggle z", ["no output 'reaction C toggle z'"]),
+        ("couple nope", ["no output 'couple nope'"]),
+        ("shaking_force z", ['did you mean "shaking_force"']),
+        ("jaw.nope", ['did you mean "jaw.angle"']),
+        ("jaw.angle.x", ["no point of link jaw", "O5, C, D"]),
+        ("nope.x", ['no point "nope"']),
+    ],
+)
+def test_numbers_that_a_machine_does_not_have_are_requests(name: str, words: list[str]) -> None:
+    with pytest.raises(RequestError) as caught:
+        sweep(lw.load(SIX), {"crank.length": np.array([0.09])}, outputs=[f"{name} max"], steps=12)
+    assert all(each in str(caught.value) for each in words)
+
+
+def test_values_of_a_comparison_that_it_does_not_have() -> None:
+    found = compare([SIX, FOUR], metrics=["travel"], steps=24)
+    assert "'peak_reaction' is not among the compared metrics" in said(
+        lambda: found.value("peak_reaction", 0)
+    )
+    assert "no alternative 'nope'" in said(lambda: found.value("travel", "nope"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
@@ -22,7 +22,7 @@ def owners(mechanism: Mechanism, point: str) -> list[str]:
 def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
     """Link and point for ``C`` or ``jaw.C``.
 
-    Raises LinkwrightError for an unknown name (nearest names offered), and for a name that several links use
+    Raises RequestError for an unknown name (nearest names offered), and for a name that several links use
     for different points.
     """
     if "." in name:
@@ -32,7 +32,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         points = mechanism.link(link).points
         if point not in points:
             hint = offered(point, points)
-            raise LinkwrightError(Sentence("names.no_such_point", link=link, name=point, hint=hint))
+            raise RequestError(Sentence("names.no_such_point", link=link, name=point, hint=hint))
         return link, point
     found = owners(mechanism, name)
     if not found:
@@ -49,5 +49,5 @@ def canonical(mechanism: Mechanism, link: str, point: str) -> str:
     return point if link in mechanism.pin_links(point) else f"{link}.{point}"
 
 
-def _unknown(noun: str, name: str, known: list[str]) -> LinkwrightError:
-    return LinkwrightError(no_such(noun, name, known))
+def _unknown(noun: str, name: str, known: list[str]) -> RequestError:
+    return RequestError(no_such(noun, name, known))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import RequestError
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
@@ -115,7 +115,7 @@ class Named:
         self.middle = middle
 
     def quantity(self, name: str) -> Quantity:
-        """The output of that name; raises LinkwrightError with the nearest known name."""
+        """The output of that name; raises RequestError with the nearest known name."""
         words = name.split()
         if words and words[0] in _PHRASES:
             return _PHRASES[words[0]](self, name, words[1:])
@@ -349,10 +349,10 @@ class Named:
             )
         return rest[0], moving[0], axis
 
-    def _unknown(self, name: str) -> LinkwrightError:
+    def _unknown(self, name: str) -> RequestError:
         known = list(output_names(self.mechanism))
         hint = offered(name, known, "study.such_as", most=6)
-        return LinkwrightError(
+        return RequestError(
             Sentence("study.no_such_output", name=name, mechanism=self.mechanism.name, hint=hint)
         )
 
