@@ -175,7 +175,7 @@ def plain(text: str) -> str:
     return "".join(part for _, part in spans(text))
 
 
-def _longest_word(text: str) -> int:
+def longest_part(text: str) -> int:
     """Characters of the longest part of a text that does not break; a formula is one."""
     from linkwright.report.formula import formula, width
     from linkwright.words.width import cells
@@ -189,7 +189,7 @@ def fitted(table: Table, widest: int) -> Sequence[Table]:
     """A table in parts that are no wider than so many characters; the key columns come in each."""
 
     widths = [
-        2 + max(_longest_word(text) for text in (table.head[i], *(row[i] for row in table.rows)))
+        2 + max(longest_part(text) for text in (table.head[i], *(row[i] for row in table.rows)))
         for i in range(len(table.head))
     ]
     key, whole = sum(widths[: table.key]), sum(widths)

@@ -119,7 +119,9 @@ figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:10
 center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
 .note{background:#f4f4f4;border-left:3px solid #c8501e;\
 padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
-underline}@media print{figure{break-inside:avoid}}</style>"""
+underline}@media print{figure{break-inside:avoid}}body>div:not(.formula,.note){margin:1em 0}\
+@media screen and (prefers-color-scheme:dark){body{color:#dfe5ec;background:#15191e}figure img{background:#fff}\
+.note{background:#242a32}}</style>"""
 
 
 def pages(document: Document) -> tuple[str, dict[str, str]]:

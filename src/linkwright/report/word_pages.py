@@ -16,14 +16,21 @@ from linkwright.report.document import (
     Paragraph,
     Source,
     Table,
+    longest_part,
+    plain,
     spans,
 )
 from linkwright.report.formula import formula
-from linkwright.report.word_formula import equation
+from linkwright.report.word_formula import SPACE, equation
 from linkwright.words.sentence import Sentence
+from linkwright.words.width import cells
 
 #: Width of the text, inches; pictures' dots per inch.
-TEXT, DOTS = 6.3, 160.0
+TEXT, DOTS = 6.69, 160.0
+#: Width of a character of a table, inches.
+LETTER = 0.062
+#: What the margins of a cell take, inches; size of the letters of tables, points.
+GAP, SMALL = 0.18, 8
 #: Fonts by language: of Latin letters, of Chinese characters.
 FONTS = ("Cambria", "SimSun")
 
@@ -65,7 +72,7 @@ class _Writer:
 
         section = self.file.sections[0]
         section.page_width, section.page_height = Mm(210), Mm(297)
-        section.left_margin = section.right_margin = Mm(25)
+        section.left_margin = section.right_margin = Mm(20)
         section.top_margin = section.bottom_margin = Mm(22)
         for name in ("Normal", "Title", "Heading 1", "Heading 2", "Heading 3", "Heading 4", "Caption"):
             style = self.file.styles[name]
@@ -106,7 +113,10 @@ class _Writer:
             self._bookmark(line, index)
 
     def _caption(self, index: int, text: str) -> None:
+        from docx.enum.text import WD_ALIGN_PARAGRAPH
+
         line = self.file.add_paragraph(style="Caption")
+        line.alignment = WD_ALIGN_PARAGRAPH.CENTER
         line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table)
         line.add_run(f"{self.numbers.name(index)}  ")
         self._inline(line, text)
@@ -120,15 +130,18 @@ class _Writer:
         sides = {"<": WD_ALIGN_PARAGRAPH.LEFT, ">": WD_ALIGN_PARAGRAPH.RIGHT, "^": WD_ALIGN_PARAGRAPH.CENTER}
         self._caption(index, block.caption)
         grid = self.file.add_table(rows=1 + len(block.rows), cols=len(block.head))
-        grid.style = "Light Shading"
+        _ruled(grid, _widths(block))
         align = block.align or "<" * len(block.head)
-        for cells, row in zip((block.head, *block.rows), grid._tbl.tr_lst, strict=True):
-            for text, cell, mark in zip(cells, row.tc_lst, align, strict=True):
+        for number, (texts, row) in enumerate(zip((block.head, *block.rows), grid._tbl.tr_lst, strict=True)):
+            for text, cell, mark in zip(texts, row.tc_lst, align, strict=True):
                 line = self._cell(cell)
                 line.alignment = sides[mark]
+                line.paragraph_format.space_after = Pt(0)
                 self._inline(line, text)
+                _small(line)
                 for run in line.runs:
-                    run.font.size = Pt(8)
+                    run.font.size = Pt(SMALL)
+                    run.bold = True if number == 0 else run.bold
         repeated = grid.rows[0]._tr.get_or_add_trPr()
         repeated.append(repeated.makeelement(qn("w:tblHeader"), {}))
         self.file.add_paragraph()
@@ -139,11 +152,13 @@ class _Writer:
         return Line(cell.p_lst[0], self.file)
 
     def _figure(self, index: int, block: Figure) -> None:
+        from docx.enum.text import WD_ALIGN_PARAGRAPH
         from docx.shared import Inches, Mm
 
         from linkwright.plot.svg.render import png
 
         line = self.file.add_paragraph()
+        line.alignment = WD_ALIGN_PARAGRAPH.CENTER
         line.paragraph_format.keep_with_next = True
         for svg, share in block.pictures:
             wide = TEXT * min(share, 1.0)
@@ -182,6 +197,57 @@ class _Writer:
         end = line._p.makeelement(qn("w:bookmarkEnd"), {qn("w:id"): number})
         line._p.append(begin)
         line._p.append(end)
+
+
+def _widths(block: Table) -> list[float]:
+    """Widths of columns, inches: as their longest parts ask for, together no wider than the text."""
+    asked = [
+        GAP + LETTER * max(longest_part(row[i]) for row in (block.head, *block.rows))
+        for i in range(len(block.head))
+    ]
+    whole = [
+        GAP + LETTER * max(cells(plain(row[i])) for row in (block.head, *block.rows))
+        for i in range(len(block.head))
+    ]
+    spare = max(TEXT - sum(asked), 0.0)
+    wanted = sum(w - a for w, a in zip(whole, asked, strict=True) if w > a)
+    more = min(1.0, spare / wanted) if wanted else 0.0
+    found = [a + more * max(w - a, 0.0) for w, a in zip(whole, asked, strict=True)]
+    shrink = min(1.0, TEXT / sum(found))
+    return [shrink * each for each in found]
+
+
+def _small(line: Any) -> None:
+    """Sets the equations of a line in the size of tables."""
+    from docx.oxml import parse_xml
+    from docx.oxml.ns import nsdecls
+
+    for run in line._p.iter(f"{{{SPACE}}}r"):
+        look = parse_xml(f'<w:rPr {nsdecls("w")}><w:sz w:val="{2 * SMALL}"/></w:rPr>')
+        run.insert(len(run) - 1, look)
+
+
+def _ruled(grid: Any, widths: list[float]) -> None:
+    """Lines above and below a table and under its head; columns of these widths, inches."""
+    from docx.enum.table import WD_TABLE_ALIGNMENT
+    from docx.oxml import parse_xml
+    from docx.oxml.ns import nsdecls
+    from docx.shared import Inches
+
+    grid.alignment = WD_TABLE_ALIGNMENT.CENTER
+    grid.autofit = False
+    line = '<w:{} w:val="single" w:sz="{}" w:space="0" w:color="auto"/>'
+    borders = f"<w:tblBorders {nsdecls('w')}>{line.format('top', 8)}{line.format('bottom', 8)}</w:tblBorders>"
+    grid._tbl.tblPr.append(parse_xml(borders))
+    for column, wide in zip(grid.columns, widths, strict=True):
+        column.width = Inches(wide)
+    for number, row in enumerate(grid._tbl.tr_lst):
+        row.get_or_add_trPr().append(parse_xml(f"<w:cantSplit {nsdecls('w')}/>"))
+        for cell, wide in zip(row.tc_lst, widths, strict=True):
+            cell.width = Inches(wide)
+            if number == 0:
+                below = f"<w:tcBorders {nsdecls('w')}>{line.format('bottom', 6)}</w:tcBorders>"
+                cell.get_or_add_tcPr().append(parse_xml(below))
 
 
 def _written(text: str) -> str:
