@@ -34,13 +34,12 @@ from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
 M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
-#: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks, farthest
-#: node in radii of the curve.
-LIMIT, POSITIONS, RADIUS, REACH = 0.08, 72, 0.15, 8.0
+#: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
+LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
 #: Joints of each level, with the dyads, structures and draws of its atlas; the last level starts from the others.
-LEVELS = ((5, 1, 1, 44000), (8, 2, 100, 1800), (10, 3, 220, 1000))
-EDITION = 2
+LEVELS = ((5, 1, 1, 40000), (8, 2, 60, 1600), (10, 3, 150, 800))
+EDITION = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +157,7 @@ def _draws(nodes: Whole, draws: int, draw: np.random.Generator) -> tuple[Floats,
     x, z, radius = np.zeros((draws, size)), np.zeros((draws, M, 2)), np.zeros(draws)
     room = np.zeros(2 * joints * POSITIONS + 16)
     kernels()(
-        "draw_linkages", nodes.ctypes.data, joints, POSITIONS, x.ctypes.data, numbers.ctypes.data, LIMIT, REACH, M,
+        "draw_linkages", nodes.ctypes.data, joints, POSITIONS, x.ctypes.data, numbers.ctypes.data, LIMIT, M,
         z.ctypes.data, room.ctypes.data, draws, radius.ctypes.data,
     )  # fmt: skip
     good = radius > RADIUS

@@ -51,8 +51,8 @@ def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
 def shaken(design: Design, draw: Draw) -> Design:
     """Random steps in some of the numbers, now and then another branch of one dyad."""
     x, nodes = design.x.copy(), design.nodes.copy()
-    chosen = draw.random(len(x)) < draw.choice([0.2, 0.3, 0.6])
-    x += draw.normal(size=len(x)) * 10 ** draw.uniform(-2.4, -0.6) * chosen
+    chosen = draw.random(len(x)) < draw.choice([0.2, 0.5, 1.0])
+    x += draw.normal(size=len(x)) * 10 ** draw.uniform(-2, -0.4) * chosen
     x[-1] = min(max(x[-1], 0.35), 6.28)
     if draw.random() < 0.1:
         nodes[4 * int(draw.integers(2, design.joints)) + 3] *= -1

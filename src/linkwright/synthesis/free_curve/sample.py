@@ -93,30 +93,16 @@ def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: f
     return 1.0
 
 
-def reach(X: Reals, Y: Reals, count: int, N: int) -> float:
-    """Greatest distance of a node from the middle of the drawn curve."""
-    cx, cy, own, most = 0.0, 0.0, (count - 1) * N, 0.0
-    for t in range(own, own + N):
-        cx += X[t] / N
-        cy += Y[t] / N
-    for t in range(count * N):
-        most = max(most, (X[t] - cx) * (X[t] - cx) + (Y[t] - cy) * (Y[t] - cy))
-    return sqrt(most)
-
-
 def draw_linkages(
-    nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: float, size: float, M: int, Z: Reals,
-    room: Reals, draws: int, radius: Reals,
+    nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: float, M: int, Z: Reals, room: Reals,
+    draws: int, radius: Reals,
 ) -> None:  # fmt: skip
-    """Many of one structure with their curves; ``radius`` is negative where there is none, or a node lies farther
-    than ``size`` radii from the curve."""
-    entries, own = 2 * (count - 2), (count - 1) * N
+    """Many of one structure with their curves; ``radius`` is negative where there is none."""
+    size, own = 2 * (count - 2), (count - 1) * N
     for c in range(draws):
-        radius[c] = draw_linkage(nodes, count, N, x + c * entries, r + c * entries, limit, room)
+        radius[c] = draw_linkage(nodes, count, N, x + c * size, r + c * size, limit, room)
         if radius[c] > 0.0:
             radius[c] = even_points(room + own, room + count * N + own, N, M, Z + 2 * c * M)
-            if reach(room, room + count * N, count, N) > size * radius[c]:
-                radius[c] = -1.0
 
 
-SAMPLING = (spans, even_points, draw_linkage, reach, draw_linkages)
+SAMPLING = (spans, even_points, draw_linkage, draw_linkages)
