@@ -34,6 +34,31 @@ def test_same_as_solving_alone(name: str, changes: dict[str, float], backend: st
     assert found.mechanism.dimensions() == mechanism.with_dimensions(changes).dimensions()
 
 
+FAR = [
+    ("jaw_crusher_sixbar", ("pitman.length", "crank.length", "toggle.length", "O5.x")),
+    ("swing_conveyor", ("coupler.length", "crank.length")),
+]
+
+
+@pytest.mark.parametrize(("name", "addresses"), FAR)
+def test_loads_between_limits_follow_designs_far_away(name: str, addresses: tuple[str, ...]) -> None:
+    """Limit positions move by degrees, the load with them: as solving every design by itself."""
+    mechanism = lw.load(f"gallery:{name}")
+    known = mechanism.dimensions()
+    vary = [address for address in addresses if address in known]
+    prepared, random = lw.prepare(mechanism, vary=vary), np.random.default_rng(7)
+    moved = 0
+    for _ in range(15):
+        changes = {address: known[address] * random.uniform(0.9, 1.1) for address in vary}
+        alone = lw.solve_motion(mechanism.with_dimensions(changes), failures="mark")
+        if not alone.ok.all():
+            continue
+        moved += 1
+        torque, found = lw.solve_forces(alone).input_torque, prepared.solve(changes).input_torque
+        assert np.abs(found - torque).max() <= 1e-9 * np.abs(torque).max()
+    assert moved > 3
+
+
 def test_a_dimension_that_was_not_named_is_refused() -> None:
     prepared = lw.prepare(lw.load("gallery:jaw_crusher_sixbar"), vary=["pitman.length"])
     with pytest.raises(lw.LinkwrightError, match=r"'gravity.x' is zero and was not named"):
