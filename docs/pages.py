@@ -5,9 +5,12 @@ They have the ending ``.markdown``, are no part of the repository, and stand in 
 
 from __future__ import annotations
 
+import hashlib
 import inspect
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -19,16 +22,35 @@ from linkwright.validation.validate import validate
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
+#: What is copied into the built documentation as it is.
+EXTRA = MADE / "extra"
+#: Positions of the living pages.
+STEPS = 240
 TITLES = {"en": "Gallery", "zh": "图库"}
 WORDS = {
-    "en": {"solve": "Try it", "file": "The model file", "structure": "Structure", "source": "Source"},
-    "zh": {"solve": "运行", "file": "模型文件", "structure": "结构分析", "source": "资料来源"},
+    "en": {
+        "solve": "Try it",
+        "file": "The model file",
+        "structure": "Structure",
+        "source": "Source",
+        "living": "The machine, to be played and dragged",
+        "drag": "Drag a joint: the browser solves motion, forces and design numbers again by the same formulas.",
+    },
+    "zh": {
+        "solve": "运行",
+        "file": "模型文件",
+        "structure": "结构分析",
+        "source": "资料来源",
+        "living": "可播放、可拖动的机构",
+        "drag": "拖动运动副：运动、力和设计指标由相同的公式在浏览器中重新求解。",
+    },
 }
 
 
 def make() -> None:
     """Writes all of them, those that are up to date left alone."""
     pictures()
+    living_pages()
     for language in ("en", "zh"):
         write(f"{language}/gallery/index", "\n".join(gallery_index(language)))
         for name in gallery.names():
@@ -60,6 +82,21 @@ def pictures() -> None:
                 path.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="10" height="10"/>', "utf-8")
 
 
+def living_pages() -> None:
+    """The living page of every model that can be put together; one that is up to date is left alone."""
+    folder = EXTRA / "living"
+    folder.mkdir(parents=True, exist_ok=True)
+    front_end = (files("linkwright") / "page" / "built" / "sources.sha256").read_text("utf-8")
+    for name in gallery.names():
+        document, path = lw.read_document(f"gallery:{name}"), folder / f"{name}.html"
+        made_of = hashlib.sha256(f"{lw.__version__}{front_end}{document.text}".encode()).hexdigest()
+        mark = f"<!-- {made_of} -->\n"
+        if path.exists() and path.read_text("utf-8").endswith(mark):
+            continue
+        with suppress(LinkwrightError):
+            path.write_text(lw.living_page(document, steps=STEPS).html + mark, "utf-8")
+
+
 def gallery_index(language: str) -> Iterator[str]:
     """Cards with pictures."""
     yield f"# {TITLES[language]}\n"
@@ -84,8 +121,13 @@ def gallery_page(name: str, language: str) -> Iterator[str]:
     """One model: picture, purpose, source, commands, structure, file."""
     model, words = lw.load(f"gallery:{name}"), WORDS[language]
     yield f"# {gallery_title(name, model.name, language)}\n"
-    yield f"![{name}](../../pictures/{name}.svg)\n"
     yield f"{escaped(model.purpose)}\n"
+    if (EXTRA / "living" / f"{name}.html").exists():
+        yield f'```{{raw}} html\n<iframe class="living" src="../../../living/{name}.html#lang={language}"'
+        yield f'  loading="lazy" sandbox="allow-scripts allow-downloads" title="{words["living"]}"></iframe>\n```\n'
+        yield f"{words['drag']}\n"
+    else:
+        yield f"![{name}](../../pictures/{name}.svg)\n"
     yield f"**{words['source']}**: {escaped(model.source)}\n"
     yield f"## {words['solve']}\n"
     kind = "solve" if model.drivers else "structure"

@@ -165,6 +165,21 @@ def test_an_unreachable_drag_stops_and_comes_back(opened: Opened, tmp_path: Path
     assert opened.values() == pytest.approx({**before, **changed}, rel=1e-6)
 
 
+def test_a_cloud_of_tolerances_keeps_its_bound(opened: Opened, tmp_path: Path) -> None:
+    """A crank's pin is off by at most its length's and both coordinates' tolerances; the machine stays as it was."""
+    _, path = made(tmp_path, "crank_rocker")
+    opened.open(path)
+    before, width = opened.values(), 1e-3
+    opened.run("(s, w) => { s.shown.paths = new Set(['A']); s.scatter(w); }", width)
+    cloud = opened.run("s => s.cloud.value")
+    assert cloud["built"] == cloud["count"] >= 41
+    assert 0.8 * width < cloud["off"] < (1 + math.sqrt(2)) * width
+    assert opened.values() == before
+    assert opened.tab.locator(".paper canvas").is_visible()
+    opened.run("s => s.scatter(0)")
+    assert opened.run("s => s.cloud.value") is None
+
+
 def test_locked_dimensions_stay(opened: Opened, tmp_path: Path) -> None:
     made_of, path = made(tmp_path, "jaw_crusher_sixbar")
     opened.open(path)
@@ -411,8 +426,13 @@ def now_face(mechanism: Mechanism) -> tuple[Any, Any]:
 
 def test_teeth_mesh_and_racks_reach_as_far_as_they_are_used(kept_open: Opened, tmp_path: Path) -> None:
     """Places of teeth against those of the drawings (by the gears' phases), after a change of the centres as well."""
-    mechanism, path = made(tmp_path, "internal_gear_pair")
+    _, path = made(tmp_path, "internal_gear_pair")
     kept_open.open(path)
+    kept_open.run("s => s.take({...s.model.values, 'frame.Q.y': -0.012})")
+    assert "wheels of mesh do not fit the distance of their centres" in kept_open.status
+    text = lw.read_document("gallery:internal_gear_pair").text.replace(", module: 2 mm", "")
+    mechanism = lw.loads(text)
+    kept_open.open(lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "free.html", text=text))
     kept_open.run("s => { s.take({...s.model.values, 'frame.Q.y': -0.012}); s.view.draw(0); }")
     changed = mechanism.with_dimensions({"frame.Q.y": -0.012})
     marks = [m for j in changed.joints.values() for m in j.marks(changed, {}) if m.symbol == "gear"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import http.client
 import json
 import os
@@ -15,11 +16,16 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
+import numpy as np
 import pytest
 from tests.ui.browser import browser, needs_chromium
 
 import linkwright as lw
+from linkwright.errors import LinkwrightError
+from linkwright.server import search
+from linkwright.server.address import recalled
 from linkwright.server.edits import edited, with_values
+from linkwright.server.files import Files
 from linkwright.server.web import Studio
 from linkwright.server.work import NEW
 
@@ -160,6 +166,183 @@ def test_comments_stay_where_they_are() -> None:
     assert again == text.replace("2 kg", "3 kg")
 
 
+SLOTTED: tuple[dict[str, Any], ...] = (
+    {"do": "point", "name": "O1", "at": [0.0, 0.0], "fixed": True},
+    {"do": "point", "name": "O2", "at": [0.0, -0.2], "fixed": True},
+    {"do": "point", "name": "A", "at": [0.05, 0.02]},
+    {"do": "link", "name": "crank", "points": ["O1", "A"]},
+    {"do": "point", "name": "B", "at": [0.04, 0.1]},
+    {"do": "link", "name": "lever", "points": ["O2", "B"]},
+    {"do": "slot", "along": "lever", "at": "A"},
+    {"do": "driver", "link": "crank", "about": "O1"},
+)
+
+
+def test_slots_and_gears_are_drawn() -> None:
+    """A block beside its slot keeps its distance; the lever then turns as its closed form says. Gears by teeth."""
+    text = NEW
+    for action in SLOTTED:
+        text = edited(text, action)
+    mechanism = lw.loads(text)
+    assert lw.structure(mechanism).mobility == 1
+    motion = lw.solve_motion(mechanism, steps=24)
+    off = mechanism.dimension("slot1.offset")
+    gap = motion.point("A").position - np.array([0.0, -0.2])
+    line = motion.link("lever").angle + np.arctan2(0, 1)
+    across = gap[:, 1] * np.cos(line) - gap[:, 0] * np.sin(line)
+    assert np.ptp(across) < 1e-12
+    assert abs(off) == pytest.approx(abs((0.04 * 0.22 - 0.3 * 0.05) / np.hypot(0.04, 0.3)), abs=1e-4)
+    geared = NEW
+    for action in (
+        *SLOTTED[:6],
+        {"do": "driver", "link": "crank", "about": "O1"},
+        {"do": "gear", "links": ["crank", "lever"], "teeth": "20 : 40"},
+    ):
+        geared = edited(geared, action)
+    turned = lw.solve_motion(lw.loads(geared), steps=12)
+    assert turned.link("lever").angular_velocity == pytest.approx(
+        -0.5 * turned.link("crank").angular_velocity
+    )
+    for wrong in (
+        {"do": "gear", "links": ["a", "b"], "teeth": "x"},
+        {"do": "slot", "along": "no", "at": "A"},
+    ):
+        with pytest.raises(LinkwrightError):
+            edited(geared, wrong)
+
+
+def test_reports_and_exports_are_handed_out(tmp_path: Path) -> None:
+    """Known endings only, by name; the bytes are those of the format."""
+    with serving(tmp_path) as studio:
+        for ending, head in ((".svg", b"<svg"), (".csv", b""), (".html", b"<!doctype html>")):
+            status, found = asked(studio, "take", {"text": drawn(), "ending": ending})
+            assert status == 200
+            assert base64.b64decode(found["content"]).startswith(head)
+        for ending in ("/../../x", ".py", ""):
+            assert asked(studio, "take", {"text": drawn(), "ending": ending})[0] == 422
+        for points in ([[0, 0]], [[0, 0]] * 9, "no", [[0, float("nan")]] * 9, [[0, 1]] * 99999):
+            assert asked(studio, "curve", {"points": points, "closed": True})[0] in (400, 422)
+
+
+def twenty_links() -> str:
+    """A crank and nine dyads in a row: with the frame twenty links."""
+    points, links, drawing = (
+        {"O0": (0.0, 0.0)},
+        ["  crank: {points: [O0, A0], mass: 1 kg}"],
+        {"A0": (0.03, 0.04)},
+    )
+    for k in range(1, 10):
+        points[f"O{k}"] = (0.25 * k, 0.0)
+        drawing[f"A{k}"] = (0.25 * k + 0.02, 0.16)
+        links.append(f"  coupler{k}: {{points: [A{k - 1}, A{k}], mass: 1 kg}}")
+        links.append(f"  rocker{k}: {{points: [A{k}, O{k}], mass: 1 kg}}")
+    shown = [
+        ", ".join(f"{name}: [{x} m, {y} m]" for name, (x, y) in each.items()) for each in (points, drawing)
+    ]
+    rows = "\n".join(links)
+    return (
+        f"format: 1\nname: Twenty links\nframe: {{points: {{{shown[0]}}}}}\nlinks:\n{rows}\n"
+        f"drawing: {{{shown[1]}}}\ndriver: {{turn: crank, about: O0, speed: 60 rpm}}\n"
+    )
+
+
+@needs_chromium
+def test_a_photo_to_scale_and_linkages_for_a_drawn_curve(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two clicks on a photo give its scale; a curve is drawn and the nearest linkage taken; nothing for axe."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    monkeypatch.setattr(search, "SECONDS", ())
+    with browser() as chromium:
+        context = chromium.new_context(viewport={"width": 1360, "height": 900}, bypass_csp=True)
+        tab = context.new_page()
+        tab.set_default_timeout(20_000)
+        with serving(tmp_path) as studio:
+            tab.goto(studio.url)
+            tab.wait_for_selector("svg.drafting")
+            box = tab.locator("svg.drafting").bounding_box()
+
+            def choose(name: str) -> None:
+                tab.get_by_role("toolbar").get_by_role("button", name=name, exact=True).click()
+
+            choose("Photo")
+            (tmp_path / "photo.svg").write_text(
+                '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"/>'
+            )
+            tab.locator("input[type=file]").set_input_files(tmp_path / "photo.svg")
+            tab.locator(".photo[visibility=visible]").wait_for(state="attached")
+            first, apart, widths = 60.0, 120.0, []
+            for _ in range(2):
+                for x in (first, first + apart):
+                    tab.mouse.click(box["x"] + x, box["y"] + 100)
+                widths.append(float(tab.locator(".photo").get_attribute("width") or ""))
+                # Where the second place of the picture is now; it is 100 mm from the first, so nothing changes.
+                apart *= (
+                    widths[0] / (0.95 * 1.5 * min(box["width"] / 1.5, box["height"]))
+                    if len(widths) == 1
+                    else 1
+                )
+            assert widths[1] == pytest.approx(widths[0], rel=0.02)
+            assert widths[0] != pytest.approx(0.95 * min(box["width"], 1.5 * box["height"]), rel=0.02)
+            choose("Target curve")
+            tab.mouse.move(box["x"] + 400, box["y"] + 200)
+            tab.mouse.down()
+            for k in range(1, 25):
+                t = 2 * np.pi * k / 24
+                tab.mouse.move(box["x"] + 330 + 70 * np.cos(t), box["y"] + 200 + 40 * np.sin(t))
+            tab.mouse.up()
+            tab.locator(".candidates li button").first.wait_for()
+            assert axe.Axe().run(tab).response["violations"] == []
+            tab.locator(".candidates li button").first.click()
+            tab.wait_for_selector(".plot")
+            assert lw.solve_motion(lw.loads(tab.locator("textarea").input_value()), steps=12).ok.all()
+            assert axe.Axe().run(tab).response["violations"] == []
+            tab.close()
+
+
+@contextmanager
+def started(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """The command in a process of its own, and the address that it says."""
+    command = [sys.executable, "-m", "linkwright", "studio", "twenty.yaml", "--no-browser"]
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        assert process.stdout is not None
+        yield process, next(word for word in process.stdout.readline().split() if word.startswith("http"))
+        process.kill()
+
+
+@needs_chromium
+def test_twenty_links_and_a_server_that_is_killed_and_comes_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A change made while no server was there reaches the next one, in the same window."""
+    monkeypatch.setenv("LINKWRIGHT_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "twenty.yaml").write_text(twenty_links())
+    with browser() as chromium:
+        tab = chromium.new_page(viewport={"width": 1360, "height": 900})
+        tab.set_default_timeout(20_000)
+        with started(tmp_path) as (_, address):
+            tab.goto(address)
+            handle = tab.locator('.handle[data-key="A5"]')
+            handle.wait_for(state="attached")
+            before = tab.locator("textarea").input_value()
+            handle.focus()
+            tab.keyboard.press("Shift+ArrowUp")
+            tab.wait_for_function(
+                "before => document.querySelector('textarea').value !== before", arg=before, polling=100
+            )
+            assert lw.structure(lw.loads(tab.locator("textarea").input_value())).mobility == 1
+        tab.locator("textarea").fill(before + "# while the server was gone\n")
+        tab.locator(".said", has_text="does not answer").wait_for()
+        with started(tmp_path) as (_, again):
+            assert again == address
+            tab.locator(".said", has_text="does not answer").wait_for(state="detached")
+            tab.locator(".said", has_text="kept as a draft").wait_for()
+    found = Files(tmp_path).open("twenty.yaml")
+    assert found["recovered"]
+    assert "while the server was gone" in found["text"]
+
+
 @needs_chromium
 def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
     """Clicks on the paper, a machine with its torque curve, the file saved; text and drawing in step; undo."""
@@ -252,8 +435,10 @@ def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(tmp_pat
         assert "3.3 m" in second.locator("textarea").input_value()
 
 
-def test_a_killed_server_loses_nothing(tmp_path: Path) -> None:
-    """kill -9 after a change that was not saved: the next start has it."""
+def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """kill -9 after a change that was not saved: the next start has it, under the same address."""
+    cache = tmp_path / "cache"
+    monkeypatch.setenv("LINKWRIGHT_CACHE", str(cache))
     (tmp_path / "a.yaml").write_text("format: 1\n")
     command = [sys.executable, "-m", "linkwright", "studio", "a.yaml", "--no-browser"]
     process = subprocess.Popen(
@@ -271,6 +456,11 @@ def test_a_killed_server_loses_nothing(tmp_path: Path) -> None:
     process.send_signal(signal.SIGKILL)
     process.wait()
     process.stdout.close()
+    kept = recalled(tmp_path)
+    assert kept is not None
+    assert f"http://127.0.0.1:{kept.port}/?token={kept.token}" == address
+    found = next((cache / "studio").glob("*.json"))
+    assert found.stat().st_mode & 0o077 == 0
     with serving(tmp_path) as studio:
         status, found = asked(studio, "open", {"name": "a.yaml"})
         assert (status, found["recovered"], found["text"]) == (200, True, "format: 1\nname: kept\n")

@@ -3,7 +3,7 @@ import { signal, useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Chart, Hodograph } from "./chart";
-import type { Dimension, PageData } from "./data";
+import type { Dimension, Group, PageData } from "./data";
 import { isForce, type Values, type Wall } from "./model";
 import { Session } from "./session";
 import { View } from "./view";
@@ -95,8 +95,12 @@ export class Page {
     const names = { signature: group.signature, links: group.links.join(", ") };
     if (wall.kind === "change") return this.say("wall_change", { where, ...names });
     const outcome = { apart: "apart", singular: "singular", lost: "lost" }[wall.kind];
-    const sentence = this.words.say(`outcome.${outcome}`, { ...names, reason: this.reason(wall.facts) });
+    const sentence = this.words.say(`outcome.${outcome}`, { ...names, reason: this.reason(wall.facts) || this.misfit(group) });
     return this.say("wall", { where, sentence });
+  }
+
+  private misfit(group: Group): string {
+    return group.wheels.length ? this.say("misfit", { names: group.wheels.join(", ") }) : "";
   }
 
   /** Why a dyad is apart: the same sentences as the solver's. */
@@ -137,6 +141,7 @@ export class Page {
     const wanted = this.sessions.map((session) => ({ ...session.model.values }));
     for (const part of hash.replace(/^#/, "").split("&")) {
       const [place, text] = part.split("="), dot = place.indexOf("."), value = Number(text);
+      if (place === "lang" && (text === "en" || text === "zh")) this.language.value = text;
       const session = this.sessions[Number(place.slice(0, dot))];
       let address = "";
       try {
@@ -430,6 +435,7 @@ function Shows({ page, session }: { page: Page; session: Session }) {
           </label>
         ))}
       </fieldset>
+      {data.positions.count > 1 && <Tolerance page={page} session={session} />}
       {data.positions.count > 1 && (
         <label class="choice">
           {page.say("hodographs")}
@@ -440,6 +446,27 @@ function Shows({ page, session }: { page: Page; session: Session }) {
         </label>
       )}
     </details>
+  );
+}
+
+function Tolerance({ page, session }: { page: Page; session: Session }) {
+  const cloud = session.cloud.value, length = (x: number) => quantity(x, "length", x, 3);
+  return (
+    <>
+      <label class="choice">
+        {page.say("tolerance")}
+        <input
+          type="number" min="0" step="any" value={cloud ? Number((cloud.width * 1e3).toPrecision(6)) : ""}
+          onChange={(event) => session.scatter(Number(event.currentTarget.value) * 1e-3)}
+        />
+        mm
+      </label>
+      {cloud && (
+        <p class="hint" role="status">
+          {page.say("cloud", { count: String(cloud.count), built: String(cloud.built), off: length(cloud.off), paths: [...session.shown.paths].join(", ") })}
+        </p>
+      )}
+    </>
   );
 }
 
@@ -525,11 +552,7 @@ function Tools({ page, session }: { page: Page; session: Session }) {
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const download = () => {
     const { text, missing } = session.text();
-    const url = URL.createObjectURL(new Blob([text], { type: "text/yaml" }));
-    const link = document.createElement("a");
-    [link.href, link.download] = [url, `${session.data.name.replace(/[\\/:*?"<>|\s]+/g, "_")}.yaml`];
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+    save(new Blob([text], { type: "text/yaml" }), `${session.data.name.replace(/[\\/:*?"<>|\s]+/g, "_")}.yaml`);
     page.note.value = missing.length ? page.say("not_written", { names: missing.join(", ") }) : "";
   };
   return (
@@ -550,6 +573,14 @@ function Tools({ page, session }: { page: Page; session: Session }) {
       {button("download", download)}
     </div>
   );
+}
+
+/** Hands a file to the user. */
+export function save(content: Blob, name: string): void {
+  const url = URL.createObjectURL(content), link = document.createElement("a");
+  [link.href, link.download] = [url, name];
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
 function notes(page: Page, session: Session): string[] {
@@ -602,8 +633,8 @@ export function App({ page }: { page: Page }) {
   }, [language]);
   const share = async () => {
     const hash = page.link();
-    history.replaceState(null, "", hash === "#" ? location.pathname + location.search : hash);
     try {
+      history.replaceState(null, "", hash === "#" ? location.pathname + location.search : hash);
       await navigator.clipboard.writeText(location.href);
       page.note.value = page.say("copied");
     } catch {

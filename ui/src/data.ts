@@ -35,6 +35,7 @@ export interface Group {
   signature: string;
   links: string[];
   facts: string[];
+  wheels: string[];
   dyad: boolean;
 }
 

@@ -9,7 +9,7 @@ export interface Picture {
   guided: string[];
 }
 
-export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "mass" | "load" | "remove";
+export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "mass" | "load" | "curve" | "photo" | "remove";
 export type Action = Record<string, unknown> & { do: string };
 
 const SNAP = 12;
@@ -17,6 +17,17 @@ const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
 const LETTERS = "ABCDEFGHIJKLMNPQRSTUVW";
 
 type Vec = [number, number];
+
+/** A picture behind the drawing: its upper left corner and width, m. */
+interface Photo {
+  href: string;
+  corner: Vec;
+  width: number;
+  shape: number;
+}
+
+// A hand-drawn curve ends at its beginning where it comes this near, in pixels; its points are this far apart.
+const CLOSING = 22, APART = 4;
 
 export class Paper {
   readonly svg: SVGElement;
@@ -28,12 +39,23 @@ export class Paper {
   private scale = 1000;
   private shift: Vec = [0, 0];
   private size: Vec = [600, 420];
+  /** Called with the points of a curve that was drawn, m, and whether it is closed. */
+  drawn: ((points: Vec[], closed: boolean) => void) | null = null;
+  /** A curve to be reached, and curves of candidates, the shown one first, m. */
+  target: Vec[] = [];
+  candidates: Vec[][] = [];
+  private photo: Photo | null = null;
+  private clicks: Vec[] = [];
+  private drawing = false;
+  private picked: string | null = null;
+  private readonly behind: SVGElement;
   private readonly back: SVGElement;
   private readonly front: SVGElement;
 
   /** `act` carries out actions one after the other. */
   constructor(host: HTMLElement, readonly act: (actions: Action[]) => void) {
     this.svg = element("svg", { class: "machine drafting", role: "application", tabindex: 0 }, host);
+    this.behind = element("image", { preserveAspectRatio: "none", class: "photo" }, this.svg);
     this.back = element("path", { class: "grid fine" }, this.svg);
     this.front = element("g", {}, this.svg);
     this.svg.addEventListener("pointerdown", (event) => this.down(event));
@@ -41,7 +63,7 @@ export class Paper {
     this.svg.addEventListener("pointerup", (event) => this.up(event));
     this.svg.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.finish();
-      if (event.key === "Escape") this.choose([]);
+      if (event.key === "Escape") this.leave();
     });
   }
 
@@ -58,6 +80,20 @@ export class Paper {
     this.picture = picture;
     this.chosen = this.chosen.filter((name) => name in picture.points);
     if (first || this.outside()) this.fit();
+    this.draw();
+  }
+
+  /** Ends what was begun with a tool. */
+  leave(): void {
+    this.picked = null;
+    this.clicks = [];
+    this.choose([]);
+  }
+
+  /** Puts a picture behind the drawing, as wide as the paper. */
+  show(href: string | null, shape = 1): void {
+    const [w, h] = this.size, width = Math.min(w, h / shape) / this.scale;
+    this.photo = href === null ? null : { href, corner: this.free([8, 8]), width: 0.95 * width, shape };
     this.draw();
   }
 
@@ -94,6 +130,11 @@ export class Paper {
   private world([x, y]: Vec): Vec {
     const snap = (value: number) => Math.round(value / this.grid) * this.grid;
     return [snap((x - this.shift[0]) / this.scale), snap((this.shift[1] - y) / this.scale)];
+  }
+
+  /** A place of the paper as it is, off the grid. */
+  private free([x, y]: Vec): Vec {
+    return [(x - this.shift[0]) / this.scale, (this.shift[1] - y) / this.scale];
   }
 
   private local(event: PointerEvent): Vec {
@@ -159,6 +200,15 @@ export class Paper {
         return;
       }
       case "guide": return this.slide(at, near);
+      case "slot": return this.slot(at, near);
+      case "gear": return this.gear(this.link(at));
+      case "curve": {
+        this.drawing = true;
+        this.target = [this.free(at)];
+        this.candidates = [];
+        return;
+      }
+      case "photo": return this.measure(at);
       case "remove": {
         const link = near && !this.linkOf(near) ? null : this.link(at);
         if (link) this.act([{ do: "remove", what: "link", name: link }]);
@@ -214,13 +264,62 @@ export class Paper {
     this.choose([]);
   }
 
+  private slot(at: Vec, near: string | null): void {
+    if (!this.picked) this.picked = this.link(at);
+    else if (near && !this.picture.links[this.picked].includes(near)) {
+      this.act([{ do: "slot", along: this.picked, at: near }]);
+      this.picked = null;
+    }
+    this.draw();
+  }
+
+  private gear(link: string | null): void {
+    if (!link) return;
+    if (!this.picked) this.picked = link;
+    else if (link !== this.picked) {
+      this.act([{ do: "gear", links: [this.picked, link], teeth: this.value }]);
+      this.picked = null;
+    }
+    this.draw();
+  }
+
+  /** The second of two clicks makes the picture so large that they are as far apart as the value says. */
+  private measure(at: Vec): void {
+    const length = metres(this.value), { photo } = this;
+    if (!photo || !(length > 0)) return;
+    this.clicks.push(this.free(at));
+    if (this.clicks.length === 2) {
+      const [[ax, ay], [bx, by]] = this.clicks, factor = length / Math.hypot(bx - ax, by - ay);
+      this.clicks = [];
+      if (Number.isFinite(factor)) {
+        photo.corner = [ax + factor * (photo.corner[0] - ax), ay + factor * (photo.corner[1] - ay)];
+        photo.width *= factor;
+      }
+    }
+    this.draw();
+  }
+
   private moved(event: PointerEvent): void {
+    if (this.drawing) {
+      const at = this.local(event), [x, y] = this.screen(this.target[this.target.length - 1]);
+      if (Math.hypot(at[0] - x, at[1] - y) >= APART) {
+        this.target.push(this.free(at));
+        this.draw();
+      }
+      return;
+    }
     if (!this.dragged) return;
     this.picture.points[this.dragged] = this.world(this.local(event));
     this.draw();
   }
 
   private up(_event: PointerEvent): void {
+    if (this.drawing) {
+      this.drawing = false;
+      const [first, last] = [this.target[0], this.target[this.target.length - 1]].map((place) => this.screen(place));
+      if (this.target.length > 5) this.drawn?.(this.target, Math.hypot(first[0] - last[0], first[1] - last[1]) < CLOSING);
+      return;
+    }
     if (!this.dragged) return;
     const name = this.dragged;
     this.dragged = null;
@@ -233,12 +332,28 @@ export class Paper {
     for (let x = this.shift[0] % step; x < w; x += step) d += `M${x.toFixed(1)} 0V${h}`;
     for (let y = this.shift[1] % step; y < h; y += step) d += `M0 ${y.toFixed(1)}H${w}`;
     this.back.setAttribute("d", d);
+    this.behind.setAttribute("visibility", this.photo ? "visible" : "hidden");
+    if (this.photo) {
+      const { href, corner, width, shape } = this.photo, [x, y] = this.screen(corner);
+      if (this.behind.getAttribute("href") !== href) this.behind.setAttribute("href", href);
+      for (const [name, value] of Object.entries({ x, y, width: width * this.scale, height: width * shape * this.scale })) this.behind.setAttribute(name, value.toFixed(1));
+    }
     this.front.replaceChildren();
+    const curve = (line: Vec[], style: string) => {
+      const text = line.map((place, k) => `${k ? "L" : "M"}${this.screen(place).map((each) => each.toFixed(1)).join(" ")}`).join("");
+      element("path", { class: style, d: text }, this.front);
+    };
+    [...this.candidates].reverse().forEach((line, k) => curve(line, `curve ${k === this.candidates.length - 1 ? "now" : "original"}`));
+    if (this.target.length > 1) curve(this.target, "curve target");
+    for (const place of this.clicks) {
+      const [cx, cy] = this.screen(place);
+      element("circle", { class: "lw-pin chosen", cx, cy, r: 4 }, this.front);
+    }
     const { points, links, fixed, driver, guided } = this.picture;
     for (const name in links) {
       const corners = links[name].filter((point) => point in points).map((point) => this.screen(points[point]));
       const text = corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-      element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
+      element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}${name === this.picked ? " chosen" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
     }
     for (const name in points) {
       const [x, y] = this.screen(points[name]);
@@ -252,6 +367,14 @@ export class Paper {
       element("path", { class: "curve now", d: way.map(([x, y], k) => `${k ? "L" : "M"}${x} ${y}`).join("") }, this.front);
     }
   }
+}
+
+const UNITS: Record<string, number> = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254 };
+
+/** A length as it is written in files, m. */
+export function metres(text: string): number {
+  const [, number, unit] = /^\s*([\d.]+)\s*(mm|cm|m|in)\s*$/.exec(text) ?? [];
+  return unit ? Number(number) * UNITS[unit] : NaN;
 }
 
 /** The nearest multiple of 15 degrees. */

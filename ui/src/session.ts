@@ -10,8 +10,22 @@ export interface Variant {
   design: Design;
 }
 
+interface Path {
+  x: Float64Array;
+  y: Float64Array;
+}
+
+/** Machines within tolerances: `width` of their lengths, m; how many were tried and can be built; the farthest off, m. */
+export interface Cloud {
+  width: number;
+  count: number;
+  built: number;
+  off: number;
+}
+
 const SHARE = 0.2;
-const SWEEP = 41;
+// How many machines are drawn as ghosts, and the time that they may take, ms.
+const FEWEST = 41, MOST = 500, MOMENT = 400, TRIED = 4;
 // Between two readings of tables and fields, ms.
 const REST = 90;
 
@@ -24,6 +38,7 @@ export class Session {
   readonly curves = signal<string[]>([]);
   readonly variants = signal<Variant[]>([]);
   readonly swept = signal<string | null>(null);
+  readonly cloud = signal<Cloud | null>(null);
   readonly hodograph = signal<string>("");
   view: View | null = null;
   /** Called when a change has ended. */
@@ -140,18 +155,51 @@ export class Session {
   /** Paths of the shown points while a dimension varies about its present value, as far as the machine can. */
   sweep(address: string | null): void {
     this.swept.value = address;
-    const rows: { x: Float64Array; y: Float64Array }[] = [];
-    if (address) {
-      const { model } = this, here = model.values[address], reach = SHARE * (Math.abs(here) || model.size);
-      for (let k = 0; k < SWEEP; k++) {
-        const tried = { ...model.values, [address]: here + reach * ((2 * k) / (SWEEP - 1) - 1) };
-        if (model.evaluate(tried)) continue;
-        for (const key of this.shown.paths)
-          rows.push({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() });
+    if (address) this.cloud.value = null;
+    const { model } = this, here = address ? model.values[address] : 0, reach = SHARE * (Math.abs(here) || model.size);
+    if (address || !this.cloud.value) this.ghosts(address ? (k, count) => ({ [address]: here + reach * ((2 * k) / (count - 1) - 1) }) : null);
+    else this.scatter(this.cloud.value.width);
+  }
+
+  /** The same for machines whose lengths are off by at most `width`, m, each as likely as the others; 0 ends it. */
+  scatter(width: number): void {
+    this.swept.value = null;
+    if (!(width > 0)) {
+      this.cloud.value = null;
+      this.ghosts(null);
+      return;
+    }
+    const { model } = this, lengths = this.data.dimensions.filter((d) => d.geometry && d.unit !== "deg" && d.unit !== "rad");
+    const nominal = [...this.shown.paths].map((key) => ["x", "y"].map((axis) => model.main.row(`p:${key}.${axis}`).slice()));
+    let off = 0, built = 0;
+    const count = this.ghosts(
+      () => Object.fromEntries(lengths.map(({ address }) => [address, model.values[address] + width * (2 * Math.random() - 1)])),
+      (paths) => {
+        built++;
+        paths.forEach(({ x, y }, k) => x.forEach((_, i) => (off = Math.max(off, Math.hypot(x[i] - nominal[k][0][i], y[i] - nominal[k][1][i])))));
+      },
+    );
+    this.cloud.value = { width, count, built, off };
+  }
+
+  /** Draws the paths of up to 500 changed machines, as many as may be found in a moment; gives their number. */
+  private ghosts(changed: ((k: number, count: number) => Values) | null, seen: (paths: Path[]) => void = () => {}): number {
+    const rows: Path[] = [], { model } = this;
+    let count = 0;
+    if (changed) {
+      const begin = performance.now();
+      for (let k = 0; k < TRIED; k++) model.evaluate({ ...model.values });
+      count = Math.max(FEWEST, Math.min(MOST, Math.floor((MOMENT * TRIED) / (performance.now() - begin + 0.1))));
+      for (let k = 0; k < count; k++) {
+        if (model.evaluate({ ...model.values, ...changed(k, count) })) continue;
+        const paths = [...this.shown.paths].map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
+        rows.push(...paths);
+        seen(paths);
       }
       model.evaluate(model.values);
     }
     this.view?.ghosts(rows);
+    return count;
   }
 
   /** The model's text with the changed numbers in their places, and the names of those that have none. */

@@ -2,9 +2,10 @@
 import { signal } from "@preact/signals";
 import { render } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { Card, keys, Page, Transport } from "./app";
-import type { ModelData, PageData } from "./data";
+import { Card, keys, Page, save, Transport } from "./app";
+import { bytes, type ModelData, type PageData } from "./data";
 import { code } from "./model";
+import { quantity } from "./words";
 import { type Action, Paper, type Picture, type Tool } from "./paper";
 import { Session } from "./session";
 import "./studio.css";
@@ -27,9 +28,26 @@ interface Solved {
   text?: string;
 }
 
-const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "driver", "mass", "load", "remove"];
-const VALUES: Partial<Record<Tool, string>> = { mass: "1 kg", load: "100 N" };
-const WAIT = 250, WATCH = 1500;
+const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "slot", "gear", "driver", "mass", "load", "curve", "photo", "remove"];
+const VALUES: Partial<Record<Tool, string>> = { gear: "20:40", mass: "1 kg", load: "100 N", photo: "100 mm" };
+const TAKEN = [".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf"];
+const WAIT = 250, WATCH = 1500, LOOK = 400;
+
+/** A linkage for a curve: its file, how far off it is (m), its curve. */
+interface Candidate {
+  text: string;
+  links: number;
+  error: number;
+  transmission_angle: number;
+  curve: [number, number][];
+}
+
+interface Sought {
+  number: number;
+  running: boolean;
+  candidates: Candidate[];
+  sentence: string;
+}
 
 /** The open file: its text with all its steps, what is found in it, the machine that it makes. */
 class Desk {
@@ -41,6 +59,7 @@ class Desk {
   readonly elsewhere = signal<string | null>(null);
   readonly onDisk = signal("");
   readonly dirty = signal(false);
+  readonly sought = signal<Sought | null>(null);
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
   private past: string[] = [];
@@ -50,6 +69,7 @@ class Desk {
   private asked = 0;
   private timer = 0;
   private queue: Promise<void> = Promise.resolve();
+  private ready: Promise<void> = Promise.resolve();
   /** Actions of drawing that are not in the text yet. */
   pending = 0;
 
@@ -159,7 +179,11 @@ class Desk {
     void this.keep();
   }
 
-  async open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+  open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+    return (this.ready = this.opened(asked));
+  }
+
+  private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
     const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
     if (!opened) return;
     this.name.value = opened.name;
@@ -229,10 +253,40 @@ class Desk {
     if (set && session.data.text === this.text.value) this.change(set.text);
   }
 
+  /** Has linkages for a curve searched for, and looks what is found so far until the search has ended. */
+  search = async (points: [number, number][], closed: boolean): Promise<void> => {
+    const begun = await this.ask<{ number: number }>("curve", { points, closed });
+    if (!begun) return;
+    this.sought.value = { number: begun.number, running: true, candidates: [], sentence: "" };
+    for (;;) {
+      const found = await this.ask<Sought>("candidates");
+      if (!found || found.number !== begun.number || this.sought.value?.number !== begun.number) return;
+      this.sought.value = found;
+      if (!found.running) return;
+      await new Promise((go) => setTimeout(go, LOOK));
+    }
+  };
+
+  async enough(): Promise<void> {
+    if (this.sought.value) this.sought.value = { ...this.sought.value, running: false };
+    await this.ask("enough");
+  }
+
+  /** A report or an export of the machine, as a download. */
+  async take(ending: string): Promise<void> {
+    this.page.note.value = this.say("making");
+    const found = await this.ask<{ name: string; content: string }>("take", { text: this.text.value, ending });
+    if (!found) return;
+    this.page.note.value = "";
+    const stem = this.name.value.replace(/\.\w+$/, "") || "machine";
+    save(new Blob([bytes(found.content)]), found.name.replace(/^machine/, stem));
+  }
+
   /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */
   act = (actions: Action[]): void => {
     this.pending++;
     this.queue = this.queue.then(async () => {
+      await this.ready;
       let text = this.text.value;
       for (const action of actions) {
         const edited = await this.ask<{ text: string }>("edit", { text, action });
@@ -250,6 +304,7 @@ function Drafting({ desk }: { desk: Desk }) {
   const { picture, mobility, text } = desk.solved.value;
   useEffect(() => {
     paper.current = new Paper(host.current!, desk.act);
+    paper.current.drawn = (points, closed) => void desk.search(points, closed);
     const observer = new ResizeObserver(([{ contentRect: box }]) => paper.current!.resize(box.width, box.height));
     observer.observe(host.current!);
     return () => observer.disconnect();
@@ -261,18 +316,66 @@ function Drafting({ desk }: { desk: Desk }) {
   useLayoutEffect(() => {
     if (!paper.current) return;
     Object.assign(paper.current, { tool, value });
-    paper.current.choose([]);
+    paper.current.leave();
   }, [tool, value]);
+  const sought = desk.sought.value, [shown, show] = useState(0);
+  useLayoutEffect(() => {
+    if (!paper.current) return;
+    const curves = sought?.candidates.map((each) => each.curve) ?? [];
+    paper.current.candidates = shown < curves.length ? [curves[shown], ...curves.filter((_, k) => k !== shown)] : curves;
+    paper.current.draw();
+  }, [sought, shown]);
+  const choosePhoto = async (file: File | undefined) => {
+    if (!file) return paper.current!.show(null);
+    const href = URL.createObjectURL(file), image = new Image();
+    image.src = href;
+    try {
+      await image.decode();
+      paper.current!.show(href, image.naturalHeight / image.naturalWidth);
+    } catch {
+      URL.revokeObjectURL(href);
+    }
+  };
   return (
     <div>
+      <h1>{desk.name.value || desk.say("new")}</h1>
       <div class="tools" role="toolbar" aria-label={desk.say("draw")}>
         {TOOLS.map((each) => (
           <button key={each} aria-pressed={each === tool} onClick={() => { choose(each); setValue(VALUES[each] ?? ""); }}>{desk.say(each)}</button>
         ))}
         {VALUES[tool] && <input class="value" value={value} aria-label={desk.say("value")} onChange={(event) => setValue(event.currentTarget.value)} />}
       </div>
+      {tool === "photo" && (
+        <div class="tools">
+          <label class="choice">{desk.say("choose_photo")} <input type="file" accept="image/*" onChange={(event) => void choosePhoto(event.currentTarget.files?.[0])} /></label>
+          <button onClick={() => void choosePhoto(undefined)}>{desk.say("without_photo")}</button>
+        </div>
+      )}
       <p class="hint">{desk.say(`help_${tool}`, { value })}</p>
       <div class="paper" ref={host} />
+      {sought && (
+        <section aria-label={desk.say("candidates")} class="candidates">
+          <h2>{desk.say("candidates")}</h2>
+          {sought.running && <p class="hint" role="status">{desk.say("searching")} <button onClick={() => void desk.enough()}>{desk.say("enough")}</button></p>}
+          {sought.sentence && <p class="wall">{sought.sentence}</p>}
+          <ol>
+            {sought.candidates.map((each, k) => (
+              <li key={each.text}>
+                <button
+                  onPointerEnter={() => show(k)} onFocus={() => show(k)}
+                  onClick={() => {
+                    void desk.enough();
+                    desk.sought.value = null;
+                    paper.current!.target = [];
+                    desk.change(each.text);
+                    desk.drawing.value = false;
+                  }}
+                >{desk.say("candidate", { links: String(each.links), error: quantity(each.error, "length", each.error, 3), angle: quantity(each.transmission_angle, "angle", 1, 3) })}</button>
+              </li>
+            ))}
+          </ol>
+        </section>
+      )}
       <p class="status" role="status">{[mobility === undefined ? "" : desk.say("mobility", { value: String(mobility) }), desk.solved.value.sentence].filter(Boolean).join("; ")}</p>
     </div>
   );
@@ -332,6 +435,10 @@ function Bar({ desk }: { desk: Desk }) {
       {pick(desk.say("gallery"), lists.gallery, (gallery) => void desk.open({ gallery }))}
       <input value={name} placeholder="machine.yaml" aria-label={desk.say("name")} onInput={(event) => setName(event.currentTarget.value)} />
       <button disabled={!name} onClick={() => void desk.save(name)}>{desk.say("save")}</button>
+      <select aria-label={desk.say("take")} value="" disabled={!desk.solved.value.model} onChange={(event) => { const ending = event.currentTarget.value; event.currentTarget.value = ""; if (ending) void desk.take(ending); }}>
+        <option value="">{desk.say("take")}</option>
+        {TAKEN.map((each) => <option key={each} value={each}>{each.startsWith(".report") ? `${desk.say("take_report")} ${each.slice(7)}` : each}</option>)}
+      </select>
       <button aria-pressed={desk.drawing.value} onClick={() => (desk.drawing.value = !desk.drawing.value)}>{desk.say(desk.drawing.value ? "run" : "draw")}</button>
       <button disabled={!desk.undoable} onClick={() => desk.undo()}>{page.say("undo")}</button>
       <button disabled={!desk.redoable} onClick={() => desk.redo()}>{page.say("redo")}</button>

@@ -58,7 +58,7 @@ export class View {
       label.textContent = key;
       this.labels.set(key, label);
       if (!moved.length) continue;
-      const handle = element("circle", { class: fixed ? "handle fixed" : "handle", r: 13, tabindex: 0, role: "button" }, this.layers.handles);
+      const handle = element("circle", { class: fixed ? "handle fixed" : "handle", r: 13, tabindex: 0, role: "button", "aria-label": key }, this.layers.handles);
       handle.dataset.key = key;
       this.handles.set(key, handle);
     }

@@ -19,6 +19,7 @@ from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import dump, read_text
+from linkwright.joints.marks import Wheels
 from linkwright.kinematics.motion import Motion
 from linkwright.page.dimensions import dimensions
 from linkwright.page.glyphs import glyphs, undrawn
@@ -153,9 +154,20 @@ def _groups(programs: PagePrograms) -> list[Plain]:
     placed = programs.traced.solver.motion.placed
     return [
         {"name": each.name, "signature": each.signature, "links": list(each.links),
-         "facts": list(placed[each.name].facts), "dyad": f"quality:{each.name}" in programs.main.output_names}
+         "facts": list(placed[each.name].facts), "wheels": _wheels(programs, each.links),
+         "dyad": f"quality:{each.name}" in programs.main.output_names}
         for each in programs.traced.solver.structure.groups
     ]  # fmt: skip
+
+
+def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
+    """Pairs of wheels of a group, whose sizes may not fit the distance of their centres."""
+    mechanism = programs.mechanism
+    return [
+        name
+        for name, joint in mechanism.joints.items()
+        if isinstance(joint.following(mechanism), Wheels) and not set(joint.joined).isdisjoint(links)
+    ]
 
 
 def document(data: Plain, kernels: str, title: str, language: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -150,8 +151,8 @@ def edited(text: str, action: Mapping[str, Any]) -> str:
     """The text after one action of drawing.
 
     ``do``: ``point`` (name, at, fixed), ``link`` (name, points), ``driver`` (link, about, speed), ``guide`` (link,
-    at, angle), ``mass`` (link, mass), ``load`` (link, at, force), ``remove`` (link or point). Raises
-    LinkwrightError for an action that the text does not admit.
+    at, angle), ``slot`` (along, at), ``gear`` (links, teeth), ``mass`` (link, mass), ``load`` (link, at, force),
+    ``remove`` (link or point). Raises LinkwrightError for an action that the text does not admit.
     """
     draft = Draft(text)
     act = _ACTIONS.get(str(action.get("do")))
@@ -203,6 +204,36 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
         "kind": "prismatic", "guide": "frame", "through": through, "direction": angle,
         "block": action["link"], "at": action["at"],
     })  # fmt: skip
+
+
+def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
+    """A block that slides along a moving link, from its first point to its last, at a point beside or on it."""
+    shown = picture(draft.text)
+    ends = shown["links"].get(action["along"], [])
+    if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, action["at"])):
+        raise LinkwrightError(Sentence("studio.no_slot", name=str(action["along"])))
+    (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], action["at"]))
+    across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
+    block = _fresh("slider", list(shown["links"]))
+    _link(draft, {"name": block, "points": [action["at"]]})
+    entry = {
+        "kind": "prismatic", "guide": action["along"], "through": ends[0], "direction": [ends[0], ends[-1]],
+        "block": block, "at": action["at"],
+    }  # fmt: skip
+    if abs(across) >= _FINEST / 2:
+        entry["offset"] = _coordinates([across])[0]
+    draft.put("joints", _fresh("slot", [key for key, _ in draft.section("joints") or ()]), entry)
+
+
+def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
+    """Two links as gears with numbers of teeth ``20:40``."""
+    teeth = [each.strip() for each in str(action["teeth"]).split(":")]
+    if len(teeth) != 2 or not all(each.isdigit() and int(each) for each in teeth):
+        raise LinkwrightError(Sentence("studio.no_teeth", text=str(action["teeth"])))
+    name = _fresh("mesh", [key for key, _ in draft.section("joints") or ()])
+    draft.put(
+        "joints", name, {"kind": "gear", "links": list(action["links"]), "teeth": [int(z) for z in teeth]}
+    )
 
 
 def _fresh(stem: str, known: list[str]) -> str:
@@ -265,6 +296,7 @@ def _remove(draft: Draft, action: Mapping[str, Any]) -> None:
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], None]] = {
     "point": _point, "link": _link, "driver": _driver, "guide": _guide, "mass": _mass, "load": _load,
+    "slot": _slot, "gear": _gear,
     "remove": _remove,
 }  # fmt: skip
 

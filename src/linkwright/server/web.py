@@ -32,13 +32,18 @@ _HEADER = "X-Linkwright-Token"
 
 
 class Studio(ThreadingHTTPServer):
-    """The server for the model files below ``folder``; ``file`` is opened first. ``url`` leads to it."""
+    """The server for the model files below ``folder``; ``file`` is opened first. ``url`` leads to it.
+
+    ``token``: the secret of a server that it follows on, whose open windows it goes on with; else a new one.
+    """
 
     daemon_threads = True
 
-    def __init__(self, folder: Path, file: str | None = None, *, port: int = 0, language: str = "en") -> None:
+    def __init__(
+        self, folder: Path, file: str | None = None, *, port: int = 0, language: str = "en", token: str = ""
+    ) -> None:
         super().__init__(("127.0.0.1", port), _Handler)
-        self.token = secrets.token_urlsafe(24)
+        self.token = token or secrets.token_urlsafe(24)
         self.file = file
         self.language = language
         self.work = Work(Files(folder))

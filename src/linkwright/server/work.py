@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from linkwright.errors import Finding, LinkwrightError
+from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.server.edits import edited, picture, with_values
 from linkwright.server.files import Files
-from linkwright.words.sentence import in_language
+from linkwright.server.search import Search
+from linkwright.words.sentence import Sentence, in_language
 
 Plain = dict[str, Any]
+#: What the studio hands out, by the ending of the file.
+TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
 NEW = "format: 1\nname: New mechanism\n"
 
 
@@ -21,6 +28,7 @@ class Work:
 
     def __init__(self, files: Files) -> None:
         self.files = files
+        self.search = Search()
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "gallery": gallery_names()},
             "open": self._open,
@@ -31,6 +39,12 @@ class Work:
             "save": lambda a: files.save(_text(a, "name"), _text(a, "text"), _text(a, "version")),
             "solve": self._solve,
             "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
+            "curve": lambda a: self.search.begin(
+                a["points"], bool(a["closed"]), str(a.get("language", "en"))
+            ),
+            "candidates": lambda a: self.search.state(),
+            "enough": lambda a: self.search.end(),
+            "take": self._take,
             "set": lambda a: {
                 "text": with_values(_text(a, "text"), {k: float(v) for k, v in a["values"].items()})
             },
@@ -71,6 +85,31 @@ class Work:
         except LinkwrightError as error:
             found["sentence"] = error.say(language)
         return found
+
+    def _take(self, asked: Plain) -> Plain:
+        """A report, or an export, of a text: its name and its bytes in base64."""
+        text, ending, language = (
+            _text(asked, "text"),
+            _text(asked, "ending"),
+            str(asked.get("language", "en")),
+        )
+        if ending not in TAKEN:
+            raise LinkwrightError(Sentence("studio.no_ending", ending=ending))
+        document = Document(text, "model", read_text)
+        with TemporaryDirectory() as folder:
+            stem = "report" if ending.startswith(".report") else "machine"
+            path = Path(folder) / f"{stem}{ending.removeprefix('.report')}"
+            if ending.startswith(".report"):
+                from linkwright.report.report import report
+
+                report(document.mechanism, language=language).save(path)
+            else:
+                from linkwright.export.export import export
+
+                more: Plain = {"text": text} if ending == ".html" else {}
+                export(document.mechanism, path, language=language, **more)
+            content = path.read_bytes()
+        return {"name": path.name, "content": base64.b64encode(content).decode()}
 
 
 def _finding(found: Finding, language: str) -> Plain:

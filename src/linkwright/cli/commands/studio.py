@@ -19,9 +19,11 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Serves the folder that it is started in until it is interrupted."""
     import webbrowser
+    from contextlib import suppress
     from pathlib import Path
 
     from linkwright.cli.errors import UsageError
+    from linkwright.server.address import Address, recalled, remember
     from linkwright.server.web import Studio
 
     folder = Path.cwd()
@@ -31,10 +33,16 @@ def run(options: argparse.Namespace, session: Session) -> int:
         if not path.is_relative_to(folder.resolve()):
             raise UsageError(session.say("studio.outside", name=options.file))
         name = path.relative_to(folder.resolve()).as_posix()
+    known = recalled(folder)
+    studio = None
+    if known is not None and options.port in (0, known.port):
+        with suppress(OSError):
+            studio = Studio(folder, name, port=known.port, language=session.language, token=known.token)
     try:
-        studio = Studio(folder, name, port=options.port, language=session.language)
+        studio = studio or Studio(folder, name, port=options.port, language=session.language)
     except OSError as problem:
         raise UsageError(session.say("studio.no_port", port=options.port, reason=problem.strerror)) from None
+    remember(folder, Address(studio.server_port, studio.token))
     with studio:
         session.show(session.say("studio.serving", url=studio.url))
         if not options.no_browser:

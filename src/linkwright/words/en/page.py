@@ -57,6 +57,8 @@ WORDS = {
     "forget": "Forget {name}",
     "take": "Take {name}",
     "sweep": "Paths while {name} varies by 20 % up and down",
+    "tolerance": "Lengths off by up to ±",
+    "cloud": "{built} of {count} machines with such lengths can be built; {paths} is at most {off} off its place.",
     "link": "Copy the link",
     "copied": "The link with the changed dimensions is in the clipboard.",
     "link_shown": "The link with the changed dimensions stands in the address line.",
@@ -77,6 +79,7 @@ WORDS = {
     "where": "{name} = {value}",
     "transmission_now": "transmission angle {value} ({name})",
     "not_found_again": "Forces are shown for the original only: the course of {names} is not found again here.",
+    "misfit": "the wheels of {names} do not fit the distance of their centres",
     "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
     "followed": "The assembly is followed from position to position, but not certified (margin {value}); "

@@ -1,0 +1,51 @@
+"""The address of a folder's studio, kept from one start to the next, so that open windows find the server again."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from linkwright.engine.cache import folder as cache_folder
+
+
+@dataclass(frozen=True)
+class Address:
+    """Port and secret of a studio."""
+
+    port: int
+    token: str
+
+
+def recalled(folder: Path) -> Address | None:
+    """The address that was kept for a folder, if any."""
+    path = _path(folder)
+    try:
+        found = Address(**json.loads(path.read_bytes())) if path is not None else None
+    except (OSError, ValueError, TypeError):
+        return None
+    if found is None or not isinstance(found.port, int) or not isinstance(found.token, str):
+        return None
+    return found if 0 < found.port < 65536 and len(found.token) >= 32 else None
+
+
+def remember(folder: Path, address: Address) -> None:
+    """Keeps an address where only this user can read it; without a cache folder nothing is kept."""
+    path = _path(folder)
+    if path is None:
+        return
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.unlink(missing_ok=True)
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            json.dump(asdict(address), file)
+    except OSError:
+        return
+
+
+def _path(folder: Path) -> Path | None:
+    base = cache_folder()
+    name = hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:24]
+    return None if base is None else base / "studio" / f"{name}.json"
