@@ -78,7 +78,7 @@ def _reaction(solved: lw.Forces, name: str) -> np.ndarray:
 #: One of every kind; ``python -m tests.ui.gallery`` takes all of them.
 KINDS = (
     "jaw_crusher_sixbar", "jaw_crusher_sixbar_as_reported", "shaper_quick_return", "triad", "excavator",
-    "theo_jansen_leg", "two_bars_equilibrium", "parallelogram", "dyad_prp",
+    "theo_jansen_leg", "two_bars_equilibrium", "parallelogram", "dyad_prp", "geared_fivebar_third",
 )  # fmt: skip
 
 

@@ -335,8 +335,10 @@ export class Model {
       const [ax, ay] = this.place(tried, key, i);
       tried[address] = values[address] - h;
       const [bx, by] = this.place(tried, key, i);
-      jx.push((ax - bx) / (2 * h));
-      jy.push((ay - by) / (2 * h));
+      // A dimension that the machine does not let go either way, as a centre of wheels that fit, moves nothing.
+      const free = Number.isFinite(ax + bx + ay + by);
+      jx.push(free ? (ax - bx) / (2 * h) : 0);
+      jy.push(free ? (ay - by) / (2 * h) : 0);
     });
     return [jx, jy];
   }
