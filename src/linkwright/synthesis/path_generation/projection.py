@@ -52,6 +52,14 @@ class Demand:
         return len(self.points) > 3 and bool(abs(self.points[-1] - self.points[0]) <= 1e-9 * self.size)
 
     @property
+    def excess(self) -> int:
+        """Number of equations beyond that of the unknowns."""
+        placed, turned = 2 * (self.pivot is None), int(self.direction is None)
+        points = int(self.same.max()) + 1
+        times = int(self.phase) if self.timed else points
+        return 2 * points - (placed + 1 + turned + 2 + 3 + times)
+
+    @property
     def size(self) -> float:
         """Root mean square distance of the points from their centre."""
         return float(np.sqrt(np.mean(np.abs(self.points - self.points.mean()) ** 2)))

@@ -24,8 +24,9 @@ TIMED, UNTIMED = (4000, 256, 32), (20000, 1536, 128)
 IN_ARRAYS = (3000, 64, 16), (16000, 256, 16)
 #: Steps before the worse half is given up, and to the end.
 FIRST_STEPS, LAST_STEPS = 15, 500
-#: Sum of squares, in units of the size squared, below which no other basin is sought.
-EXACT = 1e-24
+#: Where the points ask for more than the unknowns can give, a share of 1/FEW of the starts is tried first; a sum of
+#: squares below EXACT, in units of the size squared, is then the least.
+FEW, EXACT = 5, 1e-24
 #: Rounds within a bound: steps, rounds, starts kept, greatest weight of the bound, which doubles from FIRST_WEIGHT.
 ROUNDS = ((12, 12, 24, 100.0), (40, 40, 8, 100.0), (150, 20, 3, 100.0))
 FIRST_WEIGHT, INSIDE = 0.1, 0.97
@@ -47,16 +48,25 @@ def search(
     if not available():
         return _in_arrays(demand, bound, transmission, rocking, rng)
     tried, kept, last = TIMED if demand.timed else UNTIMED
-    family, mirrored, free = _random(demand, _fewer(demand, tried), transmission, rocking, rng)
-    paths = CompiledPaths.of(demand, family, mirrored, free, bound).judged()
+
+    def judged(share: int) -> CompiledPaths:
+        family, mirrored, free = _random(demand, _fewer(demand, tried // share), transmission, rocking, rng)
+        return CompiledPaths.of(demand, family, mirrored, free, bound).judged()
+
     if bound is not None:
-        return _bounded(paths, kept)
-    paths = paths.best(kept)
-    while len(paths.starts) > last:
+        return _bounded(judged(1), kept)
+    if demand.excess > 0:
+        paths = _iterated(judged(FEW).best(kept // FEW), last // FEW)
         if paths.deviation[0] < EXACT:
-            paths = paths.best(last)
+            return _found(paths)
+    return _found(_iterated(judged(1).best(kept), last))
+
+
+def _iterated(paths: CompiledPaths, last: int) -> CompiledPaths:
+    """The last ones of paths, iterated to the end."""
+    while len(paths.starts) > last:
         paths = paths.iterated(FIRST_STEPS).best(max(last, len(paths.starts) // 2))
-    return _found(paths.iterated(LAST_STEPS).best(last))
+    return paths.iterated(LAST_STEPS).best(last)
 
 
 def _fewer(demand: Demand, tried: int) -> int:
@@ -71,10 +81,13 @@ def _bounded(paths: CompiledPaths, kept: int) -> Found:
     """Solutions within the bound: iterated with shifted penalties; timed ones then along the bound."""
     near, within = paths.best(kept // 4).inside(INSIDE), paths.inside(INSIDE).best(kept)
     paths, weight = paths.of_starts(np.concatenate([near.starts, within.starts])), FIRST_WEIGHT
+    others = paths
     for steps, rounds, last, greatest in ROUNDS:
+        others = paths
         for _ in range(rounds):
             paths = paths.iterated(steps, weight).best(max(last, 2 * len(paths.starts) // 3)).shifted(weight)
             weight = min(greatest, 2 * weight)
+    paths = paths.of_starts(np.concatenate([paths.starts, others.starts]))
     found = _found(paths.iterated(LAST_STEPS, weight).inside(1.0))
     assert paths.bound is not None
     return _finished(found, paths.bound) if paths.demand.timed else found
