@@ -4,8 +4,9 @@
     python -m tests.mutants --only kinetostatics/friction.py --count 50 --seed 3
 
 Of all mutants of the packages (`tests/mutation/mutate.py`) a random sample is tried: the tests that run the changed
-line, the quickest of each file first, until one fails. Survivors are printed. Mutants that nobody could notice
-stand, each with the reason, in `tests/equivalent_mutants.txt`; they are left out of the share.
+line, those of files named for the module and the quickest of each file first, until one fails. Survivors are printed.
+Mutants that nobody could notice stand, each with the reason, in `tests/equivalent_mutants.txt`; they are left out of
+the share.
 
 Exit code: 0 at least 90 % of the others killed, 1 fewer, 2 wrong use, 130 interrupted.
 """
@@ -80,7 +81,7 @@ def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float)
     tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
     if not tests:
         return Trial(key, mutant.kind, place, "not run", "no test runs the line", 0.0)
-    chosen, began = cover.by_promise(tests, budget), time.monotonic()
+    chosen, began = cover.by_promise(tests, budget, Path(mutant.path).stem), time.monotonic()
     first = max(1, min(30, len(chosen)))
     for part in (chosen[:first], chosen[first:]):
         if part:

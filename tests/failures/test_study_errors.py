@@ -110,6 +110,8 @@ def test_sweeps_refuse_what_no_design_can_have() -> None:
         lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[("driver.effort", "rmss")])
     )
     assert "no outputs" in said(lambda: sweep(machine(), {"coupler.length": lengths}, outputs=[]))
+    with pytest.raises(RequestError, match=r"no dimension or parameter 'coupler.lenght'.*coupler.length"):
+        sweep(machine(), {"coupler.lenght": lengths}, outputs=["B.x max"])
     found = sweep(machine(), {"coupler.length": lengths}, outputs=["B.x max"])
     assert "was not asked for" in said(lambda: found["B.x min"])
 

@@ -110,3 +110,37 @@ driver: {turn: a, about: O1, speed: 1 rad/s}
 """
     motion = lw.solve_motion(lw.loads(text), steps=36)
     assert motion.point("C").position[:, 0] == pytest.approx(1.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("run", ["open", "crossed"])
+@pytest.mark.parametrize("pretension", [0.0, 700.0])
+def test_strands_of_a_belt_load_the_pins(pretension: float, run: str) -> None:
+    """Two strands of F₀ ± Q/2, Q = M/r_b, along the common tangents; without pretension the slack strand carries
+    nothing. Pulleys of 50 and 20 mm, 200 mm apart, 8 N·m on the smaller one."""
+    a, b, d, moment = 0.05, 0.02, 0.2, 8.0
+    given = f", run: {run}" + (f", pretension: {pretension} N" if pretension else "")
+    motion = lw.solve_motion(
+        lw.loads(f"""
+format: 1
+frame: {{points: {{O: [0 mm, 0 mm], Q: [200 mm, 0 mm]}}}}
+links:
+  a: {{points: {{O: [0 mm, 0 mm], P: [10 mm, 0 mm]}}}}
+  b: {{points: {{Q: [0 mm, 0 mm], W: [10 mm, 0 mm]}}}}
+joints: {{belt: {{kind: belt, links: [a, b], radii: [50 mm, 20 mm]{given}}}}}
+driver: {{turn: a, about: O, speed: 1 rad/s}}
+loads: {{work: {{kind: torque, on: b, magnitude: 8 N·m}}}}
+"""),
+        steps=12,
+    )
+    forces, pull = lw.solve_forces(motion), moment / b
+    sine = ((a - b) if run == "open" else (a + b)) / d
+    cosine = np.sqrt(1.0 - sine**2)
+    below = pretension + pull / 2 if pretension else pull  # the strand that holds b against the moment
+    above = below - pull
+    # from a to b: the strand from a's upper side falls, the other rises; crossed, b's lower side holds the first one
+    tight, slack = (below, above) if run == "open" else (above, below)
+    on_b = -np.array([(tight + slack) * cosine, (tight - slack) * sine])
+    assert np.abs(forces.reaction("Q", on="b") + on_b).max() < 1e-9
+    assert np.abs(forces.reaction("O", on="a") - on_b).max() < 1e-9
+    ratio = a / b if run == "open" else -a / b
+    assert forces.input_torque == pytest.approx(np.full(12, -moment * ratio), rel=1e-12)

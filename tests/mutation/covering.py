@@ -41,10 +41,11 @@ class Covering:
             found = {t for place, tests in self.tests.items() if place.startswith(f"{path}:") for t in tests}
         return sorted(found - {""})
 
-    def by_promise(self, tests: list[str], seconds: float) -> list[str]:
+    def by_promise(self, tests: list[str], seconds: float, module: str = "") -> list[str]:
         """The tests, from each file its quickest in turn, as many as fit into the time.
 
-        Behind them the others of the same files, which may share a fixture with them.
+        Files named for the ``module`` come first, with all their tests. Behind them the others of the same files,
+        which may share a fixture with them.
         """
         own, chosen = set(tests), []
         files = {test.split("::")[0] for test in tests}
@@ -55,7 +56,8 @@ class Covering:
             for test in sorted(group, key=lambda t: self.seconds.get(t, 1.0)):
                 file = test.split("::")[0]
                 ranks[file] = ranks.get(file, 0) + 1
-                ranked.append((ranks[file], self.seconds.get(test, 1.0), test))
+                named = bool(module) and module in file
+                ranked.append((0 if named else ranks[file], self.seconds.get(test, 1.0), test))
             chosen += [(cost, test) for _, cost, test in sorted(ranked)]
         kept, left = [], seconds
         for cost, test in chosen:

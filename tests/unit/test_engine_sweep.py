@@ -301,3 +301,14 @@ def test_functions_of_the_positions_alone_are_found_once_for_all_designs(backend
             assert got[f"{name}.sum"][d] == pytest.approx(row[held].sum(), rel=1e-12)
             assert got[f"{name}.max"][d] == pytest.approx(row[held].max(), rel=1e-14)
             assert row[got[f"{name}.argmin"][d]] == pytest.approx(row[held].min(), rel=1e-14)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_fields_of_another_number_of_designs_are_refused(backend: str) -> None:
+    t = Trace()
+    x, gain, g = t.position("x"), t.parameter("a"), t.field_input("g")
+    program = Program.of(t, {"y": x * gain + g})
+    xs, gains = np.linspace(0.0, 1.0, 4), np.ones((3, 1))
+    given = {"fields": {"g": np.ones((2, 4))}, "backend": backend}
+    with pytest.raises(ValueError, match="3"):
+        sweep(program, gains, {"x": xs}, [Reduction("y", "max")], **given)
