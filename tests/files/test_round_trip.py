@@ -13,6 +13,7 @@ from linkwright.errors import LinkwrightError, ModelError
 from linkwright.files.build import Model
 from linkwright.files.model_file import check, dump, gallery_names, load, loads, read_document
 from linkwright.files.schema import json_schema
+from linkwright.files.source import read_source
 
 BLOCK = """\
 # head
@@ -219,3 +220,21 @@ def test_the_schema_names_every_section_and_is_plain_json() -> None:
     link = schema["properties"]["links"]["additionalProperties"]
     assert set(link["properties"]) == {
         "points", "length", "lengths", "angle", "also", "mass", "inertia", "mass_centre"}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "before", "after"),
+    [
+        ("chain_drive", "pitch: 12.7 mm", "pitch: 12.7 mm, phase: 10 deg"),
+        ("chain_drive", "kind: chain, links: [motor, crank], teeth: [17, 51], pitch: 12.7 mm",
+         "kind: belt, links: [motor, crank], radii: [30 mm, 90 mm], run: crossed, pretension: 200 N"),
+        ("external_gear_pair", "module: 2 mm", "module: 2 mm, pressure_angle: 25 deg"),
+        ("pinion_between_racks", "below: {kind: rack,", "below: {kind: rack, pressure_angle: 14.5 deg,"),
+    ],
+)  # fmt: skip
+def test_what_wheels_are_given_is_written(name: str, before: str, after: str) -> None:
+    text = read_source(f"gallery:{name}")[0]
+    assert before in text
+    model = loads(text.replace(before, after))
+    again = loads(dump(model))
+    assert dict(again.joints) == dict(model.joints) != dict(loads(text).joints)
