@@ -163,3 +163,19 @@ driver: {turn: crank, about: O, speed: 120 rpm}
     alone = metrics(lw.solve_forces(rubbing.with_dimensions({"rod.length": 0.71})))
     for name in ("rms_input_torque", "stroke"):
         assert found[name][1] == alone.value(name)
+
+
+@pytest.mark.parametrize("name", ["stephenson_sixbar", "whitworth", "double_slider"])
+def test_masses_alone_take_no_work_in_a_cycle(name: str) -> None:
+    """What is left of the mean power by rounding is shown as zero."""
+    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=72))
+    assert np.abs(forces.input_torque).max() > 0.1
+    assert lw.metrics(forces, ["mean_power"]).value("mean_power") == 0.0
+
+
+def test_a_constant_power_is_its_mean_over_inputs_of_ones_own() -> None:
+    """40 N·m on the wheel of twice the teeth at 600 rpm: 20 · 20 π W at the motor, however uneven the inputs."""
+    motion = lw.solve_motion(lw.load("gallery:external_gear_pair"), at=[0.0, 0.1, 0.9, 1.0, 3.0])
+    assert lw.metrics(lw.solve_forces(motion), ["mean_power"]).value("mean_power") == pytest.approx(
+        400 * np.pi
+    )
