@@ -41,6 +41,17 @@ def test_a_torsion_spring_is_wound_as_at_the_beginning_up_to_a_limit(steps: int)
     assert verdict.kind == (LIMIT if steps > 1 else AGREES), verdict.lines
 
 
+@pytest.mark.parametrize(
+    ("name", "steps", "kind"), [("other_way_round", 12, LIMIT), ("guides_nearly_parallel", 24, AGREES)]
+)
+def test_ways_that_are_not_the_usual_ones(name: str, steps: int, kind: str) -> None:
+    """A turning driver that reaches the first position only the other way round; a block 500 sizes away."""
+    text = Path(__file__).with_name("faults").joinpath(f"{name}.yaml").read_text("utf-8")
+    verdict = judged(text, steps)
+    assert verdict.kind == kind, verdict.lines
+    assert verdict.notes["ok"] >= 4
+
+
 def test_everything_comes_up() -> None:
     texts = [general_case(seed).text for seed in range(300)]
     models = [lw.loads(text) for text in texts]
