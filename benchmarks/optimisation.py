@@ -2,7 +2,8 @@
 
 The others get the same bounds, demands and start, and the same exact numbers, by one sweep a generation where they
 can take a whole generation (``vectorized``), else one design at a time. They stop when they are as good as
-``lw.optimize`` (to 0.1 %), or after ``--times`` its processor seconds. pymoo is left out where it is not installed.
+``lw.optimize`` (volume and ends of the front, to 0.1 %), or after ``--times`` its processor seconds. pymoo is left
+out where it is not installed.
 """
 
 from __future__ import annotations
@@ -84,8 +85,10 @@ class Race:
 
     def over(self, front: Floats) -> bool:
         """Whether another one has reached it, or had its time."""
-        spent = time.process_time() - self.begin
-        return spent > self.seconds or self.volume(front) >= 0.999 * self.volume(self.ours)
+        if time.process_time() - self.begin > self.seconds:
+            return True
+        ends = len(front) and (front.min(axis=0) <= 1.001 * self.ours.min(axis=0)).all()
+        return bool(ends) and self.volume(front) >= 0.999 * self.volume(self.ours)
 
 
 def by_scipy(task: Task, race: Race, together: bool) -> tuple[Floats, int]:
