@@ -135,6 +135,33 @@ class _Beside:
         return self.data
 
 
+@pytest.mark.parametrize(("separator", "encoding"), [(",", "utf-8-sig"), (";", "utf-8"), ("\t", "utf-8")])
+def test_sheets_saved_by_spreadsheets_are_read(
+    found: lw.Variants, tmp_path: Path, separator: str, encoding: str
+) -> None:
+    key = found.key()
+    comma = separator != ","
+    rows = [["student", "variant", *(q["name"] for q in key["questions"]), "remark"]]
+    for each in key["variants"]:
+        answers = [f"{a:.6g}".replace(".", "," if comma else ".") for a in each["answers"]]
+        rows.append([f"学生 {each['number']}", str(each["number"]), *answers])
+    path = tmp_path / "answers.csv"
+    path.write_text("\r\n".join(separator.join(row) for row in rows), encoding=encoding)
+    grades = lw.grade(key, path)
+    assert [each.score for each in grades] == [1.0] * len(key["variants"])
+    assert grades[0].student == "学生 1"
+
+
+def test_all_rows_that_cannot_be_graded_are_told_at_once(found: lw.Variants) -> None:
+    key = found.key()
+    names = [q["name"] for q in key["questions"]]
+    good = {"variant": "1", **dict.fromkeys(names, "1")}
+    bad = [{**good, "variant": "99"}, good, {**good, names[0]: "twelve"}, {**good, names[1]: "1.234,5"}]
+    with pytest.raises(LinkwrightError) as told:
+        lw.grade(key, bad)
+    assert all(word in str(told.value) for word in ("99", "twelve", "1.234,5"))
+
+
 def test_open_answers_commas_and_right_angles_over_full_turns(found: lw.Variants) -> None:
     key = found.key()
     names = [q["name"] for q in key["questions"]]

@@ -14,7 +14,7 @@ from typing import Any
 from linkwright.course.variants import FORMAT, close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, lines
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,22 @@ def grade(
         One grade per row.
 
     Raises:
-        LinkwrightError: a file that cannot be read, a column or a variant that does not exist, an answer that is no
-            number.
+        LinkwrightError: a file that cannot be read, a column that does not exist; all rows whose variant does not
+            exist or with an answer that is no number.
     """
     held = _key(key)
     rows = _rows(answers)
-    return [_graded(held, row, line) for line, row in enumerate(rows, 2)]
+    found, faults = list[Grade](), list[str]()
+    for line, row in enumerate(rows, 2):
+        try:
+            found.append(_graded(held, row, line))
+        except RequestError:
+            raise
+        except LinkwrightError as error:
+            faults.append(error.sentence)
+    if faults:
+        raise LinkwrightError(lines(faults))
+    return found
 
 
 def _key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
@@ -78,7 +88,7 @@ def _rows(given: str | Path | Sequence[Mapping[str, str]]) -> list[Mapping[str, 
     except (OSError, ValueError) as error:
         raise RequestError(Sentence("course.bad_answers", path=given, why=str(error))) from None
     first = text.partition("\n")[0]
-    separator = ";" if first.count(";") > first.count(",") else ","
+    separator = max(",;\t", key=first.count)
     return list(csv.DictReader(io.StringIO(text), delimiter=separator))
 
 
