@@ -24,6 +24,15 @@ def counts(mechanism: Mechanism) -> dict[str, int]:
     return found
 
 
+def lower_pairs(numbers: Mapping[str, int]) -> tuple[int, int, int]:
+    """Pairs that turn, pairs that slide, and welds among the counts."""
+    kinds = {JOINTS[kind]: count for kind, count in numbers.items() if kind in JOINTS}
+    turning, sliding = (
+        sum(count for kind, count in kinds.items() if kind.coordinate == word) for word in ("turn", "slide")
+    )
+    return turning, sliding, sum(count for kind, count in kinds.items() if kind.freedoms == 0)
+
+
 def grubler(numbers: Mapping[str, int]) -> int:
     """Mobility in the plane, F = 3n - 2 p_L - p_H of lower and higher pairs; a weld takes three.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.joints.base import JOINTS
 from linkwright.structure.group import Connection, Group, Structure
+from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, has, speaker
 from linkwright.words.width import cells, padded
@@ -40,7 +41,7 @@ def numeral(number: int, say: Say) -> str:
 
 
 def _mobility(structure: Structure, say: Say) -> list[str]:
-    n, r, p, w = (structure.counts[key] for key in ("links", "revolute", "prismatic", "weld"))
+    n, (r, p, w) = structure.counts["links"], lower_pairs(structure.counts)
     higher = {
         kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
     }

@@ -11,6 +11,7 @@ from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
 from linkwright.report.section import SECTIONS, Section
+from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.text import numeral
 
 
@@ -58,7 +59,8 @@ def _pictures(case: Case) -> Block:
 
 def _mobility(case: Case) -> Formula:
     counts = case.structure.counts
-    n, p, w = counts["links"], counts["revolute"] + counts["prismatic"], counts["weld"]
+    n, (turning, sliding, w) = counts["links"], lower_pairs(counts)
+    p = turning + sliding
     higher = sum(count for kind, count in counts.items() if kind in JOINTS and JOINTS[kind].higher)
     lower = "p_{L}" if higher else "p"
     symbols, numbers = f"3\\,n - 2\\,{lower}", f"3\\cdot {n} - 2\\cdot {p}"
