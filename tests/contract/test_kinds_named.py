@@ -30,6 +30,9 @@ ROOMS: Mapping[str, Registry] = {
 SOLVING = ("structure", "kinematics", "engine", "groups")
 #: What is left, by file: how often, and why.
 LEFT: Mapping[str, tuple[int, str]] = {
+    "cams/joint.py": (1, "designs the cam of a cam joint"),
+    "report/sections/cams.py": (1, "the section of reports on cams"),
+    "report/sections/gears.py": (2, "the section of reports on wheels and racks"),
     "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
     "plot/animation.py": (1, "the kind of arrows on paper"),
     "report/numbers.py": (1, "the kind of a quantity; speed is one"),

@@ -165,8 +165,8 @@ def _with_gap(mechanism: Mechanism, pin: str, clearance: Clearance, law: TurnedB
     bored = replace(holder, points={hole if p == pin else p: place for p, place in holder.points.items()})
     links |= {gap: Link(gap, "coordinates", {hole: (0.0, 0.0), pin: (clearance.clearance, 0.0)})}
     links |= {} if on == "frame" else {on: bored}
-    old = joints.pop(pin)
-    assert isinstance(old, RevoluteJoint)
+    old = mechanism.pins[pin]
+    del joints[pin]
     _refuse_attached({**joints, **mechanism.loads}, pin, on)
     joints[pin] = replace(old, links=tuple(gap if name == on else name for name in old.links))
     joints[hole] = RevoluteJoint(hole, (on, gap))
