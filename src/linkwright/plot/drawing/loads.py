@@ -30,7 +30,7 @@ def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
 
 def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
     """The symbol of one load: of forces and torques an arrow, else the one of its kind or the general one."""
-    shown = load.mark(machine.motion, index)
+    shown = machine.mark(load, index)
     if shown is not None and not forces:
         return EMPTY
     match shown:
@@ -84,7 +84,7 @@ def load_labels(machine: Machine, index: int, *, forces: bool = True) -> list[La
     """Names of the loads that push, and of those that have the general symbol."""
     found = []
     for name, load in machine.motion.mechanism.loads.items():
-        pushes = load.mark(machine.motion, index) is not None
+        pushes = machine.mark(load, index) is not None
         shape = mark(machine, load, index, forces)
         if shape.ink and (pushes or load.kind not in SYMBOLS):
             line = shape.ink[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,6 +11,8 @@ import numpy as np
 
 from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
+from linkwright.loads.base import Load
+from linkwright.loads.marks import Mark
 from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.view import Placement, View
 from linkwright.plot.svg.element import Floats
@@ -31,11 +33,20 @@ class Part:
 
 @dataclass(frozen=True)
 class Machine:
-    """A motion with the placements of its links and the view it is drawn in."""
+    """A motion with the placements of its links and the view it is drawn in.
+
+    ``beside``: motions and positions in them that follow those of the motion in the placements.
+    """
 
     motion: Motion
     placed: dict[str, Placement]
     view: View
+    beside: Sequence[tuple[Motion, int]] = ()
+
+    def mark(self, load: Load, index: int) -> Mark | None:
+        """What a load draws of itself at a position."""
+        last = self.motion.steps
+        return load.mark(*(self.beside[index - last] if index >= last else (self.motion, index)))
 
     @property
     def pins(self) -> Mapping[str, TurningJoint]:

@@ -91,7 +91,7 @@ def laid_out(
     ``beside``: positions of other motions of the mechanism, counted on after its own.
     """
     placed = followed(placements(motion), beside)
-    machine = Machine(motion, placed, fitted(motion, placed))
+    machine = Machine(motion, placed, fitted(motion, placed), beside)
     parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
     if inputs:
         parts += input_arrows(machine, index)
