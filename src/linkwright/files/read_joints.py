@@ -9,7 +9,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
-from linkwright.joints.base import JOINTS, Joint
+from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.revolute import RevoluteJoint
 from linkwright.mechanism.mechanism import Link
 from linkwright.words.sentence import Sentence
@@ -117,4 +117,4 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
     if given is None or reader.error_count > before:
         return None
     values = {key: value for key, value in given.items() if key != "kind" and value is not None}
-    return cls.read(reader, mapping, place, name, values, links)
+    return cls.read(Entry(reader, mapping, place, name, values, links))

@@ -143,6 +143,23 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class Entry:
+    """A joint's entry in a model file: its name and place, the values of its keys, the links that were read."""
+
+    reader: Reader
+    node: MappingNode
+    place: Where
+    name: str
+    values: dict[str, Any]
+    links: Mapping[str, Link]
+
+    def say(self, key: str, problem: Sentence, remedy: Sentence, code: str = "reference") -> None:
+        """Adds a finding at one of the keys, or with ``""`` at the entry itself."""
+        place = self.place.child(key) if key else self.place
+        self.reader.error((key and self.node.get(key)) or self.node, place, problem, remedy, code)
+
+
+@dataclass(frozen=True)
 class Joint(ABC):
     """A connection of links; ``name`` is its name in the model.
 
@@ -195,17 +212,9 @@ class Joint(ABC):
         raise cls.lacks("fields")
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
+    def read(cls, entry: Entry) -> Joint | None:
         """The joint from the values of its keys, or None after a finding."""
-        return cls(name, **values)
+        return cls(entry.name, **entry.values)
 
     @classmethod
     def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:

@@ -11,15 +11,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Mask, Scalar, maximum, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Poses
+from linkwright.joints.base import JOINTS, Contact, Entry, Poses
 from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import WheelCut, WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
@@ -67,11 +64,10 @@ class BeltPair(WheelPair):
     def running_radii(self) -> tuple[float, float]:
         return self.pitch_radii()
 
-    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+    def check(self, entry: Entry, distance: float) -> None:
         problem = self._touching(distance)
         if problem is not None:
-            held = node.get("radii") or node.get("teeth") or node
-            reader.error(held, place, problem, Sentence("joints.pulleys_apart"), "range")
+            entry.say("radii" if self.radii else "teeth", problem, Sentence("joints.pulleys_apart"), "range")
 
     def _touching(self, distance: float) -> Sentence | None:
         a, b = self.pitch_radii()

@@ -11,14 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
-from linkwright.joints.base import JOINTS, Cut, HigherPair, Joint, LackingError, carried_steadily
+from linkwright.joints.base import JOINTS, Cut, Entry, HigherPair, Joint, LackingError, carried_steadily
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.joints.cam_cuts import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
@@ -27,7 +24,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
-    from linkwright.mechanism.mechanism import Link, Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group
 
 TOUCH = ("roller", "knife", "flat")
@@ -126,21 +123,13 @@ class CamJoint(HigherPair):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
+    def read(cls, entry: Entry) -> Joint | None:
         from linkwright.laws.traced import LiftCurve
 
         def say(key: str, word: str, code: str = "reference") -> None:
-            problem, remedy = Sentence(f"joints.{word}"), Sentence(f"joints.{word}_remedy")
-            reader.error(node.get(key) or node, place.child(key), problem, remedy, code)
+            entry.say(key, Sentence(f"joints.{word}"), Sentence(f"joints.{word}_remedy"), code)
 
+        values, name = entry.values, entry.name
         program, angles, lifts = values.get("program"), values.get("angles"), values.get("lifts")
         if values["cam"] == values["follower"]:
             say("follower", "cam_alone")

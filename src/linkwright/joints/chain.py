@@ -9,18 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity
-from linkwright.joints.base import JOINTS, Joint
+from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.mechanism.mechanism import Link
 
 
 @JOINTS.register("chain")
@@ -46,30 +42,15 @@ class ChainPair(BeltPair):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
-        if values.get("teeth") is not None and values.get("pitch") is None:
-            reader.error(
-                node, place, Sentence("joints.no_pitch"), Sentence("joints.give_pitch"), "missing-key"
-            )
+    def read(cls, entry: Entry) -> Joint | None:
+        teeth, pitch, radii = (entry.values.get(key) for key in ("teeth", "pitch", "radii"))
+        if teeth is not None and pitch is None:
+            entry.say("", Sentence("joints.no_pitch"), Sentence("joints.give_pitch"), "missing-key")
             return None
-        if values.get("pitch") is not None and values.get("radii") is not None:
-            reader.error(
-                node.get("radii") or node,
-                place.child("radii"),
-                Sentence("joints.radii_and_pitch"),
-                Sentence("joints.leave_radii"),
-                "choice",
-            )
+        if pitch is not None and radii is not None:
+            entry.say("radii", Sentence("joints.radii_and_pitch"), Sentence("joints.leave_radii"), "choice")
             return None
-        return super().read(reader, node, place, name, values, links)
+        return super().read(entry)
 
     @classmethod
     def sizes(cls) -> tuple[str, ...]:

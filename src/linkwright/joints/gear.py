@@ -14,19 +14,16 @@ import numpy as np
 from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Joint, Poses
+from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
 from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.cycle import Floats
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
-    from linkwright.mechanism.mechanism import Link, Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
 
 #: The pressure angle of standard teeth.
@@ -74,56 +71,33 @@ class GearPair(WheelPair):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
+    def read(cls, entry: Entry) -> Joint | None:
+        values = entry.values
         ratio = values.get("ratio")
         if ratio is not None and not (values.get("teeth") or values.get("radii")):
             values["mesh"] = "internal" if ratio > 0 else "external"
-        return super().read(reader, node, place, name, values, links)
+        return super().read(entry)
 
-    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+    def check(self, entry: Entry, distance: float) -> None:
         i = self.transmission
         given = self.teeth or self.radii
         if self.ratio is not None and given is not None:
             own = self.sense * given[0] / given[1]
             if abs(self.ratio - own) > FITS * abs(own):
                 key = "teeth" if self.teeth else "radii"
-                reader.error(
-                    node.get("ratio"),
-                    place.child("ratio"),
-                    Sentence("joints.ratio_misfit", ratio=self.ratio, key_=key, own=own),
-                    Sentence("joints.leave_ratio"),
-                    "choice",
-                )
+                problem = Sentence("joints.ratio_misfit", ratio=self.ratio, key_=key, own=own)
+                entry.say("ratio", problem, Sentence("joints.leave_ratio"), "choice")
                 return
         if i == 1.0:
-            reader.error(node, place, Sentence("joints.equal_internal"), Sentence("joints.unequal"), "range")
+            entry.say("", Sentence("joints.equal_internal"), Sentence("joints.unequal"), "range")
             return
         if distance == 0.0:
-            reader.error(
-                node.get("links"),
-                place.child("links"),
-                Sentence("joints.same_centre", centres=self.centres),
-                Sentence("joints.centres_apart"),
-                "range",
-            )
+            problem = Sentence("joints.same_centre", centres=self.centres)
+            entry.say("links", problem, Sentence("joints.centres_apart"), "range")
             return
-        problem = self._apart(distance)
-        if problem is not None:
-            reader.error(
-                node.get("radii") or node.get("module"),
-                place.child("radii" if self.radii else "module"),
-                problem,
-                Sentence("joints.fit_distance"),
-                "range",
-            )
+        apart = self._apart(distance)
+        if apart is not None:
+            entry.say("radii" if self.radii else "module", apart, Sentence("joints.fit_distance"), "range")
 
     def _apart(self, distance: float) -> Sentence | None:
         """What is wrong where the sizes ask for another distance of the centres."""

@@ -12,20 +12,17 @@ from linkwright.engine.trace import Scalar, angle
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
-from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Cut, Entry, Joint, Poses, States
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import FRICTION
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.mechanism.mechanism import Link, Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint
@@ -76,17 +73,10 @@ class PrismaticJoint(SlidingJoint):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
-        if not cls._apart(reader, node, place, values):
+    def read(cls, entry: Entry) -> Joint | None:
+        if not cls._apart(entry):
             return None
+        name, values, links = entry.name, entry.values, entry.links
         guide, direction = values["guide"], values.pop("direction")
         if isinstance(direction, float):
             return cls(name, direction=direction, direction_points=None, **values)
@@ -97,13 +87,8 @@ class PrismaticJoint(SlidingJoint):
         if first is None or second is None:
             return joint
         if math.dist(first, second) == 0:
-            reader.error(
-                node.get("direction"),
-                place.child("direction"),
-                Sentence("model.same_place", points=together(direction)),
-                Sentence("model.points_apart"),
-                "range",
-            )
+            problem = Sentence("model.same_place", points=together(direction))
+            entry.say("direction", problem, Sentence("model.points_apart"), "range")
         return joint.aligned(links[guide].points)
 
     @classmethod
@@ -112,27 +97,16 @@ class PrismaticJoint(SlidingJoint):
         return (at, (guide,)) if at and guide and at == given.get("through") else None
 
     @staticmethod
-    def _apart(reader: Reader, node: MappingNode, place: Where, values: Mapping[str, Any]) -> bool:
+    def _apart(entry: Entry) -> bool:
         """Whether guide and block, and their points, are different ones."""
-        guide, point = values["guide"], values["at"]
-        if guide == values["block"]:
-            reader.error(
-                node.get("block"),
-                place.child("block"),
-                Sentence("model.guide_is_block", guide=guide),
-                Sentence("model.two_links"),
-                "reference",
-            )
+        guide, block, point = (entry.values[key] for key in ("guide", "block", "at"))
+        if guide == block:
+            entry.say("block", Sentence("model.guide_is_block", guide=guide), Sentence("model.two_links"))
             return False
-        others = [owner for owner in reader.names.owners(point) if owner not in (guide, values["block"])]
-        if point == values["through"] and others:
-            reader.error(
-                node.get("at"),
-                place.child("at"),
-                Sentence("model.point_on_both", point=point, others=tuple(others)),
-                Sentence("model.rename_point"),
-                "ambiguous",
-            )
+        others = [owner for owner in entry.reader.names.owners(point) if owner not in (guide, block)]
+        if point == entry.values["through"] and others:
+            problem = Sentence("model.point_on_both", point=point, others=tuple(others))
+            entry.say("at", problem, Sentence("model.rename_point"), "ambiguous")
             return False
         return True
 

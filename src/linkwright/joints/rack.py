@@ -18,6 +18,7 @@ from linkwright.joints.base import (
     Angles,
     Contact,
     Cut,
+    Entry,
     HigherPair,
     Joint,
     Poses,
@@ -31,13 +32,10 @@ from linkwright.joints.toothed import FITS, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Link, Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group
 
 
@@ -100,40 +98,26 @@ class RackPair(HigherPair):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
+    def read(cls, entry: Entry) -> Joint | None:
+        values = entry.values
         pinion, rack = values["pinion"], values["rack"]
-
-        def say(key: str, problem: Sentence, remedy: Sentence, code: str = "reference") -> None:
-            reader.error(node.get(key) or node, place.child(key), problem, remedy, code)
-
         if pinion == rack:
-            say("rack", Sentence("model.both_links", first=pinion), Sentence("model.two_links"))
+            entry.say("rack", Sentence("model.both_links", first=pinion), Sentence("model.two_links"))
             return None
-        if not any(pinion in owners for owners in reader.names.pins.values()):
-            say(
-                "pinion",
-                Sentence("joints.without_pin", wheel=pinion),
-                Sentence("joints.give_pin", wheel=pinion),
-            )
+        if not any(pinion in owners for owners in entry.reader.names.pins.values()):
+            wheel = {"wheel": pinion}
+            entry.say("pinion", Sentence("joints.without_pin", **wheel), Sentence("joints.give_pin", **wheel))
             return None
         if (values.get("radius") is None) == (values.get("module") is None or values.get("teeth") is None):
-            say("radius", Sentence("joints.no_size"), Sentence("joints.give_rack_size"), "missing-key")
+            entry.say("radius", Sentence("joints.no_size"), Sentence("joints.give_rack_size"), "missing-key")
             return None
         direction = values.pop("direction", None)
         if isinstance(direction, tuple):
-            p, q = (complex(*links[rack].points[each]) for each in direction)
+            p, q = (complex(*entry.links[rack].points[each]) for each in direction)
             direction = cmath.phase(q - p)
         radius = values.pop("radius", None) or 0.5 * values["teeth"] * values["module"]
         values.setdefault("centre", "")
-        return cls(name, direction=direction, side=1, radius=radius, **values)
+        return cls(entry.name, direction=direction, side=1, radius=radius, **values)
 
     def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
         way = self._way(mechanism)

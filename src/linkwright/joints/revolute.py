@@ -9,18 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
-from linkwright.joints.base import JOINTS, Angles, Cut, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Angles, Cut, Entry, Joint, Poses, States
 from linkwright.joints.lower import TurningJoint
 from linkwright.joints.pose import Pose, Rotor, State
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.mechanism.mechanism import Link
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint
@@ -52,20 +48,12 @@ class RevoluteJoint(TurningJoint):
         return {"pin_radius": Quantity("length", above=0, doc="radius of the pin"), "friction": FRICTION}
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
-        owners = reader.names.pins.get(name)
-        if owners is None:
-            reader.known(node, place, "pin", name, list(reader.names.pins))
+    def read(cls, entry: Entry) -> Joint | None:
+        pins = entry.reader.names.pins
+        if entry.name not in pins:
+            entry.reader.known(entry.node, entry.place, "pin", entry.name, list(pins))
             return None
-        return cls(name, owners, **values)
+        return cls(entry.name, pins[entry.name], **entry.values)
 
     def written(self) -> dict[str, Any]:
         return {key: value for key in ("pin_radius", "friction") if (value := getattr(self, key))}

@@ -20,19 +20,18 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import LinkName, LinkNames
-from linkwright.joints.base import Angles, Cut, HigherPair, Joint, Poses, States
+from linkwright.joints.base import Angles, Cut, Entry, HigherPair, Joint, Poses, States
 from linkwright.joints.marks import Amount, Wheel, Wheels
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.files.plain_reader import Place as Where
     from linkwright.files.reader import Reader
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Link, Mechanism
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection
@@ -95,22 +94,14 @@ class WheelPair(HigherPair):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
-        held = _Centres(reader, node, place, values["links"], values.pop("carrier", None)).found(cls.kind)
-        if held is None or not _one_size(reader, node, place, values, cls.sizes()):
+    def read(cls, entry: Entry) -> Joint | None:
+        held = _Centres(entry, entry.values["links"], entry.values.pop("carrier", None)).found(cls.kind)
+        if held is None or not _one_size(entry, cls.sizes()):
             return None
-        joint = cls(name, carrier=held[0], centres=held[1:], **values)
-        points = links[held[0]].points if held[0] in links else {}
+        joint = cls(entry.name, carrier=held[0], centres=held[1:], **entry.values)
+        points = entry.links[held[0]].points if held[0] in entry.links else {}
         if all(each in points for each in joint.centres):
-            joint.check(reader, node, place, math.dist(*(points[each] for each in joint.centres)))
+            joint.check(entry, math.dist(*(points[each] for each in joint.centres)))
         return joint
 
     @classmethod
@@ -118,7 +109,7 @@ class WheelPair(HigherPair):
         """The keys of which one gives the sizes."""
         return ("teeth", "radii", "ratio")
 
-    def check(self, reader: Reader, node: MappingNode, place: Where, distance: float) -> None:
+    def check(self, entry: Entry, distance: float) -> None:
         """Adds findings where the sizes do not fit the distance (m) between the centres."""
 
     def drawn(self, drawing: Drawing) -> Joint:
@@ -309,34 +300,19 @@ class Numbers(Field):
         return [int(each) if each == round(each) else each for each in value]
 
 
-def _one_size(
-    reader: Reader, node: MappingNode, place: Where, values: Mapping[str, Any], keys: tuple[str, ...]
-) -> bool:
+def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
+    values = entry.values
     given = [key for key in keys if values.get(key) is not None]
     if not given:
-        reader.error(
-            node, place, Sentence("joints.no_size"), Sentence("joints.give_size", keys=keys), "missing-key"
-        )
+        entry.say("", Sentence("joints.no_size"), Sentence("joints.give_size", keys=keys), "missing-key")
         return False
     if "radii" in given and min(values["radii"]) <= 0:
-        reader.error(
-            node.get("radii") or node,
-            place.child("radii"),
-            Sentence("joints.bad_radius"),
-            Sentence("joints.positive_radius"),
-            "range",
-        )
+        entry.say("radii", Sentence("joints.bad_radius"), Sentence("joints.positive_radius"), "range")
         return False
     if {"teeth", "radii"} <= set(given):
         (a, b), (c, d) = values["teeth"], values["radii"]
         if abs(a * d - b * c) > FITS * abs(b * c):
-            reader.error(
-                node.get("radii") or node,
-                place.child("radii"),
-                Sentence("joints.sizes_misfit"),
-                Sentence("joints.leave_radii"),
-                "choice",
-            )
+            entry.say("radii", Sentence("joints.sizes_misfit"), Sentence("joints.leave_radii"), "choice")
             return False
     return True
 
@@ -345,15 +321,13 @@ def _one_size(
 class _Centres:
     """Looks for the link that carries both wheels, and for their pins on it."""
 
-    reader: Reader
-    node: MappingNode
-    place: Where
+    entry: Entry
     wheels: tuple[str, str]
     named: str | None
 
     def found(self, kind: str) -> tuple[str, str, str] | None:
         """Carrier and centres; None after a finding."""
-        pins = self.reader.names.pins
+        pins = self.entry.reader.names.pins
         own = [[pin for pin, links in pins.items() if wheel in links] for wheel in self.wheels]
         for wheel, mine in zip(self.wheels, own, strict=True):
             if not mine:
@@ -390,9 +364,7 @@ class _Centres:
         return "does_not_turn" if kind in ("belt", "chain") else "without_pin"
 
     def _say(self, problem: Sentence, remedy: Sentence) -> None:
-        self.reader.error(
-            self.node.get("links") or self.node, self.place.child("links"), problem, remedy, "reference"
-        )
+        self.entry.say("links", problem, remedy)
 
 
 def length(value: float) -> str:

@@ -10,18 +10,14 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames
-from linkwright.joints.base import JOINTS, Joint
+from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.lower import RigidJoint
 from linkwright.joints.pose import Pose, Rotor, State
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Mapping as MappingNode
-    from linkwright.files.plain_reader import Place as Where
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.mechanism.mechanism import Link
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint
@@ -51,18 +47,10 @@ class WeldJoint(RigidJoint):
         }
 
     @classmethod
-    def read(
-        cls,
-        reader: Reader,
-        node: MappingNode,
-        place: Where,
-        name: str,
-        values: dict[str, Any],
-        links: Mapping[str, Link],
-    ) -> Joint | None:
-        held = node.get("at") or node
-        found = [reader.point_of(held, place.child("at"), values["at"], each) for each in values["links"]]
-        return cls(name, **values) if all(found) else None
+    def read(cls, entry: Entry) -> Joint | None:
+        held, place, at = entry.node.get("at") or entry.node, entry.place.child("at"), entry.values["at"]
+        found = [entry.reader.point_of(held, place, at, each) for each in entry.values["links"]]
+        return cls(entry.name, **entry.values) if all(found) else None
 
     @classmethod
     def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
