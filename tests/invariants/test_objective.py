@@ -129,6 +129,8 @@ def test_a_design_that_cannot_turn_has_no_value():
         ("jaw_crusher_sixbar", "driver.effort argmax", ["crank.length"], "place"),
         ("jaw_crusher_sixbar", "jaw.angle range", ["jaw.mass"], "no influence"),
         ("jaw_crusher_sixbar", "jaw.angle range", ["driver.start"], "position"),
+        ("rack_and_rocker", "driver.effort rms", ["rocker.length"], "turns of rocker, but a dyad"),
+        ("stephenson_sixbar_triad", "driver.effort rms", ["crank.length"], "without closed form"),
     ],
 )
 def test_refusals_say_why(model, terms, vary, words):

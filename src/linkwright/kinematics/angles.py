@@ -50,10 +50,15 @@ class Angles:
     def __init__(self, groups: Sequence[Group], dimensions: Dimensions, poses: Mapping[str, Pose]) -> None:
         self.dimensions = dimensions
         self.poses = poses
-        self.carried: dict[str, Scalar] = {}
+        self.counted: dict[str, Scalar] = {}
         self._pairs = any(geared(group) for group in groups)
         self._steps = {step.child: (group, step) for group in groups for step in group.tree}
         self._known: dict[str, Scalar] = {"frame": 0.0}
+
+    @property
+    def carried(self) -> dict[str, Scalar]:
+        """Rotations that are counted from position to position (``counted``, by link), by the names of their states."""
+        return {turn_state(link): value for link, value in self.counted.items()}
 
     def __call__(self, link: str) -> Scalar:
         if link not in self._known:
@@ -81,9 +86,9 @@ class Angles:
     def _found(self, group: Group, step: TreeJoint) -> Scalar:
         if step.free and step.turns:
             now = self.poses[step.child].direction
-            name = turn_state(step.child)
-            found = nearest_turn(angle(now.y, now.x), self.dimensions.trace.state(name))
-            self.carried[name] = found
+            before = self.dimensions.trace.state(turn_state(step.child))
+            found = nearest_turn(angle(now.y, now.x), before)
+            self.counted[step.child] = found
             return found
         if step.turns:
             assert step.driver is not None

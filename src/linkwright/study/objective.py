@@ -189,8 +189,8 @@ def objective(
     Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, friction, and the loads that :func:`sweep` finds
-            design by design, through which no gradient is found yet.
+        LinkwrightError: unknown names; groups without closed form, wheels and racks on links that a dyad places, friction,
+            and the loads that :func:`sweep` finds design by design, through which no gradient is found yet.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
@@ -274,8 +274,12 @@ class _Builder:
         self.terms = terms
         self.names = names
         plain = Traced(mechanism, names, positions)
-        if plain.solver.motion.next_states:
+        motion = plain.solver.motion
+        if any(placed.next_states for placed in motion.placed.values()):
             raise RequestError(Sentence("study.objective_iterates", name=mechanism.name))
+        if motion.angles.counted:
+            links = tuple(motion.angles.counted)
+            raise RequestError(Sentence("study.objective_turns", name=mechanism.name, links=links))
         outputs = [summary.output for summary in self.summaries]
         loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
         if loads is None:
