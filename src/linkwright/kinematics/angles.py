@@ -57,7 +57,7 @@ class Angles:
 
     @property
     def carried(self) -> dict[str, Scalar]:
-        """Rotations that are counted from position to position (``counted``, by link), by the names of their states."""
+        """Rotations counted from position to position (``counted``, by link), by the names of their states."""
         return {turn_state(link): value for link, value in self.counted.items()}
 
     def __call__(self, link: str) -> Scalar:

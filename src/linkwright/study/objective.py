@@ -189,8 +189,8 @@ def objective(
     Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, wheels and racks on links that a dyad places, friction,
-            and the loads that :func:`sweep` finds design by design, through which no gradient is found yet.
+        LinkwrightError: unknown names; groups without closed form, wheels and racks on links that a dyad places,
+            friction, and the loads that :func:`sweep` finds design by design, through which no gradient is found yet.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
