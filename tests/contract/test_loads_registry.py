@@ -15,18 +15,12 @@ import pytest
 import linkwright as lw
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Quantities, Quantity, Word
-from linkwright.fields.references import (
-    JointName,
-    LinkName,
-    PointName,
-    PointPair,
-    PointReference,
-    PointReferences,
-)
+from linkwright.fields.references import LinkName, PointName, PointPair, PointReference, PointReferences
 from linkwright.fields.signals import Magnitude
 from linkwright.files.build import Model
 from linkwright.files.model_file import dump, loads
 from linkwright.files.schema import json_schema
+from linkwright.joints.base import JointName
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench

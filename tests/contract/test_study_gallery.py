@@ -16,11 +16,14 @@ NAMES = sorted(set(lw.gallery_names()) - AT_REST)
 
 
 def size_of(mechanism: lw.Mechanism) -> str:
-    """A dimension of a moving link that the motion depends on."""
+    """A dimension of a moving link that the motion depends on, and that wheels leave free."""
     dimensions = mechanism.dimensions()
+    wheels = [joint for joint in mechanism.joints.values() if joint.higher]
     for address, value in dimensions.items():
         owner = address.split(".")[0]
-        if owner in mechanism.links and address.endswith((".length", ".x", ".lengths.0")) and value:
+        if not (owner in mechanism.links and address.endswith((".length", ".x", ".lengths.0")) and value):
+            continue
+        if not any(joint.misfit(mechanism.with_dimensions({address: 1.0001 * value})) for joint in wheels):
             return next(iter(mechanism.parameters)) if address in mechanism.expressions else address
     return next(a for a in dimensions if a.startswith("frame.") or a.endswith(".offset"))
 

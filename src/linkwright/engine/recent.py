@@ -15,13 +15,16 @@ class Recent(Generic[Owner, Made]):
     """The last ``limit`` results, by the identity of their owner and a key.
 
     Owners are compared by identity, so that a large one is not hashed; it is kept alive as long
-    as its result. Safe among threads; a result may be made twice, never half.
+    as its result. Safe among threads; a result may be made twice, never half. A copy begins empty.
     """
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
         self._kept: OrderedDict[tuple[int, Hashable], tuple[Owner, Made]] = OrderedDict()
         self._lock = threading.Lock()
+
+    def __reduce__(self) -> tuple[type[Recent[Owner, Made]], tuple[int]]:
+        return type(self), (self._limit,)
 
     def get(self, owner: Owner, key: Hashable, make: Callable[[], Made]) -> Made:
         """The result for ``owner`` and ``key``, made where it is not there."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
-from linkwright.core.frozen import Frozen
+from linkwright.core.frozen import Frozen, FrozenDict
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
@@ -205,21 +205,27 @@ class Mechanism(Frozen):
         """The joints about which links turn."""
         from linkwright.joints.lower import TurningJoint
 
-        return {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
+        return FrozenDict(
+            {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
+        )
 
     @cached_property
     def guides(self) -> Mapping[str, SlidingJoint]:
         """The joints along which blocks slide."""
         from linkwright.joints.lower import SlidingJoint
 
-        return {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
+        return FrozenDict(
+            {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
+        )
 
     @cached_property
     def welds(self) -> Mapping[str, RigidJoint]:
         """The joints that make one of two links."""
         from linkwright.joints.lower import RigidJoint
 
-        return {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
+        return FrozenDict(
+            {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
+        )
 
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
