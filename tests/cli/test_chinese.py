@@ -176,3 +176,69 @@ def test_refusals_hold_no_english(arguments: list[str], capsys: pytest.CaptureFi
         "degrees",
         "study",
     }, (left, said)
+
+
+#: Units and symbols of results, roots of names.
+SYMBOLS = {"rad", "mm", "min"}
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        ["gallery:function_of_three_pairs"],
+        ["slider_crank", "stroke=397.5 mm", "rod_ratio=3.55", "offset_ratio=0.305", "--mass", "2"],
+        ["quick_return", "quick_return_ratio=1.5", "frame=300 mm", "stroke=400 mm", "rod=300 mm"],
+        ["drag_link", "quick_return_ratio=1.8", "frame=100 mm"],
+        ["toggle", "force_ratio=20", "distance=5 mm", "stroke=100 mm"],
+        ["straight_line", "length=100 mm"],
+        [
+            "motion",
+            "unit=mm",
+            "angle_unit=deg",
+            "poses=[[0, 0, 0], [40, 10, 30], [60, 40, 50], [70, 70, 80]]",
+        ],
+    ],
+    ids=lambda task: task[0].removeprefix("gallery:"),
+)
+def test_synthesis_is_chinese(task: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(capsys, "synthesize", *task)
+    assert "方案 1：" in said and set(LATIN.findall(said)) <= SYMBOLS, said
+
+
+def test_names_of_synthesis_have_words() -> None:
+    """Counts and values are keys of mappings in the code: each has its word."""
+    known = words.catalogue("synthesis_names", "zh")
+    root = Path(lw.__file__).parent / "synthesis"
+    code = "".join(path.read_text(encoding="utf-8") for path in root.rglob("*.py"))
+    with_units = set(re.findall(r'"(\w+) \[(?:rad|m)\]":', code)) - {"lengths", "points"}
+    counted = set(re.findall(r'(?:counts=|counts = |"exact_path", [^\n]*|target, )\{"(\w+)": ', code))
+    assert len(with_units) > 12 and len(counted) > 5
+    assert (with_units | counted) - {"transmission_angle_min"} <= set(known)
+    assert all(re.search("[一-鿿]", text) for text in known.values())
+
+
+MISSING = """format: 1
+frame: {points: {O1: [0 m, 0 m]}}
+links: {crank: {length: 1 m}}
+joints: {g: {kind: prismatic, guide: frame}, c: {kind: cam}, w: {kind: weld}, r: {kind: rack}}
+loads: {s: {kind: spring}, f: {kind: force}}
+driver: {turn: crank, about: O1, speed: 1 rad/s}
+"""
+
+
+@pytest.mark.parametrize(
+    "text", [MISSING, *(f"format: 1\nkind: {kind}\n" for kind in ("beam", "belt", "vibration", "mounts"))]
+)
+def test_missing_keys_are_said_in_chinese(
+    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The key, its quantity or form, and an example; the English description stays in English."""
+    path = tmp_path / "missing.yaml"
+    path.write_text(text, encoding="utf-8")
+    said = [line for line in shown(capsys, "check", str(path)).splitlines() if "缺少键" in line]
+    assert said
+    for line in said:
+        key, remedy = re.search("缺少键“(.*?)”；(.*)", line).groups()  # type: ignore[union-attr]
+        assert remedy.startswith(f"请补上 {key}：") and not re.search("[A-Za-z]{2,} [a-z]{2,}", remedy), line
+    main(["check", str(path)])
+    assert "the key" in capsys.readouterr().out

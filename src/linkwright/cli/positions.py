@@ -29,7 +29,7 @@ def quantities(text: str, dimension: str, say: Say, option: str) -> list[float]:
     if not all(parts):
         raise UsageError(say("solve.empty_value", option=option, text=text))
     if _COMMA.fullmatch(text.strip()):
-        raise UsageError(f"{option}: {units.decimal_comma(text.strip())}")
+        raise UsageError(Sentence("cli.about", name=option, cause=units.decimal_comma(text.strip())))
     found: list[float] = []
     for part in parts:
         if ".." in part:
@@ -48,11 +48,11 @@ def inputs(text: str, rotary: Mapping[str, bool], say: Say) -> dict[str, list[fl
         if name not in rotary:
             offer = nearest(name, list(rotary))
             hint = say("cli.did_you_mean", name=offer) if offer else ""
-            raise UsageError(f"--at: {say('solve.no_driver', name=name)}{hint}")
+            raise UsageError(say("cli.about", name="--at", cause=say("solve.no_driver", name=name) + hint))
         found[name] = quantities(values, "angle" if rotary[name] else "length", say, "--at")
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
-        raise UsageError(say("solve.uneven", counts=", ".join(map(str, sorted(counts)))))
+        raise UsageError(say("solve.uneven", counts=say("finding.comma").join(map(str, sorted(counts)))))
     return found
 
 

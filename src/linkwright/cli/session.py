@@ -45,6 +45,10 @@ class Session:
         with suppress(OSError):
             print(terminal_text(text), file=sys.stderr)
 
+    def tell_error(self, sentence: str) -> None:
+        """Prints an error to the standard error."""
+        self.tell(self.say("cli.headed", head=self.alarm(self.say("cli.error")), sentence=sentence))
+
     @property
     def width(self) -> int:
         """Columns that a table may take."""

@@ -110,7 +110,7 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tupl
     failures = "mark" if options.mark else "raise"
     if options.at is not None:
         if not mechanism.drivers:
-            raise UsageError(f"--at: {say('solve.no_input')}")
+            raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
         rotary = {
             name: mechanism.joints[driver.joint].coordinate == "turn"
             for name, driver in mechanism.drivers.items()

@@ -37,7 +37,7 @@ def run(argv: Sequence[str]) -> int:
         return FINE
     except OutputError as error:
         _quiet_end()
-        session.tell(_headed(error.say(session.language), session))
+        session.tell_error(error.say(session.language))
         return FAULTY
     except KeyboardInterrupt:
         session.tell(session.say("cli.interrupted"))
@@ -45,7 +45,7 @@ def run(argv: Sequence[str]) -> int:
     except LinkwrightError as error:
         return _refused(error, session)
     except MemoryError:
-        session.tell(_headed(session.say("cli.out_of_memory"), session))
+        session.tell_error(session.say("cli.out_of_memory"))
         return FAULTY
     except Exception as error:
         return _unexpected(error, session)
@@ -130,7 +130,7 @@ def _refused(error: LinkwrightError, session: Session) -> int:
     """Tells what is wrong; with ``--json`` as data as well."""
     missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
     said = error.say(session.language)
-    session.tell(said if isinstance(error, ModelError) else _headed(said, session))
+    (session.tell if isinstance(error, ModelError) else session.tell_error)(said)
     if session.json:
         from linkwright.cli.data import finding_data, json_text
 
@@ -146,12 +146,8 @@ def _unexpected(error: Exception, session: Session) -> int:
         traceback.print_exception(error)
     message = " ".join(str(error).split())
     sentence = session.say("cli.unexpected", kind=type(error).__name__, message=message)
-    session.tell(_headed(sentence, session))
+    session.tell_error(sentence)
     return FAULTY
-
-
-def _headed(sentence: str, session: Session) -> str:
-    return session.say("cli.headed", head=session.alarm(session.say("cli.error")), sentence=sentence)
 
 
 def _widen_streams() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from linkwright.errors import Finding, Severity
 from linkwright.fields.base import Field
+from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.registry import listed, nearest
@@ -175,7 +176,7 @@ class PlainReader:
                     mapping,
                     place.child(key),
                     Sentence("model.missing_key", key_=key),
-                    fields[name].doc or Sentence("model.add_it"),
+                    missing_remedy(key, fields[name].doc, fields[name].shape()),
                     "missing-key",
                 )
             elif value is not None:

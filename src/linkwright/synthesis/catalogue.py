@@ -50,7 +50,7 @@ def slider_crank(
         return slider_crank_from_quick_return(stroke, quick_return_ratio, offset)
     if transmission_angle is not None and given <= {"transmission_angle", "offset"}:
         return slider_crank_from_transmission(stroke, transmission_angle, offset or 0.0)
-    raise refuse("slider_crank.demands", given=", ".join(sorted(given)) or "stroke")
+    raise refuse("slider_crank.demands", given=tuple(sorted(given)) or "stroke")
 
 
 TASKS: Mapping[str, Task] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees
 
 from linkwright.synthesis.result import Candidate, Synthesis
-from linkwright.words import Say, say, speaker
+from linkwright.words import Say, has, speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.width import aligned
 
@@ -17,30 +17,34 @@ def report(found: Synthesis, language: str) -> list[str]:
     tell = speaker(language)
     rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
     rows += [_row(number, each, tell) for number, each in enumerate(found.candidates, 1)]
-    title = tell("synthesize.title", task=found.task, count=len(found))
+    title = tell("synthesize.title", task=_name(found.task, tell), count=len(found))
+    between = tell("finding.comma")
     lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>"), ""]
     for number, each in enumerate(found.candidates, 1):
-        lengths = ", ".join(f"{name} {_length(value)}" for name, value in each.linkage.lengths().items())
+        lengths = between.join(
+            f"{_name(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
+        )
         lines.append(tell("synthesize.lengths", number=number, lengths=lengths))
         if each.values:
-            values = ", ".join(f"{name} = {value:.7g}" for name, value in each.values.items())
+            values = between.join(f"{_name(name, tell)} = {value:.7g}" for name, value in each.values.items())
             lines.append(tell("synthesize.values", values=values))
     if found.counts:
-        counts = ", ".join(f"{name} {value}" for name, value in found.counts.items())
+        counts = between.join(f"{_name(name, tell)} {value}" for name, value in found.counts.items())
         lines += ["", tell("synthesize.counts", counts=counts)]
     return lines + [in_language(sentence, language) for sentence in found.notes]
 
 
-def purpose(found: Synthesis, each: Candidate) -> str:
+def purpose(found: Synthesis, each: Candidate, language: str) -> str:
     """What a candidate is, for its model file."""
+    tell = speaker(language)
     defects = (
-        say("synthesize.purpose_defects", defects=", ".join(each.defects))
+        tell("synthesize.purpose_defects", defects=defects_text(each, tell))
         if each.defects
-        else say("synthesize.purpose_sound")
+        else tell("synthesize.purpose_sound")
     )
-    return say(
+    return tell(
         "synthesize.purpose",
-        task=found.task.replace("_", " "),
+        task=_name(found.task, tell).replace("_", " "),
         error=f"{each.error:.4g}",
         transmission=f"{degrees(each.transmission_angle):.4g} deg",
         defects=defects,
@@ -50,7 +54,7 @@ def purpose(found: Synthesis, each: Candidate) -> str:
 def defects_text(each: Candidate, tell: Say) -> str:
     """The defects of a candidate, or that there are none."""
     words = [tell(f"synthesize.defect.{name}") for name in each.defects]
-    return ", ".join(words) or tell("synthesize.no_defect")
+    return tell("finding.comma").join(words) or tell("synthesize.no_defect")
 
 
 def _row(number: int, each: Candidate, tell: Say) -> list[str]:
@@ -64,6 +68,16 @@ def _row(number: int, each: Candidate, tell: Say) -> list[str]:
         f"{degrees(each.transmission_angle):.2f}°",
         f"{each.link_ratio:.3g}",
     ]
+
+
+def _name(name: str, tell: Say) -> str:
+    """The word for a task, a link, a value with its unit or a count; other names as they are."""
+    stem, _, unit = name.partition(" ")
+    numbered = stem.removeprefix("link")
+    if numbered.isdecimal():
+        return tell("synthesis_names.numbered_link", number=numbered)
+    word = tell(f"synthesis_names.{stem}") if has(f"synthesis_names.{stem}") else stem
+    return f"{word} {unit}".rstrip()
 
 
 def _length(value: float) -> str:

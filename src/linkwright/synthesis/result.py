@@ -143,12 +143,12 @@ class Synthesis:
             found.append(path)
         return found
 
-    def model_text(self, index: int = 0, name: str = "") -> str:
-        """The model file of one candidate."""
+    def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
+        """The model file of one candidate, its purpose in a language."""
         from linkwright.synthesis.report import purpose
 
         each = self.candidates[index]
-        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each))
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each, language))
 
     def plot(self, **options: Any) -> Diagram:
         """Target, candidates and their curves in one picture; options: ``linkwright.plot.plot``."""

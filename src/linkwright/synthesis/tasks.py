@@ -68,12 +68,12 @@ def synthesize(task: str, **demands: Any) -> Synthesis:
         if task.lower().endswith((".yaml", ".yml", ".json")) or Path(task).exists():
             return synthesize_file(task)
         near = nearest(task, list(known))
-        raise refuse("task", task=task, known=near or ", ".join(known))
+        raise refuse("task", task=task, known=near or tuple(known))
     chosen = known[task]
     for key in demands:
         if key not in chosen.demands:
             near = nearest(key, list(chosen.demands))
-            raise refuse("task.unknown", demand=key, task=task, known=near or ", ".join(chosen.demands))
+            raise refuse("task.unknown", demand=key, task=task, known=near or tuple(chosen.demands))
     for key in chosen.needed:
         if key not in demands:
             raise refuse("task.missing", task=task, demand=key, form=_form(chosen.demands[key]))
@@ -134,7 +134,7 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
     known = tasks()
     if task not in known:
         near = nearest(task, list(known))
-        sentence = note("task", task=task, known=near or ", ".join(known))
+        sentence = note("task", task=task, known=near or tuple(known))
         reader.add(given or section, "synthesis.task", sentence)
         raise ModelError(reader.findings)
     for key, kind in (("unit", "length"), ("angle_unit", "angle")):
@@ -146,9 +146,7 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
             continue
         if key not in known[task].demands:
             near = nearest(key, list(known[task].demands))
-            sentence = note(
-                "task.unknown", demand=key, task=task, known=near or ", ".join(known[task].demands)
-            )
+            sentence = note("task.unknown", demand=key, task=task, known=near or tuple(known[task].demands))
             reader.add(entry.key, f"synthesis.{key}", sentence)
             continue
         demands[key] = reader.value(entry.value, key, known[task].demands[key])

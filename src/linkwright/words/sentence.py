@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from linkwright.words import say
@@ -17,6 +18,18 @@ class SaidAnywhere(Protocol):
 
     def say(self, language: str = "en") -> str:
         """The text in a language."""
+
+
+@dataclass(frozen=True)
+class Gloss:
+    """An English text that is given, such as a field's description, and what is said in other languages instead."""
+
+    english: str
+    other: Sentence
+
+    def say(self, language: str = "en") -> str:
+        """The text in a language."""
+        return self.english if language == "en" else self.other.say(language)
 
 
 class Sentence(str):

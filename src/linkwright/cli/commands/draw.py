@@ -92,7 +92,7 @@ def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float
     from linkwright.cli.positions import inputs
 
     if not mechanism.drivers:
-        raise UsageError(f"--at: {say('solve.no_input')}")
+        raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
     joints = mechanism.joints
     rotary = {name: joints[d.joint].coordinate == "turn" for name, d in mechanism.drivers.items()}
     given = inputs(text, rotary, say)

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         if options.output is not None:
             session.show(f"\n{say('cli.written', path=options.output)}")
     if trouble is not None:
-        session.tell(f"{session.alarm(say('cli.error'))}: {trouble}")
+        session.tell_error(trouble.say(session.language))
     return int(trouble is not None)
 
 

@@ -78,7 +78,7 @@ def _unmet(error: OptimizeError, session: Session) -> int:
     from linkwright.cli.data import json_text
 
     sentence = error.say(session.language)
-    session.tell(f"{session.alarm(session.say('cli.error'))}: {sentence}")
+    session.tell_error(sentence)
     if session.json:
         session.show(json_text({"ok": False, "error": sentence, "nearest": error.nearest.data()}))
     else:

@@ -61,7 +61,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
         session.show("\n".join(report(solved, options, session)))
     if solved.trouble is not None:
-        session.tell(f"{session.alarm(session.say('cli.error'))}: {solved.trouble}")
+        session.tell_error(solved.trouble.say(session.language))
     return int(solved.trouble is not None or not solved.motion.ok.all())
 
 

@@ -72,7 +72,7 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | Non
     from linkwright.cli.data import json_text
 
     sentence = error.say(session.language)
-    session.tell(f"{session.alarm(session.say('cli.error'))}: {sentence}")
+    session.tell_error(sentence)
     if session.json:
         nearest = None if error.nearest is None else error.nearest.data()
         session.show(json_text({"ok": False, "error": sentence, "nearest": nearest}))
@@ -90,7 +90,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
     if options.output is not None:
         for index in range(len(found)):
             path = Path(options.output) / f"{found.task}_{index + 1}.yaml"
-            write_whole(path, found.model_text(index), force=options.force)
+            write_whole(path, found.model_text(index, language=session.language), force=options.force)
             written.append(path)
     if options.plot is not None:
         path = Path(options.plot)

@@ -100,7 +100,7 @@ def function_generation(
 
 def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
     if linkage not in KINDS:
-        raise refuse("function.linkage", linkage=linkage, known=", ".join(KINDS))
+        raise refuse("function.linkage", linkage=linkage, known=tuple(KINDS))
     if x.ndim != 1 or x.shape != y.shape or not np.isfinite(np.concatenate([x, y])).all():
         raise refuse("function.values", inputs=x.size, outputs=y.size)
     if len(x) < 3:
@@ -135,7 +135,9 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     if not len(zeros):
         nearest = _fitted(KINDS["four_bar"](), demand, frame, count, seed)
         error = f"{nearest.best.error:.4g}"
-        raise refuse("function.exact", nearest, linkage="four_bar", count=len(demand.inputs), error=error)
+        raise refuse(
+            "function.exact", nearest, linkage=note("type.four_bar"), count=len(demand.inputs), error=error
+        )
     pin: Complexes = lengths[:, :1] * np.exp(1j * (demand.inputs + zeros[:, :1]))
     joint = 1 + lengths[:, 2:] * np.exp(1j * (demand.outputs + zeros[:, 1:]))
     one: Complexes = np.ones(len(pin), complex)
@@ -152,7 +154,7 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     result = Synthesis("function", different(tuple(made), DISTINCT * frame)[:count], "angle", target, counts)
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
-        raise refuse("function.no_movable", result, linkage="four_bar", why=why)
+        raise refuse("function.no_movable", result, linkage=note("type.four_bar"), why=why)
     return result
 
 
@@ -162,14 +164,14 @@ def _by_equation(demand: FunctionDemand, frame: float) -> Synthesis:
     given = replace(demand, input_zero=zeros[0], output_zero=zeros[1])
     a, b, c = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
     if not np.isfinite(a + b + c):
-        raise refuse("function.none", linkage="four_bar")
+        raise refuse("function.none", linkage=note("type.four_bar"))
     generator = KINDS["four_bar"]()
     start = zeros[0] + (np.pi if a < 0 else 0.0)
     x = np.array([[math.log(abs(a)), math.log(b), math.log(abs(c)), start]])
     sides = [_candidate(generator, given, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
-        raise refuse("function.none", linkage="four_bar")
+        raise refuse("function.none", linkage=note("type.four_bar"))
     return Synthesis("function", chosen, "angle", np.stack([demand.inputs, demand.outputs]))
 
 
@@ -201,7 +203,7 @@ def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: i
     ]
     chosen = different(ranked(made, demand.size), DISTINCT * scale)[:count]
     if not chosen:
-        raise refuse("function.none", linkage=generator.name)
+        raise refuse("function.none", linkage=note(f"type.{generator.name}"))
     name = "angle" if generator.output_is_angle else "length"
     notes = (note("function.sampled", within=FINE, turn=2 * FINE),)
     target = np.stack([demand.inputs, demand.outputs])

@@ -63,7 +63,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     """
     positive(length=length)
     if kind is not None and kind not in KINDS:
-        raise refuse("straight_line.kind", kind=kind, known=", ".join(KINDS))
+        raise refuse("straight_line.kind", kind=kind, known=tuple(KINDS))
     allowed = (0.001 * length if deviation is None else deviation) / length
     if not allowed > 0:
         raise refuse("not_positive", name="deviation", given=f"{allowed * length:g}")

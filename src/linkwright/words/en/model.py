@@ -88,7 +88,6 @@ WORDS = {
     "name_rule": 'names begin with a letter and hold letters, digits, _ and -: "{right}"',
     "unknown_word": '"{text}" is not known here',
     "missing_key": 'the key "{key_}" is missing',
-    "add_it": "add it",
     "unknown_key": 'unknown key "{key_}"',
     "comma_split": 'decimal comma in "{whole},{rest}"',
     "write_point": 'write a point: "{whole}.{rest}"',

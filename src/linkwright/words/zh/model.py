@@ -87,7 +87,6 @@ WORDS = {
     "name_rule": "名称以字母开头，由字母、数字、_ 和 - 组成：“{right}”",
     "unknown_word": "此处不认识“{text}”",
     "missing_key": "缺少键“{key_}”",
-    "add_it": "请补上",
     "unknown_key": "未知的键“{key_}”",
     "comma_split": "“{whole},{rest}”用了逗号作小数点",
     "write_point": "请用小数点：“{whole}.{rest}”",
