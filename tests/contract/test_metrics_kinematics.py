@@ -148,3 +148,25 @@ def test_bearing_value_of_a_pin() -> None:
     model.drive("crank", about="O", speed=20)
     table = metrics(lw.solve_forces(model.build(), steps=50), "bearing_pv")
     assert table.value("bearing_pv") == pytest.approx(4 * 0.05 * 20**2 * 0.01 * 20, rel=1e-9)
+
+
+@pytest.mark.parametrize("steps", [15, 30])
+def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: int) -> None:
+    """The foot of a ladder of 1 m is pulled away at 0.1 m/s for 15 s; before the ladder falls it was on average half
+    as far out as where it is last seen."""
+    model = Model("ladder")
+    model.frame(O=(0, 0))
+    model.link("foot", ["A"], mass=2)
+    model.link("bar", ["A", "B"], length=1, mass=4, inertia=0.3)
+    model.link("head", ["B"], mass=1)
+    model.prismatic("floor", guide="frame", through="O", direction=0, block="foot", at="A")
+    model.prismatic(
+        "wall", guide="frame", through="O", direction=pi / 2, block="head", at="B", block_angle=pi / 2
+    )
+    model.assemble(B="forward")
+    model.slide("floor", speed=0.1, start=0)
+    model.cycle(duration=15)
+    motion = lw.solve_motion(model.build(), steps=steps, failures="mark")
+    last = 1.5 / steps * (np.flatnonzero(motion.ok)[-1])
+    assert 0.89 < last < 1.0
+    assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5 * last, rel=1e-13)

@@ -188,6 +188,8 @@ def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:
         ("reaction B nope", ['did you mean "reaction B on']),
         ("reaction C toggle z", ["no output 'reaction C toggle z'"]),
         ("couple nope", ["no output 'couple nope'"]),
+        ("input_torque jaw", ["no output 'input_torque jaw'"]),
+        ("equivalent_inertia jaw", ["no output 'equivalent_inertia jaw'"]),
         ("shaking_force z", ['did you mean "shaking_force"']),
         ("jaw.nope", ['did you mean "jaw.angle"']),
         ("jaw.angle.x", ["no point of link jaw", "O5, C, D"]),

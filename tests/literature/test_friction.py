@@ -6,6 +6,8 @@ Statics, ch. 8: wedges).
 """
 
 import math
+import re
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -81,3 +83,13 @@ def test_friction_needs_the_radius_of_the_pin() -> None:
     text = LEVER.replace("SPEED", "2").replace("pin_radius: 30 mm, ", "")
     with pytest.raises(lw.LinkwrightError, match=r"joints\.O.*pin_radius: 20 mm"):
         lw.solve_forces(lw.loads(text))
+
+
+@pytest.mark.parametrize("size", [1e-7, 1.0, 1e7])
+def test_wedges_of_any_size_rise_by_the_tangent_of_their_angle(size: float) -> None:
+    """Guides alone are placed by Newton's method, whose corrections are judged against the size of the machine."""
+    text = (files("linkwright.gallery") / "wedge.yaml").read_text("utf-8")
+    grown = re.sub(r"([\d.]+) mm", lambda found: f"{float(found[1]) * 1e-3 * size!r} m", text)
+    motion = lw.solve_motion(lw.loads(grown), steps=12)
+    rise = 0.06 * np.sin(2 * math.pi * motion.time) * math.tan(math.radians(15))
+    assert motion.point("B").position[:, 1] / size == pytest.approx(0.04 + rise, rel=1e-12)

@@ -5,6 +5,7 @@ Each against the independent code followed in tiny steps, or against all roots t
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -15,6 +16,8 @@ from tests.reference.fine_path import FinePath
 from tests.reference.multibody import Array, Unreachable
 
 import linkwright as lw
+from linkwright.kinematics.branch import _Walk, straight
+from linkwright.kinematics.certificate import REFUSED
 
 Vec = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -262,3 +265,26 @@ def test_drivers_on_inner_joints_are_part_of_the_group(steps: int) -> None:
     (group,) = (g for g in lw.structure(lw.loads(text)).groups if len(g.links) > 2)
     assert set(group.drivers) == {"lift", "elbow"}
     follows_the_fine_path(text, steps)
+
+
+@pytest.mark.parametrize(
+    ("bend", "kept"), [(0.0, True), (0.7, True), (0.9, False), (-0.9, False), (2.0, False)]
+)
+def test_a_position_between_lies_near_the_way_without_a_certificate(bend: float, kept: bool) -> None:
+    """Rates at the step's beginning that are wrong by ``bend`` steps shift its middle by ``bend``/8 of the step (the
+    cubic's t (1 - t)² at 1/2); a tenth is allowed."""
+    motion = lw.solve_motion(lw.load("gallery:triad"), steps=36)
+    follower, q = motion.solver.follower(), motion.positions.coordinates["driver"][0]
+    way = replace(straight(q[:1], q[1:2], follower.unit), places=np.array([0.5, 1.0]))
+    assert motion.followed is not None
+    walk = _Walk(follower.loops, way, motion.followed.coordinates[0])
+    begin = walk.here
+    assert begin is not None
+    n = follower.loops.n
+    end = walk._end(1.0, (begin.y + begin.rate)[:n], begin.sign)
+    assert end is not None
+    inside = np.array([0])
+    values = walk._driven(begin, end, inside)[0]
+    wrong = bend * follower.loops.largest(end.y - begin.y) * follower.loops.scale
+    bent = replace(begin, rate=begin.rate + np.append(wrong, 0.0))
+    assert walk._between(bent, end, inside, values, REFUSED) is kept

@@ -243,8 +243,15 @@ def test_what_does_not_exist_is_refused() -> None:
         sweep(chord(), [[1.0]], x, [], after=Program.of(t, {"b": t.parameter("zz")}))
     with pytest.raises(ValueError, match="no back end"):
         sweep(chord(), [[1.0]], x, [("y", "max")], backend="gpu")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="shape"):
-        sweep(chord(), [1.0], x, [("y", "max")])
+
+
+def test_machine_code_is_asked_for_where_it_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Left to itself a sweep is made by NumPy."""
+    monkeypatch.setattr("linkwright.engine.llvm_backend.available", lambda: False)
+    designs, x = np.array([[1.0], [2.0]]), {"x": np.linspace(0.0, 1.0, 20_001)}
+    with pytest.raises(ValueError, match="llvmlite cannot be loaded"):
+        sweep(chord(), designs, x, [("y", "max")], backend="llvm")
+    assert sweep(chord(), designs, x, [("y", "max")])["y.max"].tolist() == [1.0, 2.0]
 
 
 @pytest.mark.skipif(not available(), reason="no llvmlite")

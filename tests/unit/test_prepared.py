@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kinematics.solver import MotionSolver
 
 CASES = [
     ("jaw_crusher_sixbar", {"pitman.length": 1.262, "jaw.mass": 950.0}),
@@ -177,3 +178,14 @@ def test_designs_whose_pins_pass_each_other_too_near_fail() -> None:
     ]
     assert found.assembled.tolist() == alone and not found.ok.any()
     assert "cannot be assembled in a short stretch" in found.failures()[0].example
+
+
+@pytest.mark.parametrize("name", ["watt_sixbar", "theo_jansen_leg"])
+def test_a_pin_is_placed_once_whichever_link_it_is_asked_of(name: str) -> None:
+    """All names of a pin are one traced value: programs hold its position and its rates once."""
+    mechanism = lw.load(f"gallery:{name}")
+    outputs = MotionSolver(mechanism).outputs
+    for pin in mechanism.pins:
+        links = [link for link in mechanism.pin_links(pin) if link != "frame"]
+        for kind in "pva":
+            assert len({str(outputs.value(f"{kind}:{link}.{pin}.x")) for link in links}) == 1, pin

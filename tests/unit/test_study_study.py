@@ -28,6 +28,8 @@ def test_a_range_is_what_it_says() -> None:
     )
     assert parse_range(machine, "jaw.mass", [1.0, 2.0]).values.tolist() == [1.0, 2.0]
     assert len(parse_range(machine, "jaw.mass", "700..900 kg").values) == 11
+    assert parse_range(machine, "pitman.length", "1200 mm .. 1300 mm : 3").shown(1.25) == "1250 mm"
+    assert parse_range(machine, "jaw.mass", [1.0, 2.0]).shown(1.5) == "1.5"
 
 
 def test_a_grid_has_every_combination_and_closed_form_values() -> None:

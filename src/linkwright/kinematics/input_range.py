@@ -27,7 +27,7 @@ from linkwright.words.sentence import Sentence
 STEP = math.radians(1.0)
 SLIDE_STEP = 1.0 / 100
 FARTHEST = 20.0
-#: How near (rad, or share of the size) the end of a group without closed form is known before Newton's method.
+#: How near (rad, or share of the size) an end is known before its reason is asked for, and before Newton's method.
 COARSE = 1e-6
 #: What the search leaves: where a square comes to zero, and where continuation stalls near a singular Jacobian.
 ROUNDED = 4e-16
@@ -207,7 +207,7 @@ class _Search:
             return None
         stop = self._to_singular(stop)
         unit = 1.0 if self.rotary else self.size
-        rough = COARSE * unit if stop.unknowns is not None else 0.0
+        rough = COARSE * unit
         good, bad = (stop.good, stop.bad) if stop.group else self._narrowed(stop, rough)
         group, how = self._reason(stop, good, bad)
         value = None
