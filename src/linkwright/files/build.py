@@ -9,6 +9,9 @@ from linkwright.errors import ModelError
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.read_model import read_model
+from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.weld import WeldJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 
@@ -76,7 +79,9 @@ class Model:
     def pin(self, name: str, *, radius: Value | None = None, friction: Value | None = None) -> None:
         """Attributes of the implied pin at the shared point ``name``."""
         self._section(
-            "joints", name, {"kind": "revolute", **_present({"pin_radius": radius, "friction": friction})}
+            "joints",
+            name,
+            {"kind": RevoluteJoint.kind, **_present({"pin_radius": radius, "friction": friction})},
         )
 
     def prismatic(
@@ -100,7 +105,7 @@ class Model:
             "joints",
             name,
             {
-                "kind": "prismatic",
+                "kind": PrismaticJoint.kind,
                 "guide": guide,
                 "through": through,
                 "direction": along,
@@ -113,7 +118,7 @@ class Model:
     def weld(self, name: str, a: str, b: str, *, at: str, angle: Value | None = None) -> None:
         """Link b fixed to link a at their common point, its x axis at ``angle`` (rad) to a's."""
         self._section(
-            "joints", name, {"kind": "weld", "links": [a, b], "at": at, **_present({"angle": angle})}
+            "joints", name, {"kind": WeldJoint.kind, "links": [a, b], "at": at, **_present({"angle": angle})}
         )
 
     def drive(

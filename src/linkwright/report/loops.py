@@ -7,13 +7,13 @@ from linkwright.structure.group import Group
 from linkwright.worked.chains import Chain, closures
 from linkwright.worked.symbols import Book, tex
 
-#: Joints whose closure is a sum of vectors; that of others, such as gears, stands among the formulas.
-VECTORS = ("revolute", "prismatic")
-
 
 def loops(case: Case, group: Group) -> list[tuple[str, str]]:
-    """Left and right side of every loop, LaTeX; for the cut at a guide the component across it."""
-    if any(cut.kind not in VECTORS for cut in group.cuts):
+    """Left and right side of every loop, LaTeX; for the cut at a guide the component across it.
+
+    None at all where a cut neither turns nor slides, as that of gears: its closure stands among the formulas.
+    """
+    if not all(case.mechanism.joints[cut.joint].coordinate for cut in group.cuts):
         return []
     book = Book(*case.worked_motion, case.say)
     found = []

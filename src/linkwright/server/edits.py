@@ -14,6 +14,8 @@ from linkwright.files.compose import compose
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import flow
+from linkwright.joints.gear import GearPair
+from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -201,7 +203,7 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
     name = _fresh("guide", [key for key, _ in draft.section("joints") or ()])
     angle = f"{number(round(float(action['angle']), 3))} deg"
     draft.put("joints", name, {
-        "kind": "prismatic", "guide": "frame", "through": through, "direction": angle,
+        "kind": PrismaticJoint.kind, "guide": "frame", "through": through, "direction": angle,
         "block": action["link"], "at": action["at"],
     })  # fmt: skip
 
@@ -217,7 +219,7 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     block = _fresh("slider", list(shown["links"]))
     _link(draft, {"name": block, "points": [action["at"]]})
     entry = {
-        "kind": "prismatic", "guide": action["along"], "through": ends[0], "direction": [ends[0], ends[-1]],
+        "kind": PrismaticJoint.kind, "guide": action["along"], "through": ends[0], "direction": [ends[0], ends[-1]],
         "block": block, "at": action["at"],
     }  # fmt: skip
     if abs(across) >= _FINEST / 2:
@@ -232,7 +234,9 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
         raise LinkwrightError(Sentence("studio.no_teeth", text=str(action["teeth"])))
     name = _fresh("mesh", [key for key, _ in draft.section("joints") or ()])
     draft.put(
-        "joints", name, {"kind": "gear", "links": list(action["links"]), "teeth": [int(z) for z in teeth]}
+        "joints",
+        name,
+        {"kind": GearPair.kind, "links": list(action["links"]), "teeth": [int(z) for z in teeth]},
     )
 
 

@@ -18,7 +18,7 @@ class StructureError(LinkwrightError):
 
 def counts(mechanism: Mechanism) -> dict[str, int]:
     """Moving links, and pairs by kind (``revolute``, ``prismatic``, ``weld``, …); a pin of k links is k-1 pairs."""
-    found = {"links": len(mechanism.links), "revolute": 0, "prismatic": 0, "weld": 0}
+    found = {"links": len(mechanism.links), **{kind: 0 for kind, each in JOINTS.items() if not each.higher}}
     for joint in mechanism.joints.values():
         found[joint.kind] = found.get(joint.kind, 0) + joint.pairs
     return found
