@@ -158,6 +158,19 @@ def test_progress_counts_designs_and_can_stop() -> None:
     assert len(seen) > 1
 
 
+def test_rockers_that_drive_a_rack_and_cannot_turn_are_those_that_grashof_excludes() -> None:
+    """Turns of the rocker are counted, and the designs at the ends of the range have no first position."""
+    mechanism = lw.load("gallery:rack_and_rocker")
+    a, b, d = (mechanism.dimension(name) for name in ("crank.length", "coupler.length", "frame.O2.x"))
+    c = np.array([0.04, 0.12, 0.25, 0.6, 0.7, 3.0])
+    found = sweep(mechanism, {"rocker.length": c}, outputs=["rocker.angle range"], steps=60)
+    turns = (b + c > d + a) & (np.abs(b - c) < d - a)
+    assert found.ok.tolist() == turns.tolist() == [False, False, True, True, False, False]
+    (failure,) = found.failures()
+    assert failure.designs.tolist() == np.flatnonzero(~turns).tolist()
+    assert "cannot be put together" in failure.example
+
+
 def test_a_group_followed_by_newton_that_cannot_pass_fails_with_a_sentence() -> None:
     mechanism = lw.load("gallery:triad")
     found = sweep(mechanism, {"crank.A.x": [0.03, 0.08]}, outputs=["plate.angle range"])

@@ -66,11 +66,11 @@ def _by_group(
     """Each design under the group that fails at most of its positions."""
     traced = _traced(mechanism, columns, count)
     if traced.solver.motion.next_states:
-        groups = [
+        groups = (
             g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states
-        ]
+        )
         sentence = sentence_of(traced, changes_of(columns, 0))
-        return [Failure(groups[0], "followed", numbers, sentence)]
+        return [Failure(next(groups, None), "followed", numbers, sentence)]
     flags = traced.failure_flags()
     program = Program.of(traced.solver.motion.trace, flags)
     wanted = [Reduction(name, "sum") for name in program.output_names]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import RequestError
+from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
@@ -72,7 +73,11 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
     for address, column in columns.items():
         for value in (column.min(), column.max()):
             changed = mechanism.with_dimensions({address: float(value)})
-            if not _same(mechanism, positions, over_cycle(changed, positions_steps(positions))):
+            try:
+                moved = over_cycle(changed, positions_steps(positions))
+            except AssemblyError:  # no position of its own; the design fails where all designs are solved
+                continue
+            if not _same(mechanism, positions, moved):
                 raise RequestError(Sentence("study.moves_positions", address=address))
 
 

@@ -34,6 +34,6 @@ WORDS = {
     "needs_pandas": "pandas is not installed; install it with: pip install pandas",
     "law_beyond": "driver {name!r} gives {kind} of {value} at {time:g} s, "
     "which no machine has; change its law or the cycle",
-    "not_near_drawing": "{name!r}: the group without closed form cannot be put together near its drawing "
-    "(input {inputs}); check the drawing's coordinates against the lengths",
+    "not_near_drawing": "{name!r} cannot be put together near its drawing (input {inputs}); check the drawing's "
+    "coordinates against the lengths",
 }

@@ -31,5 +31,5 @@ WORDS = {
     "needs_pandas": "没有安装 pandas；安装命令：pip install pandas",
     "law_beyond": "驱动 {name!r} 在 {time:g} s 时给出{kind} {value}，超出任何机器可能的数值；"
     "请改变其规律或循环",
-    "not_near_drawing": "“{name}”：没有闭式解的杆组在图示位置附近装配不起来（输入 {inputs}）；请核对图中坐标与长度",
+    "not_near_drawing": "“{name}”在图示位置附近装配不起来（输入 {inputs}）；请核对图中坐标与长度",
 }
