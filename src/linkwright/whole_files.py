@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
+from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
 
@@ -68,5 +69,4 @@ def _replace(target: Path, content: bytes) -> None:
 
 def _refused(target: Path, problem: OSError | ValueError) -> RequestError:
     shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
-    reason = getattr(problem, "strerror", None) or str(problem)
-    return RequestError(Sentence("file.cannot_write", path=shown, reason=reason))
+    return RequestError(Sentence("file.cannot_write", path=shown, reason=reason_of(problem)))

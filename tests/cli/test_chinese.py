@@ -242,3 +242,36 @@ def test_missing_keys_are_said_in_chinese(
         assert remedy.startswith(f"请补上 {key}：") and not re.search("[A-Za-z]{2,} [a-z]{2,}", remedy), line
     main(["check", str(path)])
     assert "the key" in capsys.readouterr().out
+
+
+def test_titles_of_published_cases_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
+    from linkwright.validation.published import from_data
+
+    own = {english for area in ("gallery_titles", "calculation_titles", "published_titles")
+           for english in words.catalogue(area, "en").values()}  # fmt: skip
+    assert {each.case for each in from_data()} <= own
+    said = shown(capsys, "validate", "--case", "conveyor")
+    assert (
+        "摆动式输送机，外极限位置：rocker.angle：所印" in said and "反余弦" in said and "conveyor" not in said
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["grade", "no/key.json", "no.csv"], "没有这个文件或文件夹"),
+        (["metrics", "gallery:change_point_fourbar", "--steps", "6"], "极限位置            rocker 最小"),
+        (
+            ["study", "gallery:slider_crank_offset", "--vary", "rod.length=0.01..0.2m:2", "--steps", "4"],
+            "无法装配",
+        ),
+        (["draw", "gallery:crank_rocker", "--output", "d.xyz"], ".svg、.png、.pdf"),
+        (["solve", "gallery:crank_rocker", "--at", "1,5 deg"], "--at：“1,5 deg”用了逗号作小数点"),
+    ],
+    ids=lambda value: value[0] if isinstance(value, list) else "",
+)
+def test_results_and_reasons_are_chinese(
+    arguments: list[str], part: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = shown(capsys, *arguments)
+    assert part in said and not re.search("[a-z]{3,} [a-z]{2,} [a-z]{2,}", said), said

@@ -94,7 +94,9 @@ def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> li
             owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
             offer = nearest(pattern, [*columns, *owners])
             hint = say("cli.did_you_mean", name=offer) if offer else ""
-            raise UsageError(say("solve.no_column", pattern=pattern, owners=", ".join(owners)) + hint)
+            raise UsageError(
+                say("solve.no_column", pattern=pattern, owners=say("finding.comma").join(owners)) + hint
+            )
         found.update((column.name, column) for column in hits)
     return list(found.values())
 

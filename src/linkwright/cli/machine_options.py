@@ -180,7 +180,8 @@ def _shape_values(option: str, text: str, say: Say) -> dict[str, float]:
         if not sign or key not in keys:
             offer = nearest(key, keys) if sign else None
             hint = say("cli.did_you_mean", name=offer) if offer else ""
-            raise UsageError(say("machine.bad_shape", option=option, text=part, keys=", ".join(keys)) + hint)
+            known = say("finding.comma").join(keys)
+            raise UsageError(say("machine.bad_shape", option=option, text=part, keys=known) + hint)
         dimension, name = SHAPE_KEYS[key]
         found[name] = quantity(f"{option} {key}", given, dimension, say)
     return found

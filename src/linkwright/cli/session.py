@@ -12,6 +12,7 @@ from linkwright.cli.errors import OutputError
 from linkwright.errors import Finding
 from linkwright.words import Say
 from linkwright.words.characters import terminal_text
+from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
@@ -93,7 +94,7 @@ def _writing() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as problem:
-        raise OutputError(Sentence("cli.output_lost", reason=problem.strerror or str(problem))) from None
+        raise OutputError(Sentence("cli.output_lost", reason=reason_of(problem))) from None
 
 
 def _coloured(terminal: bool) -> bool:

@@ -38,7 +38,7 @@ def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: 
         return
     path = Path(name)
     if path.suffix.lower() not in endings:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(endings)))
+        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(endings)))
     refuse_existing(path, force=force)
 
 

@@ -14,6 +14,7 @@ from typing import Any
 from linkwright.course.variants import FORMAT, close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
+from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence, lines
 
 
@@ -74,7 +75,7 @@ def _key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     try:
         found = json.loads(Path(given).read_text("utf-8"))
     except (OSError, ValueError) as error:
-        raise RequestError(Sentence("course.bad_key", path=given, why=str(error))) from None
+        raise RequestError(Sentence("course.bad_key", path=given, why=reason_of(error))) from None
     if not isinstance(found, dict) or found.get("format") != FORMAT or "variants" not in found:
         raise RequestError(Sentence("course.no_key", path=given))
     return found
@@ -86,7 +87,7 @@ def _rows(given: str | Path | Sequence[Mapping[str, str]]) -> list[Mapping[str, 
     try:
         text = Path(given).read_text("utf-8-sig")
     except (OSError, ValueError) as error:
-        raise RequestError(Sentence("course.bad_answers", path=given, why=str(error))) from None
+        raise RequestError(Sentence("course.bad_answers", path=given, why=reason_of(error))) from None
     first = text.partition("\n")[0]
     separator = max(",;\t", key=first.count)
     return list(csv.DictReader(io.StringIO(text), delimiter=separator))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from linkwright.errors import Finding, ModelError
 from linkwright.registry import nearest
+from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
 MAX_BYTES = 5_000_000
@@ -36,10 +37,8 @@ def read_source(source: str | Path) -> tuple[str, str]:
             raise _refuse(path, Sentence("model.no_file"), _near_file(path), "no-file")
         content = _content(path)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _refuse(
-            path, Sentence("model.unreadable", reason=reason), Sentence("model.check_permissions"), "no-file"
-        ) from None
+        unreadable = Sentence("model.unreadable", reason=reason_of(error))
+        raise _refuse(path, unreadable, Sentence("model.check_permissions"), "no-file") from None
     return decode(content, path.name), path.name
 
 

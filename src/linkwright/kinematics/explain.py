@@ -171,4 +171,6 @@ def _where(motion: Motion, index: int) -> str:
 
 
 def _shown(name: str, value: float, rotary: bool) -> str:
-    return f"{name} = " + (f"{np.degrees(value):.6g}°" if rotary else f"{value:.6g} m")
+    shown = f"{np.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
+    own = Sentence("nouns.driver") if name == "driver" else name
+    return Sentence("motion.coordinate", name=own, value=shown)

@@ -82,7 +82,7 @@ def laws_for(start: str, end: str) -> tuple[FittingLaw, ...]:
     """
     for each in (start, end):
         if each not in END_KINDS:
-            raise RequestError(Sentence("laws.end_kind", kind=each, known=", ".join(END_KINDS)))
+            raise RequestError(Sentence("laws.end_kind", kind=each, known=tuple(END_KINDS)))
     own: dict[FittingLaw, None] = {}
     any_ends = []
     for name, kind in MOTION_LAWS.items():

@@ -66,7 +66,7 @@ class FoundProgram(Program):
     def _faults(self) -> list[Finding]:
         found = []
         if self.minimize not in ORDERS:
-            found.append(_fault("aim", ".minimize", aim=self.minimize, known=", ".join(ORDERS)))
+            found.append(_fault("aim", ".minimize", aim=self.minimize, known=tuple(ORDERS)))
         if not self.points and not self.windows:
             found.append(_fault("nothing_asked", ""))
         if not 12 <= self.pieces <= 720:

@@ -49,7 +49,7 @@ class OptimizedSpline(MotionLaw):
 
     def __post_init__(self) -> None:
         if self.minimize not in AIMS:
-            raise RequestError(Sentence("laws.aim", aim=self.minimize, known=", ".join(AIMS)))
+            raise RequestError(Sentence("laws.aim", aim=self.minimize, known=tuple(AIMS)))
         if (self.minimize == "residual") != (self.ratios is not None):
             raise RequestError(Sentence("laws.ratios"))
         if self.ratios is not None and not 0 < self.ratios[0] <= self.ratios[1]:

@@ -69,7 +69,7 @@ class LawField(Field):
             return None
         needed = [key for key, each in MOTION_LAWS[name].fields.items() if each.required]
         if needed:
-            message = Sentence("laws.needs_values", law=name, names=", ".join(needed))
+            message = Sentence("laws.needs_values", law=name, names=tuple(needed))
             remedy = Sentence("laws.needs_values_remedy", law=name, first=needed[0])
             reader.error(node, place, message, remedy, "missing-key")
             return None

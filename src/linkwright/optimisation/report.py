@@ -7,6 +7,7 @@ import math
 from linkwright import units
 from linkwright.optimisation.optimum import Choice, Optimum
 from linkwright.words import Say, speaker
+from linkwright.words.titles import title_said
 from linkwright.words.width import aligned
 
 #: Designs of a front that are listed.
@@ -16,7 +17,8 @@ LISTED = 24
 def report(found: Optimum, language: str) -> list[str]:
     """Title, the best design beside the start, the front, and notes."""
     tell = speaker(language)
-    lines = [tell("optimize.title", name=found.problem.mechanism.name, goals=_goals(found, tell)), ""]
+    name = title_said(found.problem.mechanism.name, language)
+    lines = [tell("optimize.title", name=name, goals=_goals(found, tell)), ""]
     lines += _comparison(found, found.best, tell)
     if len(found.problem.goals) > 1:
         lines += [

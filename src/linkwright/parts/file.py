@@ -173,7 +173,7 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     node = root.get("kind")
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
-    remedy = Sentence("part.no_kind_remedy", known=", ".join(KINDS))
+    remedy = Sentence("part.no_kind_remedy", known=tuple(KINDS))
     reader.error(root, "kind", Sentence("part.no_kind"), remedy, "kind")
     return None
 

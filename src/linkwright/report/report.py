@@ -170,7 +170,7 @@ def _add_calculation(document: Document, problem: Problem) -> None:
         document.blocks.append(
             Paragraph(document.say("report.left_out", sentence=literal(sentence)), "missing")
         )
-        document.missing.append(f"{problem.name}: {sentence}")
+        document.missing.append(document.say("cli.about", name=problem.name, cause=sentence))
 
 
 def _cases(
@@ -261,18 +261,18 @@ def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> N
         made = part.blocks(first) if isinstance(part, Section) else part.blocks(cases)
         for block in chain(_own(text, document) if text else (), made):
             if isinstance(block, Paragraph) and block.kind == "missing":
-                document.missing.append(f"{prefix}{title}: {_unmarked(block.text)}")
+                document.missing.append(say("cli.about", name=prefix + title, cause=_unmarked(block.text)))
             found += [_placed(each, shift, prefix) for each in _parts_of(block, document)]
     except LinkwrightError as error:
         if part.optional and not asked and not text:
             return
         sentence = error.say(document.language)
         found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
-        document.missing.append(f"{prefix}{title}: {sentence}")
+        document.missing.append(say("cli.about", name=prefix + title, cause=sentence))
     except Exception as error:
         sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
         found.append(Paragraph(literal(sentence), "missing"))
-        document.missing.append(f"{prefix}{title}: {sentence}")
+        document.missing.append(say("cli.about", name=prefix + title, cause=sentence))
         document.broken = True
     document.blocks += found
 

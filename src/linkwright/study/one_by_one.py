@@ -101,4 +101,4 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         return error.sentence
     if motion.ok.all():
         return Sentence("study.not_followed")
-    return str(refusal(motion))
+    return refusal(motion).sentence

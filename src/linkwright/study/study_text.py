@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
+from linkwright.words.sentence import in_language
 from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def report(study: Study, language: str, rows: int) -> list[str]:
     if best:
         lines += ["", say("study.best"), *best]
     if study.failures:
-        lines += ["", say("study.failed"), *(_failure(each, say) for each in study.failures)]
+        lines += ["", say("study.failed"), *(_failure(each, say, language) for each in study.failures)]
     return [*lines, *([""] if study.notes else []), *study.notes]
 
 
@@ -79,8 +80,9 @@ def _best(study: Study, language: str, say: Say) -> list[str]:
     return lines
 
 
-def _failure(failure: Failure, say: Say) -> str:
+def _failure(failure: Failure, say: Say, language: str) -> str:
+    example = in_language(failure.example, language)
     if failure.group is None:
-        return say("study.failed_otherwise", count=failure.count, example=failure.example)
-    group = failure.group.replace("+", ", ")
-    return say("study.failed_at", count=failure.count, group=group, example=failure.example)
+        return say("study.failed_otherwise", count=failure.count, example=example)
+    group = failure.group.replace("+", say("finding.comma"))
+    return say("study.failed_at", count=failure.count, group=group, example=example)

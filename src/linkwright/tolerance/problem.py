@@ -191,7 +191,7 @@ class ToleranceStudy(OfMechanism):
         joint = self.mechanism.pins.get(pin)
         key = f"clearances.{pin}"
         if joint is None:
-            return [fault("tolerance.no_pin", key, name=pin, known=", ".join(self.mechanism.pins))]
+            return [fault("tolerance.no_pin", key, name=pin, known=tuple(self.mechanism.pins))]
         if clearance.on not in joint.joined:
             return [
                 fault(

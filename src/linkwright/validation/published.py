@@ -10,6 +10,7 @@ from typing import Any
 
 from linkwright import gallery
 from linkwright.files.model_file import load
+from linkwright.words.sentence import Sentence
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51
@@ -70,7 +71,9 @@ def from_data() -> Iterator[Published]:
 
 def _printed(what: str, given: Any) -> Printed:
     if isinstance(given, Mapping):
-        return Printed(what, str(given["printed"]), str(given["right"]), str(given["why"]))
+        return Printed(
+            what, str(given["printed"]), str(given["right"]), Sentence(f"validate.why_{given['why']}")
+        )
     return Printed(what, str(given))
 
 

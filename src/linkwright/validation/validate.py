@@ -11,6 +11,8 @@ from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Printed, Published, published
 from linkwright.words import speaker
+from linkwright.words.sentence import in_language
+from linkwright.words.titles import title_said
 from linkwright.words.width import aligned
 
 
@@ -67,7 +69,9 @@ class Validation:
         for (case, _), checks in self.cases().items():
             worst = max(checks, key=lambda each: abs(each.digits))
             agree = sum(each.ok for each in checks)
-            rows.append((case, str(len(checks)), str(agree), f"{abs(worst.digits):.2g}"))
+            rows.append(
+                (title_said(case, language), str(len(checks)), str(agree), f"{abs(worst.digits):.2g}")
+            )
         lines = aligned(rows, "<>>>")
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
@@ -111,16 +115,21 @@ def line(each: Checked, language: str) -> str:
     """One number in a sentence."""
     say = speaker(language)
     words = {
-        "case": each.case.case,
+        "case": f"{title_said(each.case.case, language)} {each.case.place}".rstrip(),
         "what": each.printed.what,
-        "place": each.case.place,
         "printed": each.printed.text,
     }
     if each.trouble:
-        return say("validate.trouble", sentence=each.trouble, **words)
+        return say("validate.trouble", sentence=in_language(each.trouble, language), **words)
     ours = f"{each.value:.10g} {each.printed.text.partition(' ')[2]}".strip()
     if each.erratum:
-        return say("validate.erratum", ours=ours, right=each.printed.right, why=each.printed.why, **words)
+        return say(
+            "validate.erratum",
+            ours=ours,
+            right=each.printed.right,
+            why=in_language(each.printed.why, language),
+            **words,
+        )
     return say(
         "validate.agrees" if each.ok else "validate.differs", ours=ours, digits=f"{each.digits:.2g}", **words
     )
@@ -151,7 +160,7 @@ def check(case: Published) -> list[Checked]:
     try:
         find = PROBES[case.probe](case.given)
     except LinkwrightError as error:
-        return [Checked(case, each, math.nan, math.nan, math.inf, str(error)) for each in case.numbers]
+        return [Checked(case, each, math.nan, math.nan, math.inf, error.sentence) for each in case.numbers]
     return [_checked(case, each, find) for each in case.numbers]
 
 

@@ -9,7 +9,9 @@ from typing import Protocol, runtime_checkable
 
 from linkwright.words import say
 
-_OWN_NAMES = re.compile(r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b")
+_OWN_NAMES = re.compile(
+    r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
+)
 
 
 @runtime_checkable

@@ -107,7 +107,7 @@ def _ordered_warnings(table: MetricsTable, language: str) -> list[str]:
     """Sentences that need attention, closeness to a singular position first."""
     rows = sorted(table, key=lambda row: row.metric != "singularity")
     return [
-        f"{in_words(row.subject, language)}: {remark.text(language)}"
+        say("cli.about", language, name=in_words(row.subject, language), cause=remark.text(language))
         for row in rows
         for remark in row.warnings
     ]

@@ -84,7 +84,7 @@ def _path(options: argparse.Namespace, say: Say) -> Path:
     source = options.files[0].removeprefix("gallery:")
     path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")
     if path.suffix.lower() not in ENDINGS:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
+        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(ENDINGS)))
     refuse_existing(path, force=options.force)
     return path
 

@@ -78,7 +78,7 @@ def _path(options: argparse.Namespace, say: Say) -> Path:
     if path.suffix.lower().lstrip(".") not in FORMS or (
         options.to and path.suffix.lower() != f".{options.to}"
     ):
-        endings = f".{options.to}" if options.to else ", ".join(f".{form}" for form in FORMS)
+        endings = f".{options.to}" if options.to else say("finding.comma").join(f".{form}" for form in FORMS)
         raise UsageError(say("cli.bad_suffix", path=path, endings=endings))
     refuse_existing(path, force=options.force)
     return path

@@ -90,7 +90,7 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
 
     path = Path(options.output)
     if path.suffix.lower() not in ENDINGS:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=", ".join(ENDINGS)))
+        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(ENDINGS)))
     refuse_existing(path, force=options.force)
 
 

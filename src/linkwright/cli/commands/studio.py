@@ -7,6 +7,8 @@ import argparse
 from linkwright.cli.parser import whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.reasons import reason_of
+from linkwright.words.sentence import Sentence
 
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
@@ -41,7 +43,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     try:
         studio = studio or Studio(folder, name, port=options.port, language=session.language)
     except OSError as problem:
-        raise UsageError(session.say("studio.no_port", port=options.port, reason=problem.strerror)) from None
+        raise UsageError(Sentence("studio.no_port", port=options.port, reason=reason_of(problem))) from None
     remember(folder, Address(studio.server_port, studio.token))
     with studio:
         session.show(session.say("studio.serving", url=studio.url))

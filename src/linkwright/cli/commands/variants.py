@@ -36,7 +36,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     say = session.say
     unknown = next((form for form in options.to if form not in FORMS), None)
     if unknown is not None:
-        raise UsageError(say("course.no_form", name=unknown, forms=", ".join(FORMS)))
+        raise UsageError(say("course.no_form", name=unknown, forms=say("finding.comma").join(FORMS)))
     folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
     if folder.exists() and not options.force:
         raise UsageError(say("variants.folder_exists", path=folder))

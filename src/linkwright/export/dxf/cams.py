@@ -25,7 +25,7 @@ _MM = 1e3
 def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> Path:
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     if path.suffix.lower() not in ENDINGS:
-        raise RequestError(Sentence("cams.profile_ending", path=path, endings=", ".join(ENDINGS)))
+        raise RequestError(Sentence("cams.profile_ending", path=path, endings=tuple(ENDINGS)))
     refuse_target(path, force=force, remedy="force=True")
     if path.suffix.lower() == ".dxf":
         return write_whole(path, _drawing(design, points))

@@ -127,7 +127,7 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
     shapes = [name for name in SHAPES if name in found]
     if len(shapes) + ("second_moment" in found) != 1:
         message = Sentence("beam.one_shape", count=len(shapes))
-        remedy = Sentence("beam.one_shape_remedy", shapes=", ".join(SHAPES))
+        remedy = Sentence("beam.one_shape_remedy", shapes=tuple(SHAPES))
         reader.error(node, place, message, remedy, "choice")
         return None
     if not shapes:

@@ -138,7 +138,7 @@ class Samples(Problem):
 
     def _unknown(self, key: str, names: tuple[str, ...]) -> list[Finding]:
         return [
-            fault("statistics.no_sample", key, name=name, known=", ".join(self.samples))
+            fault("statistics.no_sample", key, name=name, known=tuple(self.samples))
             for name in names
             if name not in self.samples
         ]

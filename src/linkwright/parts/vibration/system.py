@@ -171,7 +171,7 @@ class VibratingSystem(Problem):
             for name, tie in ties.items():
                 found += self._tie_findings(f"{what}.{name}", tie)
         found += [
-            fault("vibration.no_such_mass", f"start.{name}", name=name, known=", ".join(self.masses))
+            fault("vibration.no_such_mass", f"start.{name}", name=name, known=tuple(self.masses))
             for name in self.start
             if name not in self.masses
         ]
@@ -182,7 +182,7 @@ class VibratingSystem(Problem):
         if len(tie.between) != 2 or tie.between[0] == tie.between[-1]:
             return [fault("vibration.two_ends", f"{key}.between")]
         found = [
-            fault("vibration.no_such_mass", f"{key}.between", name=end, known=", ".join(known))
+            fault("vibration.no_such_mass", f"{key}.between", name=end, known=tuple(known))
             for end in tie.between
             if end not in known
         ]
@@ -197,9 +197,7 @@ class VibratingSystem(Problem):
         if len(forms) != 1 or (forms[0] != "table" and given.frequency is None):
             return [fault("vibration.excitation_form", "excitation")]
         if forms[0] != "base" and given.on not in self.masses:
-            return [
-                fault("vibration.no_such_mass", "excitation.on", name=given.on, known=", ".join(self.masses))
-            ]
+            return [fault("vibration.no_such_mass", "excitation.on", name=given.on, known=tuple(self.masses))]
         if given.times and (len(given.times) != len(given.forces) or len(given.times) < 2 or
                             any(b <= a for a, b in zip(given.times, given.times[1:], strict=False))):  # fmt: skip
             return [fault("vibration.table", "excitation.table")]
