@@ -46,3 +46,13 @@ def test_studies(text: str, words: str) -> None:
 def test_the_named_mechanism_must_be_there() -> None:
     with pytest.raises(lw.ModelError, match=r"no file|no such file"):
         parts.loads(HEAD.replace("gallery:crank_rocker", "nowhere.yaml") + "of: [B.x max]\n", "t.yaml")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["dimensions: {carrier.A.x: 0.05 mm}", "clearances: {A: {clearance: 0.02 mm, on: carrier}}"],
+)
+def test_wheels_of_given_size_leave_their_centre_distance_no_tolerance(text: str) -> None:
+    head = HEAD.replace("crank_rocker", "gear_differential") + "of: [sun_2.angular_velocity max]\n"
+    with pytest.raises(lw.ModelError, match=r"external pair needs 0\.06 m as soon as this changes"):
+        parts.loads(f"{head}{text}\n", "t.yaml").solve()

@@ -185,7 +185,16 @@ class ToleranceStudy(OfMechanism):
         link = self.mechanism.links.get(owner)
         if moved and link is not None and self._alias(address) not in self.prepared.dimensions():
             return [fault("tolerance.bent_clearance", key, link=owner)]
-        return []
+        return self._wheel_findings(key, address, tolerance.tolerance)
+
+    def _wheel_findings(self, key: str, address: str, change: float) -> list[Finding]:
+        """Pairs of wheels that no longer fit when a dimension changes."""
+        try:
+            changed = self.mechanism.with_dimensions({address: self.mechanism.dimension(address) + change})
+        except LinkwrightError:
+            return []
+        found = (joint.misfit(changed) for joint in changed.joints.values())
+        return [fault("tolerance.wheels", key, why=why) for why in found if why is not None]
 
     def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
         joint = self.mechanism.pins.get(pin)
@@ -198,7 +207,10 @@ class ToleranceStudy(OfMechanism):
                     "tolerance.not_on", f"{key}.on", pin=pin, link=clearance.on, known=", ".join(joint.joined)
                 )
             ]
-        return []
+        address = f"{clearance.on}.{pin}.x"
+        if address not in self.mechanism.dimensions():
+            return []
+        return self._wheel_findings(key, address, clearance.clearance)
 
     @cached_property
     def prepared(self) -> Mechanism:
