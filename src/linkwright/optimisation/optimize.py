@@ -7,6 +7,7 @@ import json
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ from linkwright.optimisation.problem import problem
 from linkwright.optimisation.task import Judged, Task
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
+from linkwright.words.titles import title_said
 
 Progress = Callable[[int, int], None]
 #: Evaluations where designs go one after the other and nobody says how many; seconds between two saved states.
@@ -96,7 +98,7 @@ def _source(
     assert mechanism is not None
     given = dict(mechanism.optimize) | {key: value for key, value in settings.items() if value is not None}
     if not given:
-        raise RequestError(Sentence("optimize.no_section", name=mechanism.name))
+        raise RequestError(Sentence("optimize.no_section", name=partial(title_said, mechanism.name)))
     return mechanism, document, given
 
 
@@ -147,7 +149,9 @@ class _Run:
         else:
             chosen = taken(judged, ranked(judged)[:1])
         if not np.isfinite(chosen.violations).all():
-            raise RequestError(Sentence("optimize.nothing_moves", name=self.task.problem.mechanism.name))
+            raise RequestError(
+                Sentence("optimize.nothing_moves", name=partial(title_said, self.task.problem.mechanism.name))
+            )
         found = self._made(chosen, state, document)
         if not feasible.any():
             raise OptimizeError(self._failing(found), found)

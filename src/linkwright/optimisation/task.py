@@ -205,14 +205,11 @@ class Task:
         number, unit = _split(text)
         factor, given = units.unit(unit) if unit else (1.0, units.NONE)
         if given != kind:
-            need = Sentence(
-                "optimize.unit",
-                text=name,
-                need=units.name_of(kind),
-                example=units.si_symbol(kind),
-                given=text,
+            example = units.si_symbol(kind)
+            key = "optimize.unit" if example else "optimize.no_unit"
+            raise QuantityError(
+                Sentence(key, text=name, need=units.name_of(kind), given=text, example=example)
             )
-            raise QuantityError(need)
         return number * factor
 
 

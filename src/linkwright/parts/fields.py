@@ -215,7 +215,7 @@ def _any(
 def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str, known: list[str]) -> None:
     """The finding for a name that a table does not have, with the nearest that it has."""
     offer = nearest(name, known)
-    listed = ", ".join(known)
+    listed = tuple(known)
     remedy = (
         Sentence("part.known", known=listed)
         if offer is None

@@ -28,7 +28,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         say = session.say
         offer = nearest_of(options.action, list(actions))
         hint = say("cli.did_you_mean", name=f"gallery {offer}") if offer else ""
-        choices = ", ".join(actions)
+        choices = say("finding.comma").join(actions)
         raise UsageError(say("cli.bad_choice", name="gallery", value=options.action, choices=choices) + hint)
     return actions[options.action](options, session)
 

@@ -10,6 +10,8 @@ from linkwright.words import Say
 from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
+LAST_PORT = 65535
+
 
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The command's options."""
@@ -35,6 +37,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
         if not path.is_relative_to(folder.resolve()):
             raise UsageError(session.say("studio.outside", name=options.file))
         name = path.relative_to(folder.resolve()).as_posix()
+    if not 0 <= options.port <= LAST_PORT:
+        raise UsageError(
+            Sentence("studio.no_port", port=options.port, reason=Sentence("studio.ports", last=LAST_PORT))
+        )
     known = recalled(folder)
     studio = None
     if known is not None and options.port in (0, known.port):

@@ -66,6 +66,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "bounds": "{address} has equal bounds; give a lower and a higher one",
     "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',
+    "no_unit": '"{text}" is {need}, and "{given}" is not; write a number without a unit',
     "unit": '"{text}" is {need}, and "{given}" is not; write a value in {example}',
     "no_value": '"{text}" is no value; write a number with its unit, such as 40 deg',
     "no_number": 'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a summary such '

@@ -11,6 +11,7 @@ WORDS = {
     "port_help": "the port (default: a free one)",
     "browser_help": "only print the address",
     "serving": "The studio is at {url} (end it with Ctrl+C)",
+    "ports": "ports go from 0 to {last}",
     "no_port": "port {port} cannot be used: {reason}; choose another one, or none for a free one",
     "outside": "{name} is no model file below the folder in which the studio was started",
     "large": "the text is larger than {most} bytes",

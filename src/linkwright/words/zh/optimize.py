@@ -61,6 +61,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "bounds": "{address} 的上下限相等；请给不同的上下限",
     "demand": '"{given}" 不是要求；请写 at least 40 deg、at most 60 kN、1..2 m 或 same within 1 %',
     "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',
+    "no_unit": '"{text}" 是{need}，而 "{given}" 不是；请写不带单位的数',
     "unit": '"{text}" 是{need}，而 "{given}" 不是；请以 {example} 给值',
     "no_value": '"{text}" 不是值；请写带单位的数，如 40 deg',
     "no_number": '没有名为 "{text}" 的数；请给设计指标（linkwright metrics）、flywheel、汇总如 "jaw.angle range"、'

@@ -17,6 +17,6 @@ WORDS = {
     "mechanism_file": "{name}：{message}",
     "no_kind": "文件没有说明计算什么",
     "no_kind_remedy": "请加 kind:（{known} 之一）",
-    "known": "（已知：{known}）",
+    "known": "已知：{known}",
     "nearest": "是不是“{offer}”？（已知：{known}）",
 }
