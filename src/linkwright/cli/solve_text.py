@@ -80,7 +80,8 @@ def _fitted(
     left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
     if not left:
         return [*first, *shown, *efforts_shown], ""
-    sentence = session.say("solve.left_out", names=", ".join(left), one=left[0], total=len(columns))
+    names_left = session.say("finding.comma").join(left)
+    sentence = session.say("solve.left_out", names=names_left, one=left[0], total=len(columns))
     return [*first, *shown, *efforts_shown], sentence
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from linkwright import units
 from linkwright.words.sentence import Gloss, Sentence
 
 
@@ -23,6 +24,9 @@ def form(shape: Mapping[str, Any]) -> Sentence:
             return Sentence("form.one_of", names=tuple(names))
         case {"x-dimension": dimension, "examples": [example, *_]}:
             return Sentence("form.such_as", noun=Sentence(f"nouns.a_{dimension}"), example=example)
+        case {"x-dimension": dimension, "anyOf": [*_, {"type": "array"} as listed]}:
+            one = {"x-dimension": dimension, "examples": [units.example(dimension)]}
+            return Sentence("form.either", several=[form(one), form(listed)])
         case {"x-dimension": dimension, "x-variables": variables}:
             return Sentence("form.formula", noun=Sentence(f"nouns.a_{dimension}"), variables=tuple(variables))
         case {"x-reference": what}:

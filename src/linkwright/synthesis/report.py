@@ -17,19 +17,21 @@ def report(found: Synthesis, language: str) -> list[str]:
     tell = speaker(language)
     rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
     rows += [_row(number, each, tell) for number, each in enumerate(found.candidates, 1)]
-    title = tell("synthesize.title", task=_name(found.task, tell), count=len(found))
+    title = tell("synthesize.title", task=name_said(found.task, tell), count=len(found))
     between = tell("finding.comma")
     lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>"), ""]
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
-            f"{_name(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
+            f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
         )
         lines.append(tell("synthesize.lengths", number=number, lengths=lengths))
         if each.values:
-            values = between.join(f"{_name(name, tell)} = {value:.7g}" for name, value in each.values.items())
+            values = between.join(
+                f"{name_said(name, tell)} = {value:.7g}" for name, value in each.values.items()
+            )
             lines.append(tell("synthesize.values", values=values))
     if found.counts:
-        counts = between.join(f"{_name(name, tell)} {value}" for name, value in found.counts.items())
+        counts = between.join(f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
         lines += ["", tell("synthesize.counts", counts=counts)]
     return lines + [in_language(sentence, language) for sentence in found.notes]
 
@@ -44,7 +46,7 @@ def purpose(found: Synthesis, each: Candidate, language: str) -> str:
     )
     return tell(
         "synthesize.purpose",
-        task=_name(found.task, tell).replace("_", " "),
+        task=name_said(found.task, tell).replace("_", " "),
         error=f"{each.error:.4g}",
         transmission=f"{degrees(each.transmission_angle):.4g} deg",
         defects=defects,
@@ -70,7 +72,7 @@ def _row(number: int, each: Candidate, tell: Say) -> list[str]:
     ]
 
 
-def _name(name: str, tell: Say) -> str:
+def name_said(name: str, tell: Say) -> str:
     """The word for a task, a link, a value with its unit or a count; other names as they are."""
     stem, _, unit = name.partition(" ")
     numbered = stem.removeprefix("link")

@@ -8,8 +8,9 @@ import numpy as np
 
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, style
+from linkwright.synthesis.report import name_said
 from linkwright.synthesis.result import Candidate, Synthesis
-from linkwright.words import say
+from linkwright.words import say, speaker
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,7 +40,8 @@ class SynthesisDiagram(ResultKind):
             self._plane(axes[0], result, request.language)
             if function:
                 self._function(axes[1], result, request.language)
-            title = say("synthesize.title", request.language, task=result.task, count=len(result))
+            task = name_said(result.task, speaker(request.language))
+            title = say("synthesize.title", request.language, task=task, count=len(result))
             figure.suptitle(title if request.title is None else request.title)
         return figure
 
