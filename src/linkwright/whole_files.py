@@ -31,6 +31,16 @@ def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> 
         raise RequestError(Sentence("file.exists", path=target, remedy=remedy))
 
 
+def make_folder(path: str | Path) -> Path:
+    """Make a folder, and those that it lies in, where it is not there yet; raises RequestError where it cannot be."""
+    target = Path(path)
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as problem:
+        raise _refused(target, problem, "file.cannot_make") from None
+    return target
+
+
 def write_whole(path: str | Path, content: bytes) -> Path:
     """Write ``content`` beside ``path`` and move it there in one step; nothing is left behind on failure.
 
@@ -67,6 +77,6 @@ def _replace(target: Path, content: bytes) -> None:
         raise
 
 
-def _refused(target: Path, problem: OSError | ValueError) -> RequestError:
+def _refused(target: Path, problem: OSError | ValueError, said: str = "file.cannot_write") -> RequestError:
     shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
-    return RequestError(Sentence("file.cannot_write", path=shown, reason=reason_of(problem)))
+    return RequestError(Sentence(said, path=shown, reason=reason_of(problem)))

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from linkwright.course.variants import FORMAT, close
+from linkwright.course.key import read_key
+from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
 from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence, lines
+
+#: Letters of an answer that a sentence repeats.
+SHOWN = 60
 
 
 @dataclass(frozen=True)
@@ -54,8 +57,8 @@ def grade(
         LinkwrightError: a file that cannot be read, a column that does not exist; all rows whose variant does not
             exist or with an answer that is no number.
     """
-    held = _key(key)
-    rows = _rows(answers)
+    held = read_key(key)
+    rows = _rows(answers, [each["name"] for each in held["questions"]])
     found, faults = list[Grade](), list[str]()
     for line, row in enumerate(rows, 2):
         try:
@@ -69,31 +72,29 @@ def grade(
     return found
 
 
-def _key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
-    if isinstance(given, Mapping):
-        return given
-    try:
-        found = json.loads(Path(given).read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise RequestError(Sentence("course.bad_key", path=given, why=reason_of(error))) from None
-    if not isinstance(found, dict) or found.get("format") != FORMAT or "variants" not in found:
-        raise RequestError(Sentence("course.no_key", path=given))
-    return found
-
-
-def _rows(given: str | Path | Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
+def _rows(given: str | Path | Sequence[Mapping[str, str]], names: Sequence[str]) -> list[Mapping[str, str]]:
     if not isinstance(given, str | Path):
         return list(given)
     try:
         text = Path(given).read_text("utf-8-sig")
-    except (OSError, ValueError) as error:
+        first = text.partition("\n")[0]
+        separator = max(",;\t", key=first.count)
+        found = csv.DictReader(io.StringIO(text), delimiter=separator)
+        columns = list(found.fieldnames or ())
+        rows: list[Mapping[str, str]] = list(found)
+    except (OSError, ValueError, csv.Error) as error:
         raise RequestError(Sentence("course.bad_answers", path=given, why=reason_of(error))) from None
-    first = text.partition("\n")[0]
-    separator = max(",;\t", key=first.count)
-    return list(csv.DictReader(io.StringIO(text), delimiter=separator))
+    for name in ("variant", *names):
+        if columns.count(name) != 1:
+            said = "course.two_columns" if name in columns else "course.no_column"
+            raise RequestError(Sentence(said, name=name))
+    return rows
 
 
 def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
+    beyond: object = row.get(None)  # type: ignore[call-overload]
+    if isinstance(beyond, list) and any(beyond):
+        raise LinkwrightError(Sentence("course.long_row", line=line, text=", ".join(beyond)[:SHOWN]))
     variant = _variant(key, row, line)
     questions, tolerance = key["questions"], float(key["tolerance"])
     missing = [each["name"] for each in questions if each["name"] not in row]
@@ -165,9 +166,12 @@ def _number(text: str | None, line: int, name: str) -> float | None:
     if not shown:
         return None
     try:
-        return float(shown.replace(",", ".")) if shown.count(",") <= 1 and "." not in shown else float(shown)
+        found = float(shown.replace(",", ".")) if shown.count(",") <= 1 and "." not in shown else float(shown)
     except ValueError:
-        raise LinkwrightError(Sentence("course.no_answer", line=line, name=name, text=shown)) from None
+        found = math.nan
+    if not math.isfinite(found):
+        raise LinkwrightError(Sentence("course.no_answer", line=line, name=name, text=shown[:SHOWN]))
+    return found
 
 
 def text(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> list[list[str]]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.registry import offered
@@ -48,9 +48,15 @@ class Task:
 
 
 def task(mechanism: Mechanism) -> Task:
-    """The task of a model; raises RequestError for settings that make no sense, LinkwrightError for a machine whose
-    position is not told by its input."""
-    given = mechanism.course
+    """The task of a model; raises LinkwrightError for settings that make no sense, and for a machine whose position
+    is not told by its input."""
+    try:
+        return _task(mechanism, mechanism.course)
+    except RequestError as error:
+        raise LinkwrightError(error.sentence) from None
+
+
+def _task(mechanism: Mechanism, given: Mapping[str, Any]) -> Task:
     for key in given:
         if key not in KEYS:
             hint = offered(str(key), KEYS)
@@ -60,10 +66,17 @@ def task(mechanism: Mechanism) -> Task:
         raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
     driver = next(iter(drivers))
     rotary = mechanism.joints[driver.joint].coordinate == "turn"
-    at = parse(str(given.get("at", "60 deg" if rotary else "0.01 m")), "angle" if rotary else "length")
+    at = _quantity("at", given.get("at", "60 deg" if rotary else "0.01 m"), "angle" if rotary else "length")
     sheet = Sheet(mechanism, at)
     return Task(mechanism, _ranges(mechanism, given.get("vary")), _questions(sheet, given.get("ask")), at,
                 _tolerance(given.get("tolerance", TOLERANCE)))  # fmt: skip
+
+
+def _quantity(place: str, given: Any, dimension: str) -> float:
+    try:
+        return parse(str(given), dimension)
+    except QuantityError as error:
+        raise LinkwrightError(Sentence("cli.about", name=f"course.{place}", cause=error)) from None
 
 
 def _tolerance(value: Any) -> float:
@@ -96,13 +109,13 @@ def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tup
     dimension = _dimension(mechanism, address)
     try:
         if isinstance(given, list | tuple) and len(given) == 2:
-            low, high = (parse(str(each), dimension) for each in given)
+            low, high = (_quantity(f"vary.{address}", each, dimension) for each in given)
         else:
             share = float(str(given).strip().removesuffix("%")) / 100.0
             low, high = sorted(((1 - share) * value, (1 + share) * value))
     except ValueError:
         raise RequestError(Sentence("course.bad_range", address=address, text=str(given))) from None
-    if not low < high:
+    if not -math.inf < low < high < math.inf:
         raise RequestError(Sentence("course.bad_range", address=address, text=str(given)))
     return low, high
 
@@ -118,8 +131,10 @@ def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
     columns = list(sheet.values)
     if given is not None:
         names = {column.partition(" [")[0]: column for column in columns}
+        if not isinstance(given, list | tuple) or not given:
+            raise RequestError(Sentence("course.no_list", given=str(given), hint=offered("", names)))
         found = []
-        for name in given:
+        for name in dict.fromkeys(given):
             if str(name) not in names:
                 raise RequestError(
                     Sentence("course.no_number", name=str(name), hint=offered(str(name), names))

@@ -89,12 +89,12 @@ class Variants:
 
     def save(self, folder: str | Path, forms: Sequence[str] = (), language: str = "en") -> list[Path]:
         """Write the files into a folder, each whole; returns their paths."""
-        from linkwright.whole_files import write_whole
+        from linkwright.whole_files import make_folder, write_whole
 
         target, written = Path(folder), []
         for name, content in self.files(forms, language).items():
             path = target / name
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(path.parent)
             written.append(write_whole(path, content))
         return written
 
@@ -130,6 +130,8 @@ def variants(
     """
     if not 1 <= count <= 1000:
         raise RequestError(Sentence("course.bad_count", count=count))
+    if seed < 0:
+        raise RequestError(Sentence("study.bad_seed", seed=seed))
     asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
     rng = np.random.default_rng(seed)
     model = _solved(asked, 0, {}, asked.mechanism)

@@ -21,7 +21,7 @@ from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.vary import checked_addresses
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import make_folder, write_whole
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
@@ -218,6 +218,8 @@ def _plan(
     if sampling not in ("grid", "sobol"):
         raise RequestError(Sentence("study.no_sampling", sampling=sampling))
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
+    if seed < 0:
+        raise RequestError(Sentence("study.bad_seed", seed=seed))
     if not 1 <= count <= MOST:
         raise RequestError(Sentence("study.bad_samples", samples=count, most=MOST))
     names = tuple(each.name.strip() for each in wanted(outputs))
@@ -228,7 +230,7 @@ def _plan(
 def _missing(found: SweepParts) -> list[int]:
     """Parts that are not there yet, in a folder that belongs to the plan."""
     _, parquet = _arrow()
-    found.folder.mkdir(parents=True, exist_ok=True)
+    make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
     if note.exists():
         try:

@@ -222,7 +222,8 @@ class Free(Field):
     """A free mapping that is kept and not interpreted."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return reader.free(node)
+        found = reader.free(node)
+        return found if found is None or reader.mapping(node, place) is not None else None
 
     def shape(self) -> Schema:
         return {"type": "object"}

@@ -38,7 +38,7 @@ class State:
             "generation": self.generation,
             "evaluations": self.evaluations,
             "draw": self.draw.bit_generator.state,
-            "history": self.history,
+            "history": [*self.history],
         }
 
 
@@ -57,13 +57,20 @@ def begin(task: Task, size: int) -> State:
 
 
 def resumed(task: Task, data: dict[str, Any]) -> State:
-    """A state from its data; the population is judged anew."""
+    """A state from its data; the population is judged anew. Raises ValueError for what no search has kept."""
     draw = np.random.default_rng()
     draw.bit_generator.state = data["draw"]
     x = np.array(data["x"], dtype=float)
-    return State(
-        task.judge(x), int(data["generation"]), int(data["evaluations"]), draw, list(data["history"])
+    done, evaluations, history = (
+        int(data["generation"]),
+        int(data["evaluations"]),
+        [*map(float, data["history"])],
     )
+    if x.shape[1:] != (len(task.problem.variables),) or not ((x >= 0.0) & (x <= 1.0)).all():
+        raise ValueError("x")
+    if done != len(history) or evaluations != len(x) * (done + 1):
+        raise ValueError("generation")
+    return State(task.judge(x), done, evaluations, draw, history)
 
 
 def generation(task: Task, state: State) -> None:

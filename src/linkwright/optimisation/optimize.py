@@ -187,7 +187,7 @@ class _Run:
             if data["problem"] != self.digest:
                 raise RequestError(Sentence("optimize.other_state", path=self.path))
             return resumed(self.task, data)
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
             raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
 
     def _save(self, snapshot: dict[str, Any]) -> None:

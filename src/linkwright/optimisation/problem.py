@@ -220,13 +220,22 @@ class _Reading:
             if len(choices) < 1:
                 raise RequestError(Sentence("optimize.no_choice", address=address))
             return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
-        if isinstance(value, (list, tuple)) and len(value) == 2:
-            value = (
-                f"{value[0]}..{value[1]}"
-                if any(isinstance(each, str) for each in value)
-                else np.array(value, float)
-            )
-        found = parse_range(self.mechanism, address, str(value) if isinstance(value, (int, float)) else value)
+        if (
+            isinstance(value, (list, tuple))
+            and len(value) == 2
+            and any(isinstance(each, str) for each in value)
+        ):
+            value = f"{value[0]}..{value[1]}"
+        if isinstance(value, (int, float)):
+            value = str(value)
+        if not isinstance(value, str):
+            try:
+                value = np.array(value, float)
+            except (TypeError, ValueError):
+                raise RequestError(
+                    Sentence("optimize.no_bounds", address=address, given=str(value))
+                ) from None
+        found = parse_range(self.mechanism, address, value)
         if not found.low < found.high:
             raise RequestError(Sentence("optimize.bounds", address=address))
         return Variable(address, found.low, found.high, None, found.unit)

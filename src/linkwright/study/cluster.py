@@ -28,7 +28,7 @@ def connected(cluster: Any) -> Any:
         return cluster
     try:
         return dask.Client(cluster, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+    except (OSError, ValueError, TypeError) as error:
         raise LinkwrightError(
             Sentence("study.no_cluster", address=cluster, reason=str(error)[:200])
         ) from None

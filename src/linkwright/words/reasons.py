@@ -8,7 +8,7 @@ from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 
-def reason_of(problem: OSError | ValueError) -> str:
+def reason_of(problem: Exception) -> str:
     """Why a file cannot be read or written."""
     name = errno.errorcode.get(getattr(problem, "errno", None) or 0, "")
     if has(f"system.{name}"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
@@ -38,7 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if unknown is not None:
         raise UsageError(say("course.no_form", name=unknown, forms=say("finding.comma").join(FORMS)))
     folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
-    if folder.exists() and not options.force:
+    if os.path.exists(folder) and not options.force:
         raise UsageError(say("variants.folder_exists", path=folder))
     mechanism, _ = read_model(options.file, session)
     with progress(say("variants.working")) as told:

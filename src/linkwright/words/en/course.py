@@ -7,16 +7,22 @@ WORDS = {
     "bad_tolerance": 'course.tolerance: "{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
     "bad_range": 'course.vary: {address}: "{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])',
     "no_number": 'course.ask: there is no result "{name}" at this position; {hint}',
+    "no_list": 'course.ask: "{given}" is no list of results; {hint}',
     "bad_count": "{count} variants cannot be made; give 1 to 1000",
     "too_few": "only {found} of {count} variants were found in {tried} tries that pass their cycle and are as sound "
     "and as hard as the model; widen the ranges of course.vary, or move course.at away from a singular position",
     "no_form": 'there is no form "{name}"; the forms are {forms}',
     "bad_key": "{path}: the key cannot be read: {why}",
     "no_key": "{path}: this is no answer key; give the key.json that the command variants wrote",
+    "damaged_key": "{path}: {place} is missing, or not what the command variants writes there; write the key again, "
+    "with the same seed",
     "bad_answers": "{path}: the answers cannot be read: {why}",
     "no_column": 'the answers have no column "{name}"; its first line names the columns as answers.csv does',
+    "two_columns": 'the answers have more than one column "{name}"; leave one of them',
+    "long_row": "line {line}: there are more values than columns: {text}; write decimal points, or put numbers with "
+    "commas in quotation marks",
     "no_variant": 'line {line}: there is no variant "{text}"; the key has 1 to {count}',
-    "no_answer": 'line {line}: {name}: "{text}" is no number',
+    "no_answer": 'line {line}: {name}: "{text}" is no number; write one such as 12.5, or nothing',
     "position": "Position: {link} at {input}.",
     "convention": "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's x axis in "
     "degrees.",

@@ -6,4 +6,5 @@ WORDS = {
     "exists": '"{path}" exists; choose another name, or replace it with {remedy}',
     "cannot_write": 'the file "{path}" cannot be written ({reason}); choose another name or a folder of your '
     "own",
+    "cannot_make": 'the folder "{path}" cannot be made ({reason}); choose another name or a folder of your own',
 }

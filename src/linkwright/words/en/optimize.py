@@ -63,6 +63,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "texts": "{key_}: must be a number's name or a list of them, such as [peak_input_torque, flywheel]",
     "number": "{key_}: {given} is no number between {low} and {high}; give one",
     "no_choice": "{address} has no value to choose from; give values: or a whole: range that holds a whole number",
+    "no_bounds": "{address}: {given} says no bounds; give two values such as [80 mm, 120 mm], "
+    "or values: [80 mm, 90 mm]",
     "bounds": "{address} has equal bounds; give a lower and a higher one",
     "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',

@@ -5,4 +5,5 @@ WORDS = {
     "no_folder": "没有文件夹“{path}”；请先建立",
     "exists": "“{path}”已存在；请换一个名称，或用 {remedy} 覆盖",
     "cannot_write": "无法写入文件“{path}”（{reason}）；请换一个名称，或选自己的文件夹",
+    "cannot_make": "无法建立文件夹“{path}”（{reason}）；请换一个名称，或选自己的文件夹",
 }
