@@ -1,11 +1,12 @@
 """Kernels: what the compiled functions give is what Python's own arithmetic gives."""
 
+import gc
 from math import cos, exp, fabs, log, sin, sqrt
 
 import numpy as np
 import pytest
 
-from linkwright.engine import machine_code
+from linkwright.engine import cache, machine_code
 from linkwright.engine.kernel import (
     Kernels,
     Reals,
@@ -94,3 +95,11 @@ def test_kernels_compute_with_complex_numbers() -> None:
     first, second = out[:, 0] + 1j * out[:, 1]
     assert first == pytest.approx((a - 2) * b + np.abs(b) * a - (1 - b) * 3, rel=1e-13)
     assert second == pytest.approx(np.where(np.abs(a) > np.abs(b), 1 / a, a - b), rel=1e-13)
+
+
+def test_kernels_stay_when_others_push_their_code_out_of_the_memory() -> None:
+    kernels = Kernels([series])
+    before = kernels("series", 0.5, 8)
+    cache.forget()
+    gc.collect()
+    assert [kernels("series", 0.5, 8) for _ in range(100)] == [before] * 100

@@ -139,7 +139,7 @@ class CompiledProgram:
         call.set_out(out)
         function, address = self._function, call.address
 
-        def run(kept: object = (call, parameters, out)) -> None:
+        def run(kept: object = (self, call, parameters, out)) -> None:
             function(address)
 
         return run
