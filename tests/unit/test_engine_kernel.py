@@ -97,7 +97,7 @@ def test_kernels_compute_with_complex_numbers() -> None:
     assert second == pytest.approx(np.where(np.abs(a) > np.abs(b), 1 / a, a - b), rel=1e-13)
 
 
-def test_kernels_stay_when_others_push_their_code_out_of_the_memory() -> None:
+def test_functions_keep_their_code_when_others_push_it_out_of_the_memory() -> None:
     kernels = Kernels([series])
     before = kernels("series", 0.5, 8)
     cache.forget()

@@ -18,7 +18,7 @@ import inspect
 import math
 import textwrap
 from collections.abc import Callable, Sequence
-from functools import cache, cached_property
+from functools import cache
 from typing import Any
 
 from linkwright.engine import machine_code
@@ -151,11 +151,9 @@ class Kernels:
         tree = self.trees[name]
         given = [kinds.get(_annotation(each.annotation), ctypes.c_void_p) for each in tree.args.args]
         result = kinds[_annotation(tree.returns)]
-        return ctypes.CFUNCTYPE(result, *given)(self._code.address(name))
+        return self._code().function(name, ctypes.CFUNCTYPE(result, *given))
 
-    @cached_property
     def _code(self) -> machine_code.Loaded:
-        """The machine code, kept as long as its functions can be called."""
         digest = hashlib.blake2b(digest_size=16)
         for name, tree in self.trees.items():
             digest.update(ast.dump(tree).encode())

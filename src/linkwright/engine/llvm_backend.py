@@ -69,8 +69,7 @@ class CompiledProgram:
         self.program = program
         self.accumulation = accumulation
         self.width = width
-        self._function = code.function
-        self._code = code
+        self._function = code.function(ENTRY)
         self._own = threading.local()
 
     def run(
@@ -139,7 +138,7 @@ class CompiledProgram:
         call.set_out(out)
         function, address = self._function, call.address
 
-        def run(kept: object = (self, call, parameters, out)) -> None:
+        def run(kept: object = (call, parameters, out)) -> None:
             function(address)
 
         return run

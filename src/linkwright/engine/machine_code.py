@@ -14,6 +14,7 @@ from typing import Any
 from linkwright.engine.functions import FUNCTIONS
 
 _LOCK = threading.RLock()
+OF_ONE_ADDRESS = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 _DESCRIPTION = "cpu {cpu} features {features} llvm {version} llvmlite {binding}"
 
 
@@ -117,7 +118,7 @@ def assembly(text: str, level: int = 3) -> str:
 
 
 class Loaded:
-    """Object code in memory; stays while this object lives."""
+    """Object code in memory; stays while this object or one of its functions lives."""
 
     def __init__(self, code: bytes, entry: str) -> None:
         with _LOCK:
@@ -125,12 +126,16 @@ class Loaded:
             self._engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target_machine())
             self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
             self._engine.finalize_object()
-            address = self._engine.get_function_address(entry)
+        self.function(entry)
+
+    def function(self, entry: str, kind: Any = OF_ONE_ADDRESS) -> Any:
+        """A function of the code, of one address unless another ``kind`` is given; the code stays as long as it.
+
+        It gives the lock of the interpreter back while it runs. Raises RuntimeError where the code has none.
+        """
+        address = self._engine.get_function_address(entry)
         if not address:
             raise RuntimeError(f"the object code has no function {entry}")
-        #: Function of one address, which gives the lock of the interpreter back while it runs.
-        self.function = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
-
-    def address(self, entry: str) -> int:
-        """Address of a function."""
-        return int(self._engine.get_function_address(entry))
+        found = kind(address)
+        found.code = self
+        return found
