@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.contract.settling import LAW
 
 import linkwright as lw
 from linkwright.cli import main
@@ -22,13 +23,10 @@ from linkwright.metrics import METRICS
 PACKAGE = '''
 """What somebody else's package holds: public base classes and registries, nothing else."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from linkwright.drivers.base import LAWS, Law
+from linkwright.drivers.base import LAWS
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Wrench
@@ -49,31 +47,11 @@ class Wind(Load):
 
     def wrenches(self, site):
         return [Wrench(self.on, site.direction(0.0) * site.dimension("size"), site.place(self.on, self.at))]
+'''
+PACKAGE += LAW
+PACKAGE += '''
 
-
-@LAWS.register("settling")
-@dataclass(frozen=True)
-class Settling(Law):
-    """q = way (1 - exp(-t / 1 s))."""
-
-    key: ClassVar[str] = "settling"
-    way: float
-    rotary: bool = True
-
-    def coordinate(self, t):
-        left = np.exp(-t)
-        return self.way * (1.0 - left), self.way * left, -self.way * left
-
-    @classmethod
-    def fields(cls, rotary):
-        return {"settling": Quantity("angle" if rotary else "length", doc="way after all time")}
-
-    @classmethod
-    def from_values(cls, values, rotary, parameters):
-        return cls(values["settling"], rotary)
-
-    def text_values(self) -> Mapping[str, object]:
-        return {"settling": self.way}
+LAWS.register("settling")(Settling)
 
 
 @METRICS.register("mean_crank_torque")

@@ -35,9 +35,14 @@ class Relation:
         """In plain symbols."""
         return f"{plain(self.left)} = {plain(self.right)}"
 
+    @property
+    def latex_sides(self) -> tuple[str, str]:
+        """Left and right side as LaTeX."""
+        return latex(self.left), latex(self.right)
+
     def data(self) -> dict[str, object]:
         """Plain data."""
-        return {"relation": self.text, "latex": f"{latex(self.left)} = {latex(self.right)}"}
+        return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
 
 
 @dataclass(frozen=True)

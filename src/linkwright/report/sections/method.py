@@ -73,8 +73,7 @@ def formulas(step: Step) -> Iterator[Block]:
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
         else:
-            left, right = item.data()["latex"].split(" = ", 1)  # type: ignore[attr-defined]
-            yield Formula((left, right))
+            yield Formula(item.latex_sides)
     yield from side_by_side(held)
 
 

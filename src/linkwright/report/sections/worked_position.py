@@ -61,8 +61,7 @@ def with_numbers(step: Step) -> Iterator[Block]:
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
         elif isinstance(item, Relation):
-            left, right = item.data()["latex"].split(" = ", 1)  # type: ignore[attr-defined]
-            yield Formula((left, right), number=False)
+            yield Formula(item.latex_sides, number=False)
         else:
             sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
             yield Formula(tuple(side for side in sides if side))

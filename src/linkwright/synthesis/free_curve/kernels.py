@@ -167,13 +167,23 @@ def align(x: Reals, y: Reals, n: int, at: Reals, turn: float, yx: Reals, yy: Rea
         store(yy, t, kx * dy + ky * dx)
 
 
+def one_before(k: int, count: int, closed: int) -> int:
+    """The entry before k of a curve of ``count`` points; an open one ends there."""
+    if k > 0:
+        return k - 1
+    return count - 1 if closed == 1 else 0
+
+
+def one_after(k: int, count: int, closed: int) -> int:
+    """The entry after k."""
+    if k < count - 1:
+        return k + 1
+    return 0 if closed == 1 else count - 1
+
+
 def ends(k: int, j: int, count: int, closed: int, x: Reals, y: Reals, work: Reals) -> None:
     """Gathers entry k of a curve of ``count`` points and both its neighbours: work[j], blocks 0 to 5."""
-    a, b = k - 1, k + 1
-    if a < 0:
-        a = count - 1 if closed == 1 else 0
-    if b == count:
-        b = 0 if closed == 1 else count - 1
+    a, b = one_before(k, count, closed), one_after(k, count, closed)
     work[j] = x[a]
     work[WIDE + j] = y[a]
     work[2 * WIDE + j] = x[k]
@@ -252,11 +262,7 @@ def pulled(n: int, closed: int, m: int, work: Reals, gx: Reals, gy: Reals) -> No
     share = 1.0 / m
     for j in range(m):
         k = mark_of(work[12 * WIDE + j])
-        a, b = k - 1, k + 1
-        if a < 0:
-            a = n - 1 if closed == 1 else 0
-        if b == n:
-            b = 0 if closed == 1 else n - 1
+        a, b = one_before(k, n, closed), one_after(k, n, closed)
         vx, vy = work[6 * WIDE + j] * share, work[7 * WIDE + j] * share
         ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
         gx[a] -= ra * vx
@@ -571,8 +577,9 @@ def kernels() -> Kernels:
 
     return Kernels(
         [
-            turn_crank, place_crank, place_dyad, place_point, place, weigh, middle, align, ends, feet,
-            curve_to_target, target_to_curve, pulled, too_large, lengths_back, align_back, dyad_back, point_back,
+            turn_crank, place_crank, place_dyad, place_point, place, weigh, middle, align, one_before,
+            one_after, ends, feet, curve_to_target, target_to_curve, pulled, too_large, lengths_back, align_back,
+            dyad_back, point_back,
             nodes_back, range_back, deviation, restart, update, descend, *SAMPLING, *PROMISES,
         ]
     )  # fmt: skip

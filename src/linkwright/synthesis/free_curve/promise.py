@@ -22,6 +22,8 @@ from linkwright.synthesis.free_curve.kernels import (
     align,
     curve_to_target,
     middle,
+    one_after,
+    one_before,
     place,
     place_dyad,
     place_point,
@@ -79,11 +81,7 @@ def column(
         store(yy, t, load(yy, t) - load(by, t))
     for j in range(m):
         k = mark_of(work[12 * WIDE + j])
-        a, b = k - 1, k + 1
-        if a < 0:
-            a = n - 1 if closed == 1 else 0
-        if b == n:
-            b = 0 if closed == 1 else n - 1
+        a, b = one_before(k, n, closed), one_after(k, n, closed)
         ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
         dx = ra * yx[a] + rk * yx[k] + rb * yx[b]
         dy = ra * yy[a] + rk * yy[k] + rb * yy[b]
