@@ -10,6 +10,8 @@ import linkwright as lw
 from linkwright.engine import machine_code
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.kernels import POINT, kernels
+from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
+from linkwright.synthesis.free_curve.moves import with_joint
 from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure
 from linkwright.synthesis.free_curve.target import MIDDLE, Target, curve_distance
 
@@ -65,6 +67,33 @@ def test_one_more_dyad_leaves_the_curve() -> None:
             own = node_paths(design.nodes, design.x, turn)[1]
             assert least >= 0.999 * min(own, 0.7 * math.sin(target.least) ** 2)
             inserted += each.nodes[-4] != POINT or each.nodes[-3] != design.joints - 1
+
+
+def test_one_more_joint_leaves_the_curve_and_moves_it() -> None:
+    draw = np.random.default_rng(3)
+    target, turn, parted = Target(FOUR, False, math.radians(20), 6.0), np.linspace(0, 2 * np.pi, 145), 0
+    while parted < 60:
+        nodes = random_structure(2 + parted % 2, 7 + 2 * (parted % 2), draw)
+        numbers = np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]])
+        design = Design(nodes, numbers, False)
+        if target.descend(design, 0).value > 1e3:
+            continue
+        before, own = node_paths(design.nodes, design.x, turn)
+        each = with_joint(design, draw)
+        if each is design:
+            continue
+        after, least = node_paths(each.nodes, each.x, turn)
+        assert np.abs(after[-1] - before[-1]).max() < 1e-12
+        assert (each.joints, each.links) == (design.joints + 1, design.links)
+        assert least == pytest.approx(own, abs=1e-12)
+        links = linkage_of(Placed(each, target)).links.values()  # a structure of the same kind: F = 1
+        joints = sum(sum(name in link for link in links) - 1 + (name[0] == "O") for name in
+                     {name for link in links for name in link})  # fmt: skip
+        assert 3 * len(links) - 2 * joints == 1
+        moved = [np.abs(node_paths(each.nodes, each.x + h, turn)[0][-1] - after[-1]).max()
+                 for h in 1e-4 * np.eye(len(each.x))[:-3]]  # fmt: skip
+        assert sum(shift > 1e-9 for shift in moved) > len(design.x) - 3
+        parted += 1
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

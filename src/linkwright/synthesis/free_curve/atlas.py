@@ -39,7 +39,7 @@ LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
 #: Joints of each level, with the dyads, structures and draws of its atlas; the last level starts from the others.
 LEVELS = ((5, 1, 1, 40000), (8, 2, 60, 1600), (10, 3, 150, 800))
-EDITION = 1
+EDITION = 2
 
 
 @dataclass(frozen=True, eq=False)

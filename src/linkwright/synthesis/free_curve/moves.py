@@ -1,13 +1,26 @@
-"""From one design to another: one more dyad, or a shake."""
+"""From one design to another: one more dyad, one more joint, or a shake."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from linkwright.synthesis.free_curve.kernels import DYAD, PIVOT, POINT
-from linkwright.synthesis.free_curve.nodes import Design, Draw, flat, links_of, node_paths, pivots_of
+from linkwright.synthesis.free_curve.nodes import (
+    Design,
+    Draw,
+    Floats,
+    Node,
+    flat,
+    links_of,
+    node_paths,
+    pivots_of,
+)
+
+#: Where a new node comes, which entry of that row then names it (0: none), the node and its two numbers.
+Parting = tuple[int, int, Node, tuple[float, float]]
 
 
 def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
@@ -57,3 +70,54 @@ def shaken(design: Design, draw: Draw) -> Design:
     if draw.random() < 0.1:
         nodes[4 * int(draw.integers(2, design.joints)) + 3] *= -1
     return Design(nodes, x, design.mirror)
+
+
+def with_joint(design: Design, draw: Draw) -> Design:
+    """A shared joint parted into two at the same place: the curve is unchanged and two more numbers can move it.
+
+    A dyad on a joint that others use as well gets a pivot of its own, or a point of its own on a link of that joint;
+    a drawing point that is a pin becomes a point of a link. The design itself where no joint is shared.
+    """
+    rows, x = design.rows, design.x
+    found = list(_partings(rows, x))
+    if not found:
+        return design
+    at, end, node, numbers = found[int(draw.integers(len(found)))]
+    joint = rows[at][end] if end else -1
+    later = [(kind, i + (i >= at), j + (j >= at), branch) for kind, i, j, branch in rows[at:]]
+    for k, (kind, i, j, branch) in enumerate(later):
+        if (k == 0 and end == 1) or (kind == POINT and (i, j) == (joint, at + 1)):
+            later[k] = (kind, at, j, branch)
+        elif k == 0 and end == 2:
+            later[k] = (kind, i, at, branch)
+    made = flat([*rows[:at], node, *later])
+    return Design(made, np.concatenate([x[: 2 * at - 4], numbers, x[2 * at - 4 :]]), design.mirror)
+
+
+def _partings(rows: list[Node], x: Floats) -> Iterator[Parting]:
+    """All joints that can be parted."""
+    uses = np.bincount([end for row in rows if row[0] == DYAD for end in row[1:3]], minlength=len(rows))
+    uses[0] += 1
+    for at, row in enumerate(rows):
+        for end in (1, 2) if row[0] == DYAD else ():
+            joint, other = row[end], row[3 - end]
+            shared = uses[joint] > 1 or rows[joint][0] == DYAD
+            if shared and rows[joint][0] == PIVOT and joint != 1:
+                place = (float(x[2 * joint - 4]), float(x[2 * joint - 3])) if joint else (0.0, 0.0)
+                yield at, end, (PIVOT, 0, 0, 1), place
+            elif shared:
+                for pair, share in _places(rows[:at], joint, x):
+                    if other not in pair and (rows[other][0] != POINT or rows[other][1:3] != pair):
+                        yield at, end, (POINT, *pair, 1), share
+    if rows[-1][0] == DYAD:
+        for end in rows[-1][1:3]:
+            yield len(rows), 0, (POINT, end, len(rows) - 1, 1), (1.0, 0.0)
+
+
+def _places(rows: list[Node], joint: int, x: Floats) -> Iterator[tuple[tuple[int, int], tuple[float, float]]]:
+    """Links with a joint, as pairs of nodes, and where it is on them."""
+    if rows[joint][0] == POINT:
+        yield rows[joint][1:3], (float(x[2 * joint - 4]), float(x[2 * joint - 3]))
+    for pair in links_of(rows):
+        if joint in pair:
+            yield pair, (float(joint == pair[1]), 0.0)

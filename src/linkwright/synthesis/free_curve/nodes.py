@@ -116,7 +116,8 @@ def random_structure(dyads: int, most: int, draw: Draw) -> Whole:
         if dyads == 1 or (draw.random() < 0.75 and len(rows) < most):
             end = rows[-1][1 + (int(draw.integers(2)) if dyads > 1 else 0)]
             rows.append((POINT, end, len(rows) - 1, 1))
-        if len(rows) <= most and len(_needed(rows)) == len(rows):
+        spare = most - len(rows)
+        if spare >= 0 and len(_needed(rows)) == len(rows) and draw.random() < 0.3**spare:
             return flat(rows)
 
 
@@ -128,7 +129,7 @@ def _with_dyad(rows: list[Node], draw: Draw, room: int) -> list[Node] | None:
         choice = int(draw.integers(4 if side else 2))
         if choice == 0 and spare > 0:
             pairs = links_of(rows)
-            rows.append((POINT, *pairs[int(draw.integers(1, len(pairs)))], 1))
+            rows.append((POINT, *pairs[int(draw.integers(len(pairs)))], 1))
             ends.append(len(rows) - 1)
             spare -= 1
         elif choice == 1 or side == 0:

@@ -19,7 +19,7 @@ import numpy as np
 from linkwright.engine.threads import cores
 from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
-from linkwright.synthesis.free_curve.moves import shaken, with_dyad
+from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
 from linkwright.synthesis.free_curve.target import COARSE, FINE, Target
 
@@ -29,6 +29,8 @@ SHARES = {1: (1.0,), 2: (0.2, 1.0), 3: (0.1, 0.45, 1.0), 4: (0.06, 0.28, 0.55, 1
 #: Starts from an atlas; those that descend on, and further on; iterations of each step.
 STARTS, HALVED, CHOSEN = 2000, 250, 50
 POOL, BATCH = 30, 0.2
+#: Chance that a design with room for one more joint gets one.
+PARTED = 0.8
 #: Dyads drawn of which a promising one is taken.
 DRAWS = 96
 #: Designs err alike whose misses have a product above this; as many of them stay in a pool.
@@ -173,6 +175,15 @@ class Search:
         return replace(design, value=FAR)
 
     def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+        """A design that was moved; where joints are left, most often shared ones parted."""
+        design = self._moved(draw, most, pool, below)
+        while design.joints < most and draw.random() < PARTED:
+            design, before = with_joint(design, draw), design
+            if design is before:
+                break
+        return design
+
+    def _moved(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
         """Half shaken; a quarter each with a dyad drawn at the drawing point, and with a promising one anywhere."""
         kind = draw.random()
         if below and kind < 0.5:
