@@ -16,7 +16,9 @@ from importlib.metadata import distributions
 from benchmarks.timing import Candidate, Rounds, in_turns
 
 NUMPY = "python -c 'import numpy'"
-SOLVE = "linkwright solve gallery:jaw_crusher_sixbar"
+#: Commands, and how many times as long as starting NumPy each may take.
+COMMANDS = {"check": 1.2, "solve": 2.5, "metrics": 3.5, "plot": 9.0}
+MODEL = "gallery:jaw_crusher_sixbar"
 BARE = "python -c pass"
 _PROGRAM = "import sys; from linkwright.cli import main; sys.argv[1:] = {}; sys.exit(main())"
 _LINE = re.compile(r"import time:\s+(\d+) \|\s+\d+ \|\s*(\S+)")
@@ -26,8 +28,14 @@ def _command(code: str, *options: str) -> list[str]:
     return [sys.executable, *options, "-c", code]
 
 
-def _solving() -> str:
-    return _PROGRAM.format(SOLVE.split()[1:])
+def named(command: str) -> str:
+    """A command as it is written in a terminal."""
+    return f"linkwright {command} {MODEL}"
+
+
+def _program(command: str, folder: str) -> str:
+    more = ["--force", "--output", f"{folder}/drawn.svg"] if command == "plot" else []
+    return _PROGRAM.format([command, MODEL, *more])
 
 
 @contextmanager
@@ -44,8 +52,10 @@ def _call(command: list[str], environment: dict[str, str]) -> subprocess.Complet
 
 def measure(rounds: int) -> Rounds:
     """Every command as a new process, in turns; modules are compiled to byte code before."""
-    commands = {BARE: _command("pass"), NUMPY: _command("import numpy"), SOLVE: _command(_solving())}
     with _environment() as environment:
+        folder = environment["PYTHONPYCACHEPREFIX"]
+        own = {named(command): _command(_program(command, folder)) for command in COMMANDS}
+        commands = {BARE: _command("pass"), NUMPY: _command("import numpy"), **own}
         candidates = [
             Candidate(name, partial(_call, command, environment)) for name, command in commands.items()
         ]
@@ -57,8 +67,9 @@ def parts() -> dict[str, float]:
 
     Measured with ``-X importtime``, which itself adds to every import.
     """
-    command = _command(_solving(), "-X", "importtime")
     with _environment() as environment:
+        folder = environment["PYTHONPYCACHEPREFIX"]
+        command = _command(_program("solve", folder), "-X", "importtime")
         reports = [_call(command, environment).stderr for _ in range(4)][1:]
     return min(map(_by_owner, reports), key=lambda found: sum(found.values()))
 

@@ -144,3 +144,13 @@ def test_solving_loads_no_slow_package() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
+
+
+def test_a_machine_of_dyads_is_checked_without_numpy() -> None:
+    program = (
+        "import sys; sys.modules['numpy'] = None\n"
+        "from linkwright.cli import main\n"
+        "sys.exit(main(['check', 'gallery:jaw_crusher_sixbar', 'gallery:crank_rocker']))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from importlib.util import find_spec
 
 from linkwright.cli import commands
@@ -83,4 +82,6 @@ def version(session: Session) -> None:
 
 
 def _section(title: str, body: str) -> str:
-    return f"{title}:\n{textwrap.indent(body, '  ')}\n"
+    from textwrap import indent
+
+    return f"{title}:\n{indent(body, '  ')}\n"

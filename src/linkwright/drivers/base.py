@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from linkwright.export.modelica.laws import LawText
@@ -35,6 +35,10 @@ class Law(ABC):
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         """Coordinate and its exact first and second derivative at the times ``t`` (n,) in s."""
 
+    def at(self, time: float) -> float:
+        """Coordinate at one time, s."""
+        return float(self.coordinate(np.array([time]))[0][0])
+
     def natural_duration(self) -> float | None:
         """Time in s after which the law repeats or ends; None where it has no such time."""
         return None
@@ -50,9 +54,7 @@ class Law(ABC):
 
     def time_at(self, coordinate: Array | float) -> Array:
         """The times (s) at which a law of constant speed has coordinates; 0 where it rests."""
-        import numpy as np
-
-        start, speed = self.coordinate(np.zeros(1))[0][0], self.constant_speed
+        start, speed = self.at(0.0), self.constant_speed
         return np.asarray((coordinate - start) / speed if speed else 0.0 * np.asarray(coordinate))
 
     def modelica(self, write: LawText) -> str:

@@ -34,6 +34,9 @@ class ConstantSpeed(Law):
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         return self.start + self.speed * t, self.speed + 0.0 * t, 0.0 * t
 
+    def at(self, time: float) -> float:
+        return self.start + self.speed * time
+
     @property
     def constant_speed(self) -> float:
         return self.speed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -95,6 +94,8 @@ class Program:
     @cached_property
     def key(self) -> str:
         """A hash of everything that decides what the program computes."""
+        import hashlib
+
         return hashlib.blake2b(self.text().encode(), digest_size=16).hexdigest()
 
     def counts(self) -> dict[str, dict[str, int]]:

@@ -6,20 +6,20 @@ import cmath
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.engine.late import numpy as np
 from linkwright.joints.cam_cuts import Geometry
 from linkwright.joints.marks import Mark, Vec
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from linkwright.joints.cam import CamJoint
     from linkwright.laws.base import Floats
     from linkwright.mechanism.mechanism import Mechanism
 
-Points = NDArray[np.complex128]
+Points: TypeAlias = "NDArray[np.complex128]"
 #: Points of a drawn curve over a turn of the cam; how far a face goes on beyond its contacts, as a share.
 POINTS, BEYOND = 720, 0.1
 

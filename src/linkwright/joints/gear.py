@@ -9,8 +9,6 @@ from math import atan2, dist, pi
 from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
@@ -155,7 +153,7 @@ class GearPair(WheelPair):
         """The pitch point."""
         a, b = (motion.point(f"{self.carrier}.{each}").position for each in self.centres)
         i = self.transmission
-        return np.asarray(a + (b - a) * (i / (i - 1.0)))
+        return a + (b - a) * (i / (i - 1.0))
 
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
         """Two gears whose teeth mesh, where their numbers are known; else two wheels of the pitch radii."""

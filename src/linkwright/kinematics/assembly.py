@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.angles import geared, turn_state
-from linkwright.kinematics.closed_loops import counted
 from linkwright.kinematics.groups import closed_form, dyad_shape, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.drawing import Drawing
@@ -48,8 +45,7 @@ def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
     inputs = {}
     for name, driver in mechanism.drivers.items():
         drawn = drawing.driver(name) if drawing else None
-        start = driver.law.coordinate(np.zeros(1))[0][0]
-        inputs[name] = float(start) if drawn is None else drawn
+        inputs[name] = driver.law.at(0.0) if drawn is None else drawn
     _from_drawing(mechanism, structure, drawing, modes, states, inputs)
     return Assembly(modes, states, inputs)
 
@@ -128,9 +124,17 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
             else:
                 angle = drawing.angle(step.child) or 0.0
                 states[f"{name}.x"], states[f"{name}.y"] = math.cos(angle), math.sin(angle)
-    for link in counted(structure, mechanism):
+    for link in _counted(mechanism, structure):
         states[turn_state(link)] = drawing.angle(link) or 0.0
     return states
+
+
+def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:
+    if not any(joint.higher for joint in mechanism.joints.values()):
+        return []
+    from linkwright.kinematics.closed_loops import counted
+
+    return counted(structure, mechanism)
 
 
 def _from_drawing(

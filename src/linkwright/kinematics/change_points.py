@@ -21,14 +21,12 @@ from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
+from linkwright.kinematics.passing import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
 
-#: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
-#: it changes more than that from one position to the next.
-NEAR = 0.02
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
 #: as share of the largest one.
 TOUCH = 1e-11
@@ -37,9 +35,8 @@ MEETING = 1e-18
 ON_IT = 1e-5
 #: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
 LARGEST_STEP = 0.55
-#: Largest step of a driver, rad or share of the size, in which a cycle is looked through; samples of laws that are no
-#: straight lines; and the most places that are looked at.
-FINE, SAMPLES, MOST = 0.05, 720, 40_000
+#: Samples of laws that are no straight lines in which a cycle is looked through, and the most places looked at.
+SAMPLES, MOST = 720, 40_000
 #: From so many groups that pass change points on, the signs of all groups are inputs: their motion is traced once.
 MANY = 3
 
@@ -115,18 +112,7 @@ def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, 
         or any("sine" in p.facts for p in placed.values())
     ):
         return None
-    return tuple(name for group in modal(solver) for name in _measures(solver, group))
-
-
-def nothing_passed(names: tuple[str, ...], rows: Floats) -> bool:
-    """Whether these outputs, (names, n), stay so far from zero that nothing can lie between two positions."""
-    for name, row in zip(names, rows, strict=True):
-        least = (
-            NEAR * row.max() if name.startswith("fact:") else max(NEAR, np.abs(row - np.roll(row, 1)).max())
-        )
-        if not row.min() > least:
-            return False
-    return True
+    return tuple(name for group in modal(solver.motion) for name in measures(solver.motion, group))
 
 
 def nearness(solver: MotionSolver) -> Scalar:
@@ -199,17 +185,6 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
     return mixed
 
 
-def modal(solver: MotionSolver) -> list[str]:
-    """Names of the groups with two assembly modes, in solving order."""
-    placed = solver.motion.placed
-    return [name for name, p in placed.items() if p.dyad is not None and p.dyad.words[0]]
-
-
-def _measures(solver: MotionSolver, group: str) -> list[str]:
-    facts = solver.motion.placed[group].facts
-    return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
-
-
 class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
@@ -229,8 +204,8 @@ class _Search:
         return way(self.base, self.positions)
 
     def found(self) -> list[Passage]:
-        groups = modal(self.base)
-        names = tuple(name for group in groups for name in _measures(self.base, group))
+        groups = modal(self.base.motion)
+        names = tuple(name for group in groups for name in measures(self.base.motion, group))
         if not names:
             return self._poles()
         whole = np.arange(float(self.positions.count))
@@ -335,7 +310,7 @@ class _Search:
 
     def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
         found = []
-        quality, *distance = _measures(self.base, group)
+        quality, *distance = measures(self.base.motion, group)
         for low, high in self._valleys(rows[quality], NEAR):
             place, least = self._lowest(quality, low, high)
             if abs(least) <= TOUCH:

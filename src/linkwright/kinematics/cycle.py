@@ -164,7 +164,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
             cycle.turns * 2 * np.pi / abs(speed),
             turns is not None and _multiple(cycle.turns, turns),
         )
-    begin = float(first.law.coordinate(np.zeros(1))[0][0]) if cycle.start is None else cycle.start
+    begin = first.law.at(0.0) if cycle.start is None else cycle.start
     assert cycle.end is not None
     return float(first.law.time_at(begin)), (cycle.end - begin) / speed, False
 

@@ -12,9 +12,10 @@ import numpy as np
 from linkwright.core.search import edge
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
-from linkwright.kinematics.change_points import mark_singular, modal, passages, signs
+from linkwright.kinematics.change_points import mark_singular, passages, signs
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
+from linkwright.kinematics.passing import modal
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
@@ -155,7 +156,7 @@ class _Search:
         self.base = self._at_start()
         self.rotary = self.base.rotary[driver]
         self.size = mechanism_size(mechanism)
-        self.modal = modal(self.solver)
+        self.modal = modal(self.solver.motion)
         self.begin = self._beginning()
 
     # where to begin -------------------------------------------------------------------------------

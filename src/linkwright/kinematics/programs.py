@@ -10,6 +10,7 @@ from functools import cached_property
 
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.shape import shape
 from linkwright.kinematics.trace import MotionTrace, trace_motion
@@ -81,8 +82,6 @@ def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
         if key in _kept:
             _kept.move_to_end(key)
             return _kept[key]
-    from linkwright.kinematics.rank import analysed
-
     made = MotionPrograms(mechanism, analysed(mechanism), manner)
     with _lock:
         made = _kept.setdefault(key, made)

@@ -25,7 +25,7 @@ from linkwright.kinematics.names import canonical, vector_names
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure, StructureError, structure
+from linkwright.structure import Structure
 from linkwright.structure.mobility import counts, grubler
 from linkwright.words.sentence import Sentence
 
@@ -118,21 +118,6 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
     return _report(mechanism, system, rank, redundant, links, special, True, ())
-
-
-def analysed(mechanism: Mechanism) -> Structure:
-    """The structure analysis; a refusal also tells the rank of the Jacobian in the drawing, where there is one.
-
-    Raises:
-        StructureError: as :func:`linkwright.structure.structure`.
-    """
-    try:
-        return structure(mechanism)
-    except StructureError as error:
-        report = rank_from_drawing(mechanism)
-        if report is None:
-            raise
-        raise StructureError(Sentence("rank.besides", cause=error, sentence=report)) from None
 
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:

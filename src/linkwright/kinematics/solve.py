@@ -13,7 +13,6 @@ from linkwright.kinematics.change_points import (
     cut_off,
     mark_singular,
     notes,
-    nothing_passed,
     passages,
     signs,
     signs_of_passages,
@@ -21,6 +20,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
 from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.passing import nothing_passed
 from linkwright.kinematics.reached import reached_modes
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
@@ -120,7 +120,7 @@ class MotionRun:
         *names, outcome = self.solver.outputs.standard()
         stored = (*names, *measures, outcome)
         values = self.solver.evaluate(stored, self.positions, {}, {})
-        if np.count_nonzero(values[-1]) or not nothing_passed(measures, values[len(names) : -1]):
+        if np.count_nonzero(values[-1]) or not nothing_passed(measures, values[len(names) : -1].tolist()):
             return None
         rows = Rows(values, {name: i for i, name in enumerate(stored)})
         motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)

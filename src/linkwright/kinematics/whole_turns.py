@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.closed_loops import Floats, LoopBuilder
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Structure
@@ -27,8 +28,6 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
     within 1000 times."""
     if not any(joint.higher for joint in mechanism.joints.values()):
         return 1
-    from linkwright.kinematics.rank import analysed
-
     structure = analysed(mechanism)
     first = _gained(mechanism, structure, duration, driven_only=True)
     ahead = None if first is None else _count(first[0])

@@ -149,8 +149,7 @@ class MotionSignals:
         return np.asarray(angle + TURN * np.round((near - angle) / TURN))
 
     def _input_at(self, time: float) -> float:
-        law = next(iter(self.mechanism.drivers.values())).law
-        return float(law.coordinate(np.array([time]))[0][0])
+        return next(iter(self.mechanism.drivers.values())).law.at(time)
 
     def _over(self, mechanism: Mechanism) -> Motion | None:
         try:

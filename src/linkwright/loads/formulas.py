@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.core.expressions import Expression, array_functions
+from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.signals import Output, resolve_output
 from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot

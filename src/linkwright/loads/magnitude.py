@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from linkwright.core.expressions import Expression
+from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.loads.formulas import calculated
 from linkwright.loads.phases import activity

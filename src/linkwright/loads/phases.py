@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase
 from linkwright.fields.strokes import StrokePart
@@ -17,7 +17,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.loads.base import Load
 
-TURN = 2 * np.pi
+TURN = 2 * math.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
 NEAR = 1e-9
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.engine.late import numpy as np
 from linkwright.fields.signals import Output
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from linkwright.mechanism.mechanism import Mechanism
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+Array: TypeAlias = "NDArray[np.float64]"
+Mask: TypeAlias = "NDArray[np.bool_]"
 
 
 @dataclass(frozen=True)

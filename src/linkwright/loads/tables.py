@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import Output, Table
 from linkwright.loads.phases import NEAR, TURN

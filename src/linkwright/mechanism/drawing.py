@@ -82,15 +82,13 @@ class Drawing:
         return None
 
     def _count_turns(self) -> None:
-        import numpy as np
-
         for name, angle in self._angles.items():
             if angle is not None:
                 self._angles[name] = math.remainder(angle, 2 * math.pi)
         for driver in self.mechanism.drivers.values():
             turned, base = self._angles[driver.link], self._angles[driver.relative_to]
             if driver.law.rotary and turned is not None and base is not None:
-                start = base + float(driver.law.coordinate(np.zeros(1))[0][0])
+                start = base + driver.law.at(0.0)
                 self._angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
 
     def _spread_along_guides(self) -> None:

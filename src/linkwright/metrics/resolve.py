@@ -130,8 +130,7 @@ class Resolver:
 
     def input_at(self, time: float) -> float:
         """Coordinate of the first driver at a time."""
-        law = next(iter(self._motion.mechanism.drivers.values())).law
-        return float(law.coordinate(np.array([time]))[0][0])
+        return next(iter(self._motion.mechanism.drivers.values())).law.at(time)
 
 
 def _between(motion: Motion) -> Between | None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from linkwright import gallery
 from linkwright.errors import Finding, ModelError
@@ -20,8 +20,10 @@ from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
-from linkwright.parts.base import Problem, Result
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.parts.base import Problem, Result
 
 #: Kinds of calculations: the class that holds the problem.
 KINDS: Mapping[str, str] = {

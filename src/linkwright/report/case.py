@@ -69,7 +69,7 @@ class Case:
     @cached_property
     def structure(self) -> Structure:
         """Mobility and groups."""
-        from linkwright.kinematics.rank import analysed
+        from linkwright.kinematics.analysed import analysed
 
         return analysed(self.mechanism)
 

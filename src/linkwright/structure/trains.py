@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from linkwright.mechanism.mechanism import Mechanism
@@ -70,5 +69,7 @@ def _from(start: Any, pairs: list[Any]) -> GearTrain:
 
 def written(ratio: float) -> str:
     """A ratio as a fraction of whole numbers where it is one."""
+    from fractions import Fraction
+
     part = Fraction(ratio).limit_denominator(LARGEST)
     return str(part) if abs(float(part) - ratio) <= 1e-12 * abs(ratio) else f"{ratio:.6g}"

@@ -16,8 +16,9 @@ from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.kinematics.assembly import modal_groups
-from linkwright.kinematics.change_points import MEETING, NEAR, TOUCH
+from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.cycle import Positions
+from linkwright.kinematics.passing import NEAR
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]

@@ -16,10 +16,11 @@ from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.change_points import NEAR, is_way, nearness, parts
+from linkwright.kinematics.change_points import is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces

@@ -41,18 +41,17 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
     from linkwright.files.model_file import read_text
     from linkwright.files.source import read_source
-    from linkwright.kinematics.rank import analysed
-    from linkwright.kinematics.solve import try_motion
+    from linkwright.kinematics.analysed import analysed
+    from linkwright.kinematics.passing import plainly_passed
     from linkwright.parts.file import check as check_calculation
     from linkwright.parts.file import kind_of
-    from linkwright.synthesis.tasks import check_text as check_task
 
     try:
         kind = kind_of(name)
         if kind is not None:
             return check_calculation(name), {"kind": kind}
         text = read_source(name)
-        task = check_task(*text)
+        task = _task(*text)
         if task is not None:
             return task[0], {"kind": f"synthesis, {task[1]}"}
         mechanism, found = read_text(*text)
@@ -67,35 +66,55 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
             "mobility": built.mobility,
             "class": built.mechanism_class,
         }
-        motion = try_motion(mechanism, TRIED)
+        turned, notes = ([], []) if plainly_passed(mechanism, built, TRIED) else _turned(name, mechanism)
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
-    if not motion.ok.all():
-        from linkwright.kinematics.explain import refusal
+    return [*found, *turned, *_of_settings(name, mechanism), *notes], fact
 
-        found = [*found, Finding("error", name, "", refusal(motion).sentence, code="position")]
+
+def _task(text: str, name: str) -> tuple[list[Finding], str] | None:
+    """Findings about a text that holds a task of synthesis and no model, and the task; None for every other text."""
+    if "synthesis" not in text:
+        return None
+    from linkwright.synthesis.tasks import check_text
+
+    return check_text(text, name)
+
+
+def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
+    """What there is to say about a cycle: where it cannot be passed, and notes."""
+    from linkwright.kinematics.explain import refusal
+    from linkwright.kinematics.solve import try_motion
+
+    motion = try_motion(mechanism, TRIED)
     notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
-    return [*found, *_of_settings(name, mechanism), *notes], fact
+    if motion.ok.all():
+        return [], notes
+    return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
 
 
 def _of_settings(name: str, mechanism: Mechanism) -> list[Finding]:
     """What is wrong with the sections that only some commands read, report and course."""
-    if not (mechanism.report or mechanism.course):
-        return []
-    from linkwright.course.task import task
-    from linkwright.report.settings import settings
-
     found = []
-    for key, given, read in (
-        ("report", mechanism.report, lambda: settings(mechanism.report)),
-        ("course", mechanism.course, lambda: task(mechanism)),
-    ):
+    for key, given, read in (("report", mechanism.report, _report), ("course", mechanism.course, _course)):
         try:
             if given:
-                read()
+                read(mechanism)
         except LinkwrightError as error:
             found.append(Finding("error", name, key, error.sentence, code=key))
     return found
+
+
+def _report(mechanism: Mechanism) -> None:
+    from linkwright.report.settings import settings
+
+    settings(mechanism.report)
+
+
+def _course(mechanism: Mechanism) -> None:
+    from linkwright.course.task import task
+
+    task(mechanism)
 
 
 def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:

@@ -23,7 +23,8 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
-    from linkwright.kinematics.rank import analysed, rank_sentence
+    from linkwright.kinematics.analysed import analysed
+    from linkwright.kinematics.rank import rank_sentence
 
     mechanism, _ = read_model(options.file, session)
     built = analysed(mechanism)

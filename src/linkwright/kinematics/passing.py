@@ -1,0 +1,83 @@
+"""A cycle in which nothing is passed: what shows it, and for most machines shows it on plain numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, cos, inf, isfinite, sin, tau
+from typing import TYPE_CHECKING
+
+from linkwright.engine.program import Program
+from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.kinematics.assembly import assemble
+from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.structure import Structure
+
+if TYPE_CHECKING:
+    from linkwright.mechanism.mechanism import Mechanism
+
+#: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
+#: it changes more than that from one position to the next.
+NEAR = 0.02
+#: Largest step of a driver, rad or share of the size, in which a cycle is looked through.
+FINE = 0.05
+
+
+def modal(motion: MotionTrace) -> list[str]:
+    """Names of the groups with two assembly modes, in solving order."""
+    return [name for name, p in motion.placed.items() if p.dyad is not None and p.dyad.words[0]]
+
+
+def measures(motion: MotionTrace, group: str) -> list[str]:
+    """Outputs that come near to zero where the modes or the outer pins of a group meet."""
+    facts = motion.placed[group].facts
+    return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
+
+
+def nothing_passed(names: Sequence[str], rows: Sequence[Sequence[float]]) -> bool:
+    """Whether these outputs, (names, n), stay so far from zero that nothing can lie between two positions."""
+    for name, row in zip(names, rows, strict=True):
+        low, high = min(row), max(row)
+        if name.startswith("fact:"):
+            least = NEAR * high
+        elif low > max(NEAR, high - low):
+            least = NEAR
+        else:
+            least = max(NEAR, *(abs(b - a) for a, b in zip(row, [*row[1:], row[0]], strict=True)))
+        if not (low > least and isfinite(sum(row))):
+            return False
+    return True
+
+
+def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bool:
+    """Whether a machine of dyads whose crank turns at constant speed reaches all positions of its cycle, and nothing
+    lies between two of them. False where this does not tell: then its motion is to be solved.
+
+    Raises:
+        AssemblyError: as :func:`linkwright.kinematics.assembly.assemble`.
+    """
+    if len(mechanism.drivers) != 1 or mechanism.cycle is not None:
+        return False
+    ((name, driver),) = mechanism.drivers.items()
+    if not driver.law.constant_speed or mechanism.joints[driver.joint].coordinate != "turn":
+        return False
+    if any(joint.higher for joint in mechanism.joints.values()):
+        return False
+    motion = trace_motion(mechanism, structure, rates=False)
+    if motion.next_states or any("sine" in placed.facts for placed in motion.placed.values()):
+        return False
+    names = [each for group in modal(motion) for each in measures(motion, group)]
+    outputs = MotionOutputs(motion)
+    program = Program.of(motion.trace, {each: outputs.value(each) for each in (*names, "outcome")})
+    modes = {f"mode:{group}": sign for group, sign in assemble(mechanism, structure).modes.items()}
+    known = {**mechanism.dimensions(), **modes}
+    numbers, scalar = [known[each] for each in program.parameters], ScalarProgram(program)
+    count = steps * ceil(tau / steps / FINE)
+    start, found = driver.law.at(0.0), []
+    for k in range(count):
+        q = start + tau * k / count
+        inputs = {f"cos:{name}": cos(q), f"sin:{name}": sin(q), f"turn:{name}": q}
+        found.append(scalar.step(numbers, [inputs.get(each, inf) for each in program.positions])[0])
+        if found[-1][-1] != 0.0:
+            return False
+    return nothing_passed(names, list(zip(*found, strict=True))[:-1])
