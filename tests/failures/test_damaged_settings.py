@@ -185,6 +185,28 @@ def test_seeds_that_are_negative(said: Said) -> None:
     vary = ["--vary", "coupler.length=3.2..3.8m", "--sampling", "sobol", "--numbers", "rocker.angle range"]
     assert "the seed is -1" in said(2, "sweep", CRANK, *vary, "--folder", "new", "--seed", "-1")
     assert "the seed is -1" in said(2, "variants", CRANK, "--seed", "-1")
+    vary = ["--vary", "coupler.length=3.2..3.8m", "--minimize", "rocker.angle range"]
+    assert "the seed is -1" in said(2, "optimize", CRANK, *vary, "--seed", "-1")
+
+
+def test_a_folder_without_a_name(said: Said) -> None:
+    sweep = ["sweep", CRANK, "--vary", "coupler.length=3.2..3.8m:2", "--numbers", "rocker.angle range"]
+    assert "the folder has no name" in said(2, *sweep, "--steps", "12", "--folder", "")
+
+
+@pytest.mark.parametrize("given", ["3.8..3.2m", ["3.8 m", "3.2 m"], [3.8, 3.2], {"whole": "4..3m"}])
+def test_bounds_that_fall(given: Any) -> None:
+    with pytest.raises(lw.ModelError, match=r"vary\.coupler\.length: the bounds of coupler\.length fall"):
+        lw.optimize(lw.load(CRANK), vary={"coupler.length": given}, minimize="rocker.angle range")
+
+
+def test_a_variable_without_effect_is_named_and_stays() -> None:
+    machine, vary = lw.load(CRANK), {"coupler.P.x": "1..2m", "crank.length": "0.9..1.1m"}
+    found = lw.optimize(machine, vary=vary, minimize="rocker.angle range")
+    assert found.data()["without_effect"] == ["coupler.P.x"]
+    assert "coupler.P.x changes none of these numbers" in found.text()
+    assert found.best.values["coupler.P.x"] == 1.5
+    assert not lw.optimize(machine, vary=vary, minimize="P.x range").without_effect
 
 
 @pytest.mark.parametrize(

@@ -194,6 +194,8 @@ def sweep_parts(
     Raises:
         LinkwrightError: unknown names, a folder with another sweep, no pyarrow or distributed, no cluster.
     """
+    if not str(folder):
+        raise RequestError(Sentence("study.no_folder"))
     plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
     found = SweepParts(Path(folder), plan)
     missing = _missing(found)

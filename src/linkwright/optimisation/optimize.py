@@ -238,6 +238,10 @@ class _Run:
     def _made(self, chosen: Judged, state: State, document: Document | None) -> Optimum:
         task, asked = self.task, self.task.problem
         values = task.place(chosen.x)
+        idle = task.without_effect(values[0])
+        for i, each in enumerate(asked.variables):
+            if each.address in idle:
+                values[:, i] = each.allowed(asked.start[i : i + 1])
         choices = []
         for k in range(len(chosen.x)):
             missed = tuple(
@@ -258,7 +262,8 @@ class _Run:
         return Optimum(
             asked, tuple(choices), dict(task.at_start), {each.text: (each.low, each.high) for each in task.bounds},
             {text: task.measures.dimension(text) for text in task.measures.expressions}, task.measures.evaluations,
-            state.generation, tuple(state.history), share, task.measures.side_by_side, self.stopped, document,
+            state.generation, tuple(state.history), share, task.measures.side_by_side, self.stopped, idle,
+            document,
         )  # fmt: skip
 
     def _failing(self, found: Optimum) -> Sentence:

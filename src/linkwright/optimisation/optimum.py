@@ -51,6 +51,7 @@ class Optimum(Frozen):
             beats; None for one objective.
         exact: gradients were exact.
         interrupted: the search was stopped before its end.
+        without_effect: variables that change none of the numbers.
     """
 
     problem: Problem
@@ -64,6 +65,7 @@ class Optimum(Frozen):
     hypervolume: float | None = None
     exact: bool = True
     interrupted: bool = False
+    without_effect: tuple[str, ...] = ()
     document: Document | None = field(default=None, repr=False)
 
     @property
@@ -122,6 +124,7 @@ class Optimum(Frozen):
             "generations": self.generations,
             "exact_gradients": self.exact,
             "interrupted": self.interrupted,
+            "without_effect": list(self.without_effect),
         }  # fmt: skip
 
     def plot(self, **options: Any) -> Diagram:

@@ -15,7 +15,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
 from linkwright.study.objective import PathError
-from linkwright.study.ranges import parse_range
+from linkwright.study.ranges import Range, parse_range
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
 
@@ -214,6 +214,8 @@ class _Reading:
             ((key, inner),) = value.items()
             text = ", ".join(map(str, inner)) if isinstance(inner, (list, tuple)) else str(inner)
             found = parse_range(self.mechanism, address, text)
+            if key == "whole":
+                _rising(found)
             choices = np.unique(found.values)
             if key == "whole":
                 choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
@@ -236,6 +238,7 @@ class _Reading:
                     Sentence("optimize.no_bounds", address=address, given=str(value))
                 ) from None
         found = parse_range(self.mechanism, address, value)
+        _rising(found)
         if not found.low < found.high:
             raise RequestError(Sentence("optimize.bounds", address=address))
         return Variable(address, found.low, found.high, None, found.unit)
@@ -259,6 +262,14 @@ class _Reading:
             except LinkwrightError as error:
                 self._wrong(f"tolerance.{address}", error.sentence)
         return found
+
+
+def _rising(found: Range) -> None:
+    """Raises where the first bound is greater than the last one."""
+    first, last = float(found.values[0]), float(found.values[-1])
+    if first > last:
+        said = {"first": found.shown(first), "last": found.shown(last)}
+        raise RequestError(Sentence("optimize.falling", address=found.address, **said))
 
 
 _USUAL = {"yield": 0.99, "fluctuation": 0.02, "steps": 360, "evaluations": 4000, "population": 0, "seed": 0}

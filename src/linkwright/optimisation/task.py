@@ -19,6 +19,8 @@ from linkwright.words.sentence import Sentence
 Floats = NDArray[np.float64]
 #: Samples of the tolerances while searching and at the end; a violation below this share of a demand is none.
 SAMPLES, CHECKED, MET = 16, 512, 1e-6
+#: Places between its bounds at which a variable is tried for an effect; numbers differ by less where it has none.
+PROBED, SAME = (0.0, 0.35, 1.0), 1e-9
 _SHARE = re.compile(r"^(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*%$")
 
 
@@ -155,6 +157,20 @@ class Task:
     @cached_property
     def _kept(self) -> dict[int, dict[str, Floats]]:
         return {}
+
+    def without_effect(self, values: Floats) -> tuple[str, ...]:
+        """Variables that change no number where each alone moves from a design (k,) over its bounds."""
+        count = len(values)
+        shares = np.concatenate([[np.nan], np.repeat(PROBED, count)])
+        designs = np.tile(values, (len(shares), 1))
+        for k in range(count):
+            rows = 1 + k + count * np.arange(len(PROBED))
+            place = self.low[k] + shares[rows] * (self.high[k] - self.low[k])
+            designs[rows, k] = self.problem.variables[k].allowed(place)
+        found = np.column_stack(list(self.measures(self.columns_of(designs)).values()))
+        same = (np.abs(found[1:] - found[0]) <= SAME * np.abs(found[0])).all(axis=1)
+        idle = same.reshape(len(PROBED), count).all(axis=0)
+        return tuple(each.address for each, none in zip(self.problem.variables, idle, strict=True) if none)
 
     def yield_of(self, values: Floats) -> float:
         """Share of many samples of a design (k,) that move and meet all demands."""

@@ -43,6 +43,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
+    if options.seed is not None and options.seed < 0:
+        raise UsageError(session.say("study.bad_seed", seed=options.seed))
     settings = {
         "vary": _pairs(options.vary, session.say),
         "keep": _pairs(options.keep, session.say),

@@ -65,6 +65,9 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_choice": "{address} has no value to choose from; give values: or a whole: range that holds a whole number",
     "no_bounds": "{address}: {given} says no bounds; give two values such as [80 mm, 120 mm], "
     "or values: [80 mm, 90 mm]",
+    "falling": "the bounds of {address} fall from {first} to {last}; write the lower one first",
+    "no_effect": "{address} changes none of these numbers; leave it out of vary:, or ask for a number that it "
+    "changes.",
     "bounds": "{address} has equal bounds; give a lower and a higher one",
     "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',

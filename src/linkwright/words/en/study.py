@@ -91,6 +91,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "grid_large": "the grid has {count} designs; give {most} or fewer, or sample it: sampling='sobol'",
     "no_sampling": "there is no sampling {sampling!r}; use grid or sobol",
     "bad_samples": "{samples} samples are asked for; give 1 to {most}",
+    "no_folder": 'the folder has no name; name one, or give "." for the folder you are in',
     "bad_seed": "the seed is {seed}; give a whole number that is not negative",
     "needs_scipy": "a Sobol sequence needs scipy; install it with: pip install scipy",
     "not_a_dimension": "{name!r} is not among the dimensions {names}",

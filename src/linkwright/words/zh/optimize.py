@@ -59,6 +59,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "number": "{key_}：{given} 不是 {low} 与 {high} 之间的数；请给一个",
     "no_choice": "{address} 没有可选的值；请给 values:，或含整数的 whole: 范围",
     "no_bounds": "{address}：{given} 不是界限；请给出两个值，如 [80 mm, 120 mm]，或 values: [80 mm, 90 mm]",
+    "falling": "{address} 的上下限由 {first} 降到 {last}；请先写较小的值",
+    "no_effect": "{address} 不影响这里的任何一个量；请从 vary: 中去掉，或要求一个受它影响的量。",
     "bounds": "{address} 的上下限相等；请给不同的上下限",
     "demand": '"{given}" 不是要求；请写 at least 40 deg、at most 60 kN、1..2 m 或 same within 1 %',
     "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',

@@ -79,6 +79,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "grid_large": "网格有 {count} 个方案；请给出 {most} 个或更少，或用 sampling='sobol' 取样",
     "no_sampling": "没有取样方式“{sampling}”；请用 grid 或 sobol",
     "bad_samples": "要求 {samples} 个样本；请给出 1 到 {most}",
+    "no_folder": "文件夹名为空；请给出名称，或用“.”表示当前文件夹",
     "bad_seed": "种子为 {seed}；请给出非负的整数",
     "needs_scipy": "Sobol 序列需要 scipy；安装命令：pip install scipy",
     "not_a_dimension": "“{name}”不在尺寸 {names} 中",
