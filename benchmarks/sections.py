@@ -188,6 +188,22 @@ def numbers(size: Size) -> Section:
     return Section("Design numbers of the six-bar crusher with its load", header, rows, goals, [note])
 
 
+def loaded(size: Size) -> Section:
+    """Sweeps with process loads, and of all design numbers."""
+    from benchmarks import loaded as with_loads
+
+    work = with_loads.LoadedWork(size.sixbars, size.steps)
+    rounds = in_turns(work.candidates(), min(size.rounds, 5), size.slice_s)
+    header, rows = timings(rounds, with_loads.PLAIN, "ms", size.sixbars * size.steps)
+    every = rounds.ratio(with_loads.PLAIN, with_loads.ALL)
+    conveyor = rounds.ratio(with_loads.UNLOADED, with_loads.CONVEYOR)
+    goals = [
+        Goal("all design numbers of the crusher ÷ plain six-bar sweep, speed", every, 0.2, True),
+        Goal("sweep of the conveyor: with its load ÷ without, speed", conveyor, 0.5, True),
+    ]
+    return Section("Sweeps with process loads and of all design numbers, one thread", header, rows, goals)
+
+
 def growing(size: Size) -> Section:
     """Every step from the model to the numbers, for chains of more and more dyads."""
     from benchmarks import growth
@@ -274,6 +290,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "gradient": gradients,
     "objective": objectives,
     "numbers": numbers,
+    "loaded": loaded,
     "growth": growing,
     "cold": cold_start,
     "accuracy": accuracy,

@@ -40,6 +40,35 @@ def test_every_number_is_that_of_the_machine_alone(model: str, by: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("model", "by"),
+    [
+        ("jaw_crusher_sixbar", "toggle.length"),
+        ("swing_conveyor", "rod.length"),
+        ("slider_crank_inline", "rod.length"),
+    ],
+)
+def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
+    """Design by design and in blocks, with a design that cannot be assembled among them. Sizes: two extremes of equal
+    size and unlike signs govern in turn where the mechanism is symmetrical."""
+    mechanism = lw.load(f"gallery:{model}")
+    cycle = metric_cycle(mechanism, [by], NAMES)
+    assert cycle is not None
+    factors = np.linspace(0.98, 1.02, 300)
+    factors[7] = 0.01
+    columns = {by: mechanism.dimension(by) * factors}
+    compiled = cycle.evaluate(columns, backend="llvm")
+    arrays = cycle.evaluate(columns, backend="numpy")
+    assert not compiled.certain[7]
+    assert (compiled.certain == arrays.certain).all()
+    assert compiled.certain.sum() > 290
+    for name, values in arrays.values.items():
+        sure = arrays.certain
+        assert np.abs(compiled.values[name][sure]) == pytest.approx(
+            np.abs(values[sure]), rel=2e-12, abs=1e-12
+        ), name
+
+
+@pytest.mark.parametrize(
     ("name", "by"),
     [
         ("peak_reaction O5", ["pitman.length", "jaw.mass"]),

@@ -22,16 +22,16 @@ POINTS = 16
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
 _ORDERS = np.arange(POINTS)
 #: From values at the nodes to coefficients of Legendre polynomials, (nodes, orders); to the slope at the nodes.
-_TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
-_TO_SLOPE = _TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
+TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
+_TO_SLOPE = TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
 #: To the last three of these coefficients.
-TO_LAST = _TO_LEGENDRE[:, -3:]
+TO_LAST = TO_LEGENDRE[:, -3:]
 #: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
 _BARYCENTRIC = (-1.0) ** _ORDERS * np.sqrt((1.0 - NODES**2) * WEIGHTS)
 #: Places of a piece where it is looked at for extremes, both ends among them.
-_LOOKS = 49
-_PLACES = -np.cos(np.pi * np.arange(_LOOKS) / (_LOOKS - 1))
-_TO_PLACES = _TO_LEGENDRE @ np.polynomial.legendre.legvander(_PLACES, POINTS - 1).T
+LOOKS = 49
+PLACES = -np.cos(np.pi * np.arange(LOOKS) / (LOOKS - 1))
+TO_PLACES = TO_LEGENDRE @ np.polynomial.legendre.legvander(PLACES, POINTS - 1).T
 #: A piece is met where the last orders have less than this share of the function's size.
 SMOOTH = 1e-11
 #: Halving ends where it changes the integral by less than this share, or after so many times.
@@ -164,7 +164,7 @@ class Integral:
 
     def __init__(self, of: Piecewise) -> None:
         self.of = of
-        self._series = of.values @ _TO_LEGENDRE
+        self._series = of.values @ TO_LEGENDRE
         self._before = np.concatenate([[0.0], np.cumsum(0.5 * of.width * (of.values @ WEIGHTS))])
         self.total = float(self._before[-1])
 
@@ -221,14 +221,14 @@ def _highest(values: Floats, tops: Floats) -> Peak:
     rows = np.arange(len(values))
     order = np.argsort(-tops, axis=1)[:, :3]
     near = values[rows[:, None], :, order]
-    seen = np.asarray(near @ _TO_PLACES)
+    seen = np.asarray(near @ TO_PLACES)
     best = seen.reshape(len(values), -1).argmax(axis=1)
-    which, look = best // _LOOKS, best % _LOOKS
+    which, look = best // LOOKS, best % LOOKS
     series, top = near[rows, which], seen[rows, which, look]
-    low, high = _PLACES[np.maximum(look - 1, 0)], _PLACES[np.minimum(look + 1, _LOOKS - 1)]
-    place = _zeros(series @ _TO_SLOPE, low, high, _PLACES[look])
+    low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
+    place = _zeros(series @ _TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
-    place = np.where(found > top, place, _PLACES[look])
+    place = np.where(found > top, place, PLACES[look])
     return order[rows, which], place, np.maximum(found, top), tails(series)
 
 
@@ -241,7 +241,7 @@ def weights_up_to(place: Floats) -> Floats:
     """The same in the integrals of the polynomials from the beginning of the piece, of width 2, to places (k,)."""
     known = np.polynomial.legendre.legvander(place, POINTS)
     gained = (known[:, 2:] - known[:, :-2]) / (2 * _ORDERS[1:] + 1)
-    return np.asarray(np.concatenate([place[:, None] + 1.0, gained], axis=1) @ _TO_LEGENDRE.T)
+    return np.asarray(np.concatenate([place[:, None] + 1.0, gained], axis=1) @ TO_LEGENDRE.T)
 
 
 def _at(values: Floats, x: Floats) -> Floats:
@@ -280,7 +280,7 @@ def _halved(
     size = float(np.abs(values).max(initial=0.0))
     scale = float(np.diff(edges) @ np.abs(values).mean(axis=1))
     for _ in range(_HALVINGS):
-        gap = np.abs(values[1:] @ _TO_PLACES[:, 0] - values[:-1] @ _TO_PLACES[:, -1])
+        gap = np.abs(values[1:] @ TO_PLACES[:, 0] - values[:-1] @ TO_PLACES[:, -1])
         gap[np.isin(edges[1:-1], knots)] = 0.0
         off = np.maximum(tails(values), np.maximum(np.append(0.0, gap), np.append(gap, 0.0)))
         rough = (off > tolerance * size) & (np.diff(edges) * off > _FINE * scale)

@@ -4,7 +4,8 @@ What straight-line programs cannot say (loops that end on a condition, tables of
 written as plain functions with annotated arguments: ``int``, ``float``, ``Reals`` and ``Wholes`` (addresses of
 doubles and of 64-bit integers; ``address + k`` is the address k entries on). Statements: assignment, ``if``,
 ``while``, ``for … in range``, ``break``, ``continue``, ``return``; a variable keeps the type of its first value.
-``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles, ``kernel_complex`` has complex ones. Python never
+``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles (``Vector`` between kernels),
+``kernel_complex`` has complex ones. Python never
 runs such a function; it is read, translated to LLVM's language and kept in the cache of machine code. Sums may be
 reordered: results are equal to the bit on one machine, not between machines.
 """
@@ -80,6 +81,11 @@ def load(address: Reals, index: int) -> Vector:
 
 def store(address: Reals, index: int, value: Vector | float) -> None:
     """Writes a vector from an entry on."""
+    raise NotImplementedError
+
+
+def invoke(code: int, block: Wholes) -> None:
+    """Calls a compiled program by the address of its code, with a call block."""
     raise NotImplementedError
 
 
@@ -220,7 +226,7 @@ class _Writer(ComplexWriter):
         """The function of a definition."""
         from llvmlite import ir
 
-        kinds = {"int": self.whole, "float": self.real}
+        kinds = {"int": self.whole, "float": self.real, "Vector": self.vector}
         names = [each.arg for each in tree.args.args]
         notes = [str(_annotation(each.annotation)) for each in tree.args.args]
         result = kinds.get(str(_annotation(tree.returns)), ir.VoidType())
@@ -466,6 +472,12 @@ class _Writer(ComplexWriter):
     def _call_store(self, address: _Address, index: Any, value: Any) -> Any:
         place = self.b.gep(address.value, [index], source_etype=self.real)
         return self.b.store(self._as(value, self.vector), place, align=8)
+
+    def _call_invoke(self, code: Any, block: _Address) -> Any:
+        from llvmlite import ir
+
+        kind = ir.FunctionType(ir.VoidType(), [self.pointer]).as_pointer()
+        return self.b.call(self.b.inttoptr(code, kind), [block.value])
 
     def _call_ramp(self, first: Any) -> Any:
         from llvmlite import ir

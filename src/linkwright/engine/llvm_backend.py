@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import threading
 from collections.abc import Callable, Mapping
 
@@ -142,6 +143,20 @@ class CompiledProgram:
             function(address)
 
         return run
+
+    def one_by_one(
+        self, parameters: Floats, positions: Arrays, out: Floats, *, tables: Tables | None = None
+    ) -> tuple[int, NDArray[np.int64]]:
+        """For kernels that call it: the address of the code, and the call block of the first design.
+
+        Kernels move the address of the parameters on, by the bytes of a design. ``parameters`` (designs, parameters)
+        and ``out`` (outputs, n) are read and written where they lie, and must live as long as the block is used.
+        """
+        inputs = self._inputs(positions, _NONE, None, tables)
+        if self.program.next_states or inputs.stride != inputs.length or inputs.fields:
+            raise ValueError(f"only programs of {self.width} or more positions, without states and fields")
+        block = inputs.block(address_of(parameters), address_of(out))
+        return ctypes.cast(self._function, ctypes.c_void_p).value or 0, block
 
     def store(
         self,

@@ -144,7 +144,7 @@ class Stage:
         self, table: Floats, fields: Mapping[str, Floats], start: Floats | None, run: Run
     ) -> dict[str, Floats]:
         """The outputs to keep, (designs, n) each; inputs in the order of ``kept.parameters``, ``.states``."""
-        compiled = _compiled(self.kept, None, run, len(table))
+        compiled = code_for(self.kept, None, run, len(table))
         if compiled is not None:
             found = compiled.store(
                 table,
@@ -170,7 +170,7 @@ def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int,
     """Outputs (outputs, designs) of a program whose positions are designs; ``columns``: (designs,) each."""
     if count == 1 and len(program.nodes) <= _SHORT:
         return _one_design(program, columns, run)
-    compiled = _compiled(program, None, Run(columns, count, run.tables, 1, run.backend), 1)
+    compiled = code_for(program, None, Run(columns, count, run.tables, 1, run.backend), 1)
     if compiled is None:
         return numpy_program(program).run((), columns, length=count, tables=run.tables)
     stored: Floats = compiled.store(np.empty((1, 0)), columns, length=count, tables=run.tables)[0]
@@ -209,7 +209,7 @@ def reduced(
         rows = numpy_program(alone).run((), run.positions, length=run.length, tables=run.tables)
         found = dict(zip(alone.output_names, rows, strict=True))
         run = Run({**run.positions, **found}, run.length, run.tables, run.threads, run.backend)
-    compiled = _compiled(accumulation.program, accumulation, run, len(table))
+    compiled = code_for(accumulation.program, accumulation, run, len(table))
     if compiled is None:
         return _by_numpy(accumulation, table, fields, start, run)
     return compiled.sweep(
@@ -223,9 +223,10 @@ def reduced(
     )
 
 
-def _compiled(
+def code_for(
     program: Program, accumulation: Accumulation | None, run: Run, designs: int
 ) -> CompiledProgram | None:
+    """The compiled program; None where NumPy is asked for, is all there is, or has answered before."""
     if run.backend == "numpy" or (run.backend == "auto" and designs * run.length < _WORTH_COMPILING):
         return None
     from linkwright.engine.llvm_backend import compile_program

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.piecewise import NODES, POINTS, TO_LAST, WEIGHTS, largest, weights_at, weights_up_to
+from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
@@ -30,6 +30,7 @@ from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
 from linkwright.study.limit_stages import limit_stages
 from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
+from linkwright.study.piece_summaries import SIDES, PieceSummaries, Reduced
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
@@ -39,8 +40,10 @@ Mask = NDArray[np.bool_]
 
 #: Polynomials whose last orders are below this share of a signal's size meet it.
 SMOOTH = 2e-11
-#: Designs whose signals are kept at the same time.
-BLOCK = 256
+#: Designs of one call.
+BLOCK = 2048
+#: Designs whose weights of Gauss points are kept at the same time.
+WEIGHED = 256
 VALUE = "value"
 #: Kinds of summaries that are places of an output's limit.
 _PLACES = ("argmax", "argmin")
@@ -196,16 +199,16 @@ class MetricCycle:
         return dict(zip(self._formulas.output_names, row, strict=True)), sure
 
     def _seen(self, table: Floats, backend: Backend) -> _Seen:
-        ((_, known, _),) = self._forwards.blocks(
+        ((_, known, run),) = self._forwards.blocks(
             table, self._positions, tables=self.loads.tables, threads=1, backend=backend
         )
+        found = self._signals.reduced(known.table(self._signals.program.parameters), run)
         results = {name: np.asarray(column, dtype=float) for name, column in known.values.items()}
-        fields = {name: rows.reshape(len(table), POINTS, -1) for name, rows in known.fields.items()}
         with np.errstate(invalid="ignore"):
-            sure = results["assembled"] == self.gauss.count
+            sure = found.bounds[VALID][1] == 1.0
             for output in self.outputs:
                 sure &= results[f"doubt:{output}"] == 0.0
-        return _Seen(results, fields, sure)
+        return _Seen(results, found, self.gauss.pieces, sure)
 
     @cached_property
     def _positions(self) -> dict[str, Floats]:
@@ -227,12 +230,20 @@ class MetricCycle:
 
     @cached_property
     def _forwards(self) -> CycleProgram:
-        """All signals at the Gauss points, kept."""
-        trace, found = self.gauss.signals(self.quantities)
-        motion = Stage(
-            Program.of(trace, found), valid=VALID, count="assembled", keep=(*self.quantities, SHARE)
-        )
-        return CycleProgram((*self._before, motion))
+        """What is found before the signals."""
+        before = CycleProgram(tuple(self._before))
+        more = (name for name in self._signals.program.parameters if name not in before.results)
+        return CycleProgram(before.stages, tuple(dict.fromkeys([*before.dimensions, *more])))
+
+    @cached_property
+    def _signals(self) -> PieceSummaries:
+        """All signals at the Gauss points, and what is asked of them."""
+        program = Program.of(*self.gauss.signals(self.quantities))
+        return PieceSummaries(program, self._summaries, self.gauss.pieces, SHARE, [VALID])
+
+    @property
+    def _summaries(self) -> list[Summary]:
+        return [part for text, part in self.parts.items() if text not in self.limited]
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
@@ -259,13 +270,12 @@ class MetricCycle:
         designs = len(next(iter(columns.values())))
         values, slopes = np.empty(designs), np.empty((designs, len(by)))
         backwards = self._backwards(tuple(weights.items()), tuple(by))
-        summaries = [part for text, part in self.parts.items() if text not in self.limited]
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
             seen = self._seen(self._table(self._forwards, part), backend)
             fields: dict[str, Floats] = {}
-            for summary in summaries:
+            for summary in self._summaries:
                 fields |= seen.weights(summary)
             table = self._table(backwards.cycle, part)
             found, slope = backwards.evaluate(
@@ -274,7 +284,7 @@ class MetricCycle:
             found[~seen.certain], slope[~seen.certain] = np.nan, np.nan
             values[first:end], slopes[first:end] = found, slope
 
-        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        spread_over(designs, WEIGHED, cores() if threads is None else threads, work)
         return values, slopes
 
     def _backwards(self, weights: tuple[tuple[str, float], ...], by: tuple[str, ...]) -> CycleGradient:
@@ -303,7 +313,7 @@ class MetricCycle:
                 sums[f"{text} all"] = width * trace.field_input(f"{part.output} excess")
                 sums[text] = width * trace.field_input(f"{part.output} excess") * signal
             else:
-                for side in _SIDES[part.kind]:
+                for side in SIDES[part.kind]:
                     sums[f"{part.output} {side}"] = signal * trace.field_input(f"{part.output} {side}")
         motion = Stage(
             Program.of(trace, {**sums, VALID: found[VALID]}),
@@ -331,108 +341,73 @@ class MetricCycle:
             return TURN * absolute(
                 t.parameter(f"{text} mean") * t.parameter(f"{text} all") - t.parameter(text)
             )
-        sides = [t.parameter(f"{part.output} {side}") for side in _SIDES[part.kind]]
+        sides = [t.parameter(f"{part.output} {side}") for side in SIDES[part.kind]]
         if part.kind == "range":
             return sides[0] - sides[1]
         return maximum(absolute(sides[0]), absolute(sides[1])) if part.kind == "peak" else sides[0]
 
 
-#: From values times widths at the Gauss points to the integral from the piece's beginning up to each of them.
-_UP_TO = weights_up_to(NODES) / WEIGHTS
-_SIDES = {"max": ("max",), "min": ("min",), "range": ("max", "min"), "peak": ("max", "min")}
-
-
 class _Seen:
-    """Signals (designs, POINTS, pieces) at the Gauss points of some designs, and what is made of them.
+    """What is found of the signals of some designs, and what is made of it.
 
     ``certain``: of which designs all that was asked is met by polynomials.
     """
 
-    def __init__(self, values: Mapping[str, Floats], fields: Mapping[str, Floats], certain: Mask) -> None:
-        self.values, self.fields, self.certain = values, fields, certain
-        self._known: dict[str, tuple[Floats, Floats]] = {}
-        self._places: dict[tuple[str, str], tuple[NDArray[np.intp], Floats, Floats]] = {}
-
-    @property
-    def _width(self) -> Floats:
-        """Shares of the cycle's time that the Gauss points stand for."""
-        return self.fields[SHARE]
+    def __init__(self, values: Mapping[str, Floats], found: Reduced, pieces: int, certain: Mask) -> None:
+        self.values, self.found, self.pieces, self.certain = values, found, pieces, certain
 
     def summary(self, part: Summary) -> Floats:
         """A summary, (designs,)."""
-        signal = self.fields[part.output]
         if part.kind in ("mean", "rms"):
-            power = signal * signal if part.kind == "rms" else signal
-            self._met(_roughest(power), self._size(part.output) ** (2 if part.kind == "rms" else 1))
-            mean = np.einsum("dip,dip->d", self._width, power)
-            return np.asarray(np.sqrt(mean) if part.kind == "rms" else mean)
+            mean, square, rough, rougher = self.found.powers[part.output]
+            if part.kind == "mean":
+                self._met(rough, self._size(part.output))
+                return mean
+            self._met(rougher, self._size(part.output) ** 2)
+            return np.sqrt(square)
         if part.kind == "excess":
-            lack = (self._mean(signal) - signal) * self._width
-            return np.asarray(TURN * np.abs(np.einsum("dip,dip->d", lack, self._excess(part.output))))
-        sides = [self._extreme(part.output, side)[2] for side in _SIDES[part.kind]]
+            self._met(self.found.powers[part.output][2], self._size(part.output))
+            return TURN * np.abs(sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind]))
+        sides = [self._extreme(part.output, side)[2] for side in SIDES[part.kind]]
         if part.kind == "range":
-            return sides[0] - sides[1]
-        return np.maximum(np.abs(sides[0]), np.abs(sides[1])) if part.kind == "peak" else sides[0]
+            return sides[0] + sides[1]
+        if part.kind == "peak":
+            return np.maximum(np.abs(sides[0]), np.abs(sides[1]))
+        return sides[0] if part.kind == "max" else -sides[0]
 
     def weights(self, part: Summary) -> dict[str, Floats]:
         """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
         means, whose weights are the widths."""
         if part.kind == "excess":
-            return {f"{part.output} excess": self._excess(part.output).reshape(len(self.certain), -1)}
+            self.summary(part)
+            return {f"{part.output} excess": self._excess(part.output)}
         found: dict[str, Floats] = {}
-        for side in _SIDES.get(part.kind, ()):
-            piece, place, _ = self._extreme(part.output, side)
-            rows = np.zeros_like(self.fields[part.output])
+        for side in SIDES.get(part.kind, ()):
+            piece, place = self._extreme(part.output, side)[:2]
+            rows = np.zeros((len(piece), POINTS, self.pieces))
             rows[np.arange(len(piece)), :, piece] = weights_at(place)
             found[f"{part.output} {side}"] = rows.reshape(len(piece), -1)
         return found
 
-    def _extreme(self, output: str, side: str) -> tuple[NDArray[np.intp], Floats, Floats]:
-        if (output, side) not in self._places:
-            signal, (tops, bottoms) = self.fields[output], self._bounds(output)
-            if side == "max":
-                piece, place, value, rough = largest(signal, tops)
-            else:
-                piece, place, value, rough = largest(-signal, -bottoms)
-                value = -value
-            self._met(rough, self._size(output))
-            self._places[output, side] = piece, place, value
-        return self._places[output, side]
-
-    def _bounds(self, output: str) -> tuple[Floats, Floats]:
-        """The largest and the smallest value at the Gauss points of every piece, (designs, pieces) each."""
-        if output not in self._known:
-            signal = self.fields[output]
-            self._known[output] = signal.max(axis=1), signal.min(axis=1)
-        return self._known[output]
+    def _extreme(self, output: str, side: str) -> Peak:
+        found = self.found.peaks[output, side]
+        self._met(found[3], self._size(output))
+        return found
 
     def _size(self, output: str) -> Floats:
-        tops, bottoms = self._bounds(output)
-        return np.asarray(np.maximum(tops.max(axis=1), -bottoms.min(axis=1)))
-
-    def _mean(self, signal: Floats) -> Floats:
-        return np.asarray(np.einsum("dip,dip->d", self._width, signal)[:, None, None])
+        top, bottom = self.found.bounds[output]
+        return np.maximum(top, -bottom)
 
     def _excess(self, output: str) -> Floats:
         """Weights with which widths times a signal's lack of its mean give the largest excess of its integral."""
-        signal = self.fields[output]
-        self._met(_roughest(signal), self._size(output))
-        gained = (self._mean(signal) - signal) * self._width
-        whole = gained.sum(axis=1)
-        work = (np.cumsum(whole, axis=1) - whole)[:, None, :] + _UP_TO @ gained
-        found = np.zeros_like(signal)
-        rows, pieces = np.arange(len(signal)), np.arange(signal.shape[2])
-        for sign in (1.0, -1.0):
-            piece, place, _, _ = largest(sign * work, (sign * work).max(axis=1))
+        found = np.zeros((len(self.certain), POINTS, self.pieces))
+        rows, pieces = np.arange(len(found)), np.arange(self.pieces)
+        for sign, side in zip((1.0, -1.0), SIDES["excess"], strict=True):
+            piece, place = self.found.peaks[output, side][:2]
             found += sign * (pieces < piece[:, None])[:, None, :]
             found[rows, :, piece] += sign * weights_up_to(place) / WEIGHTS
-        return found
+        return found.reshape(len(found), -1)
 
     def _met(self, rough: Floats, size: Floats) -> None:
         with np.errstate(invalid="ignore"):
             self.certain &= rough <= SMOOTH * size
-
-
-def _roughest(signal: Floats) -> Floats:
-    """Size of the last orders, (designs,), in the piece that is met worst."""
-    return np.asarray(np.abs(TO_LAST.T @ signal).max(axis=(1, 2)))

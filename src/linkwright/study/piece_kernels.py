@@ -1,0 +1,266 @@
+"""Signals of one design after another at Gauss points, reduced where they lie in the cache, compiled (kernels).
+
+What ``piece_summaries`` finds with arrays: a signal is (POINTS, pieces) values. ``tables``: doubles that begin
+with the matrix to the last orders (POINTS, 3), then at UP_TO the one to integrals (POINTS, POINTS), at LEGENDRE that
+to the coefficients (POINTS, POINTS), at LOOKED that to the looks (LOOKS, POINTS), at PLACES the places of these
+(LOOKS), at FORWARD and BACKWARD the factors of Clenshaw's recurrence (POINTS each). ``jobs``: six whole numbers of
+each: signal (-1: the integral of the lack of the job before), powers, excess, largest, smallest, number of its first
+extreme.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+from linkwright.engine.ir_kernel import Block
+from linkwright.engine.kernel import (
+    LANES,
+    Kernels,
+    Reals,
+    Vector,
+    Wholes,
+    higher,
+    invoke,
+    least,
+    load,
+    lower,
+    ramp,
+    spread,
+    store,
+    total,
+)
+
+POINTS, LOOKS = 16, 49
+LAST, UP_TO, LEGENDRE, LOOKED, PLACES = 0, 48, 304, 560, 1344
+FORWARD, BACKWARD = PLACES + LOOKS, PLACES + LOOKS + POINTS
+#: Numbers found by a job, and whole numbers that it is given.
+FOUND, GIVEN = 6, 6
+PARAMETERS = Block.PARAMETERS
+#: How much higher than its nodes, as share of the span of these, a smooth function may be in a piece: half of the gap
+#: between two nodes, squared, is 0.009 of it.
+SLACK = 0.03
+HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15
+STEPS = 8
+
+
+def bounds(row: Reals, pieces: int, tops: Reals, bottoms: Reals, found: Reals) -> None:
+    """The largest and the smallest value of every piece, and of all."""
+    most, fewest = spread(-HUGE), spread(HUGE)
+    b = 0
+    while b < pieces:
+        at = min(b, pieces - LANES)
+        top = load(row, at)
+        bottom = load(row, at)
+        for i in range(1, POINTS):
+            value = load(row, i * pieces + at)
+            top = higher(top, value)
+            bottom = lower(bottom, value)
+        store(tops, at, top)
+        store(bottoms, at, bottom)
+        most = higher(most, top)
+        fewest = lower(fewest, bottom)
+        b += LANES
+    found[0] = -least(-most)
+    found[1] = least(fewest)
+
+
+def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals) -> None:
+    """Means of the signal and of its square, and the size of the last orders of both in the piece met worst."""
+    mean, square, rough, rougher = spread(0.0), spread(0.0), spread(0.0), spread(0.0)
+    b = 0
+    while b < pieces:
+        at = min(b, pieces - LANES)
+        fresh = spread(1.0) if ramp(at) > b - 0.5 else spread(0.0)
+        a0, a1, a2 = spread(0.0), spread(0.0), spread(0.0)
+        b0, b1, b2 = spread(0.0), spread(0.0), spread(0.0)
+        for i in range(POINTS):
+            value = load(row, i * pieces + at)
+            both = value * value
+            weight = load(share, i * pieces + at) * fresh
+            mean = mean + weight * value
+            square = square + weight * both
+            a0 = a0 + tables[3 * i] * value
+            a1 = a1 + tables[3 * i + 1] * value
+            a2 = a2 + tables[3 * i + 2] * value
+            b0 = b0 + tables[3 * i] * both
+            b1 = b1 + tables[3 * i + 1] * both
+            b2 = b2 + tables[3 * i + 2] * both
+        rough = higher(rough, higher(higher(a0, -a0), higher(higher(a1, -a1), higher(a2, -a2))))
+        rougher = higher(rougher, higher(higher(b0, -b0), higher(higher(b1, -b1), higher(b2, -b2))))
+        b += LANES
+    found[2] = total(mean)
+    found[3] = total(square)
+    found[4] = -least(-rough)
+    found[5] = -least(-rougher)
+
+
+def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, room: Reals) -> None:
+    """The integral of mean - signal up to every Gauss point, (POINTS, pieces), in the first part of the room."""
+    size = POINTS * pieces
+    gained = room + size
+    whole = gained + size
+    b = 0
+    while b < pieces:
+        at = min(b, pieces - LANES)
+        gains = spread(0.0)
+        for i in range(POINTS):
+            gain = (mean - load(row, i * pieces + at)) * load(share, i * pieces + at)
+            store(gained, i * pieces + at, gain)
+            gains = gains + gain
+        store(whole, at, gains)
+        b += LANES
+    before = 0.0
+    for p in range(pieces):
+        gains_there = whole[p]
+        whole[p] = before
+        before += gains_there
+    b = 0
+    while b < pieces:
+        at = min(b, pieces - LANES)
+        for i in range(POINTS):
+            work = load(whole, at)
+            for j in range(POINTS):
+                work = work + tables[UP_TO + POINTS * i + j] * load(gained, j * pieces + at)
+            store(room, i * pieces + at, work)
+        b += LANES
+
+
+def contenders(
+    row: Reals, pieces: int, tops: Reals, bottoms: Reals, sign: float, bar: float, owner: int, rows: Reals,
+    capacity: int, ids: Wholes, first: int,
+) -> int:  # fmt: skip
+    """Puts the values of all pieces that may hold the largest of sign · signal behind each other; how many there are
+    then."""
+    at = first
+    for p in range(pieces):
+        top = tops[p] if sign > 0.0 else -bottoms[p]
+        if top + SLACK * (tops[p] - bottoms[p]) < bar:
+            continue
+        for i in range(POINTS):
+            rows[i * capacity + at] = sign * row[i * pieces + p]
+        ids[2 * at] = owner
+        ids[2 * at + 1] = p
+        at += 1
+    return at
+
+
+def reduced(
+    designs: int, code: int, block: Wholes, stride: int, signals: Reals, share: Reals, pieces: int, jobs: Wholes,
+    count: int, extremes: int, tables: Reals, room: Reals, found: Reals, rows: Reals, capacity: int, ids: Wholes,
+) -> int:  # fmt: skip
+    """Signals of one design after another by the compiled program, then its jobs; the number of contenders for
+    extremes. Ends early where these may not find room; ``ids[2 · capacity]``: designs done.
+
+    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 3) · pieces doubles.
+    """
+    tops = room + (2 * POINTS + 1) * pieces
+    bottoms = tops + pieces
+    at = 0
+    for d in range(designs):
+        if at + extremes * pieces > capacity:
+            break
+        ids[2 * capacity] = d + 1
+        invoke(code, block)
+        block[PARAMETERS] = block[PARAMETERS] + stride
+        for j in range(count):
+            job = jobs + GIVEN * j
+            result = found + FOUND * (d * count + j)
+            row = room + 0
+            if job[0] >= 0:
+                row = signals + POINTS * pieces * job[0]
+            bounds(row, pieces, tops, bottoms, result)
+            if job[1] > 0:
+                powers(row, share, pieces, tables, result)
+            owner = d * extremes + job[5]
+            if job[3] > 0:
+                at = contenders(row, pieces, tops, bottoms, 1.0, result[0], owner, rows, capacity, ids, at)
+                owner += 1
+            if job[4] > 0:
+                at = contenders(row, pieces, tops, bottoms, -1.0, -result[1], owner, rows, capacity, ids, at)
+            if job[2] > 0:
+                integral(row, share, pieces, tables, result[2], room)
+    return at
+
+
+def derive(of: Reals, slopes: Reals) -> None:
+    """Coefficients of the derivative of Legendre's series."""
+    even, odd = spread(0.0), spread(0.0)
+    for j in range(POINTS):
+        k = POINTS - 1 - j
+        store(slopes, LANES * k, (2.0 * k + 1.0) * odd)
+        following = load(of, LANES * k) + even
+        even = odd
+        odd = following
+
+
+def series(of: Reals, x: Vector, tables: Reals) -> Vector:
+    """Legendre's series at some places (Clenshaw 1955)."""
+    value, before = spread(0.0), spread(0.0)
+    for j in range(POINTS):
+        k = POINTS - 1 - j
+        following = load(of, LANES * k) + tables[FORWARD + k] * x * value + tables[BACKWARD + k] * before
+        before = value
+        value = following
+    return value
+
+
+def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, found: Reals) -> None:
+    """Largest values of polynomials through ``rows`` (POINTS, capacity): of each place, value and size of the last
+    orders, (3, capacity); the capacity is a multiple of LANES.
+
+    From the highest look by Newton's steps between its neighbours, halvings where these leave the bracket. ``room``:
+    the coefficients of the polynomial, its slope and the slope of that, (3, POINTS) vectors.
+    """
+    slopes = room + POINTS * LANES
+    bends = slopes + POINTS * LANES
+    r = 0
+    while r < count:
+        for k in range(POINTS):
+            order = spread(0.0)
+            for i in range(POINTS):
+                order = order + tables[LEGENDRE + POINTS * k + i] * load(rows, i * capacity + r)
+            store(room, LANES * k, order)
+        derive(room, slopes)
+        derive(slopes, bends)
+        best, place, low, high = spread(-HUGE), spread(-1.0), spread(-1.0), spread(1.0)
+        for j in range(LOOKS):
+            look = spread(0.0)
+            for i in range(POINTS):
+                look = look + tables[LOOKED + POINTS * j + i] * load(rows, i * capacity + r)
+            below, here = tables[PLACES + max(j - 1, 0)], tables[PLACES + j]
+            above = tables[PLACES + min(j + 1, LOOKS - 1)]
+            place = spread(here) if best < look else place
+            low = spread(below) if best < look else low
+            high = spread(above) if best < look else high
+            best = higher(best, look)
+        rim = spread(0.0) if place * place > BELOW_ONE else spread(1.0)
+        x = place
+        moved, slope = spread(0.0), spread(0.0)
+        for _ in range(STEPS):
+            slope = series(slopes, x, tables)
+            rising = slope > 0.0
+            low = x if rising else low
+            high = high if rising else x
+            newton = x - slope / series(bends, x, tables)
+            middle = 0.5 * (low + high)
+            inside = (newton - low) * (high - newton)
+            following = newton if inside > -TINY else middle
+            moved = following - x
+            x = following
+        top = series(room, x, tables)
+        doubt = rim * slope * moved
+        place = x if top > best else place
+        rough = higher(doubt, -doubt)
+        for k in range(POINTS - 3, POINTS):
+            last = load(room, LANES * k)
+            rough = higher(rough, higher(last, -last))
+        store(found, r, place)
+        store(found, capacity + r, higher(top, best))
+        store(found, 2 * capacity + r, rough)
+        r += LANES
+
+
+@cache
+def kernels() -> Kernels:
+    """The compiled functions."""
+    return Kernels((bounds, powers, integral, contenders, reduced, derive, series, peaks))
