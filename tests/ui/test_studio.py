@@ -5,12 +5,14 @@ from __future__ import annotations
 import base64
 import http.client
 import json
+import math
 import os
 import re
 import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -212,6 +214,129 @@ def test_slots_and_gears_are_drawn() -> None:
             edited(geared, wrong)
 
 
+def drawn_with(*actions: dict[str, Any]) -> str:
+    """A new file after these actions, beginning with a crank about O1."""
+    text = NEW
+    for action in (DRAWN[0], DRAWN[2], DRAWN[3], DRAWN[7], *actions):
+        text = edited(text, action)
+    return text
+
+
+def test_a_cam_lifts_what_slides_or_turns_on_the_frame() -> None:
+    """The roller stands where it is drawn and is lifted by what is asked; a guide that leads inwards is turned."""
+    roller = {"do": "point", "name": "B", "at": [0.01, 0.06]}
+    slider = {"do": "link", "name": "slider1", "points": ["B"]}
+    guide = {"do": "guide", "link": "slider1", "at": "B", "angle": -90}
+    cam = {"do": "cam", "cam": "crank", "at": "B", "lift": "20 mm"}
+    text = drawn_with(roller, slider, guide, cam)
+    assert "base_radius: 50.8 mm, roller_radius: 10 mm" in text
+    mechanism = lw.loads(text)
+    assert lw.structure(mechanism).mobility == 1
+    y = lw.solve_motion(mechanism, steps=36).point("B").position[:, 1]
+    low = math.sqrt(0.0608**2 - 0.01**2)
+    assert y[0] == pytest.approx(low, rel=1e-12)
+    assert (y.min(), y.max()) == pytest.approx((low, low + 0.02), rel=1e-12)
+    pivot = {"do": "point", "name": "O2", "at": [0.1, 0.0], "fixed": True}
+    arm = {"do": "link", "name": "arm", "points": ["O2", "B"]}
+    turned = lw.solve_motion(lw.loads(drawn_with(roller, pivot, arm, cam)), steps=36)
+    reach = math.dist((0.1, 0.0), (0.01, 0.06))
+    assert np.ptp(turned.link("arm").angle) == pytest.approx(2 * math.asin(0.01 / reach), abs=1e-3)
+    away = np.hypot(*turned.point("B").position.T)
+    assert (away.min(), away[0]) == pytest.approx((0.0608, 0.0608), rel=1e-12)
+    for wrong in ({"at": "A"}, {"cam": "slider1"}, {"lift": "9 kg"}):
+        with pytest.raises(LinkwrightError):
+            drawn_with(roller, slider, guide, {**cam, **wrong})
+
+
+def test_a_rack_meshes_with_a_pinion_as_large_as_it_is_drawn() -> None:
+    """The rack's travel is the drawn distance times the angle that the pinion swings."""
+    more = (
+        DRAWN[1], DRAWN[4], DRAWN[5], DRAWN[6],
+        {"do": "point", "name": "C", "at": [0.25, -0.05]}, {"do": "link", "name": "slider1", "points": ["C"]},
+    )  # fmt: skip
+    guide = {"do": "guide", "link": "slider1", "at": "C", "angle": 30}
+    mesh = {"do": "rack", "pinion": "rocker", "rack": "slider1"}
+    mechanism = lw.loads(drawn_with(*more, guide, mesh))
+    assert lw.structure(mechanism).mobility == 1
+    motion = lw.solve_motion(mechanism, steps=72)
+    place = motion.point("C").position
+    as_drawn = lw.solve_motion(mechanism, at={"driver": math.atan2(0.04, 0.03)})
+    assert as_drawn.point("C").position[0] == pytest.approx([0.25, -0.05], abs=1e-9)
+    radius = abs(0.05 * math.sin(math.radians(30)) + 0.05 * math.cos(math.radians(30)))
+    swing = np.ptp(motion.link("rocker").angle)
+    assert math.dist(place.min(axis=0), place.max(axis=0)) == pytest.approx(radius * swing, rel=1e-8)
+    for wrong in ({"pinion": "coupler"}, {"rack": "rocker"}):
+        with pytest.raises(LinkwrightError):
+            drawn_with(*more, guide, {**mesh, **wrong})
+
+
+WISH = {
+    "vary": {"coupler.length": "3.2..4.2 m", "rocker.length": "2.5..3.5 m"},
+    "maximize": "transmission_angle",
+    "keep": {"swing_angle": "same within 5 %"},
+    "evaluations": 400,
+}
+
+
+def test_the_section_of_an_optimisation_is_written_into_its_place() -> None:
+    """Line by line, comments around it stay, and the file reads back as what was asked; braces are refused."""
+    text = "# mine\n" + lw.read_document("gallery:crank_rocker").text + "# the end\n"
+    asked = edited(text, {"do": "optimize", "section": WISH})
+    assert asked.startswith("# mine\n")
+    assert "\n  vary:\n    coupler.length: 3.2..4.2 m\n" in asked
+    assert lw.loads(asked).optimize == WISH
+    again = edited(asked, {"do": "optimize", "section": {**WISH, "evaluations": 300}})
+    assert again == asked.replace("400", "300")
+    assert edited(again, {"do": "optimize", "section": {}}).rstrip() == text.rstrip()
+    with pytest.raises(LinkwrightError, match="braces"):
+        edited('{"format": 1}', {"do": "optimize", "section": WISH})
+
+
+def followed(studio: Studio, number: int) -> Iterator[dict[str, Any]]:
+    """What a search has found, until it has ended."""
+    for _ in range(600):
+        found = asked(studio, "candidates", {})[1]
+        assert found["number"] == number
+        yield found
+        if not found["running"]:
+            return
+        time.sleep(0.05)
+
+
+def test_an_optimisation_shows_its_best_designs_while_it_goes_on_and_can_be_ended(tmp_path: Path) -> None:
+    text = lw.read_document("gallery:crank_rocker").text
+    with serving(tmp_path) as studio:
+        assert asked(studio, "optimize", {"text": text})[0] == 422
+        wrong = edited(
+            text, {"do": "optimize", "section": {"vary": {"no.length": "1..2 m"}, "minimize": "x"}}
+        )
+        status, found = asked(studio, "optimize", {"text": wrong})
+        assert status == 422
+        assert "no.length" in found["error"]
+        names = [each["name"] for each in asked(studio, "goals", {"text": text})[1]["goals"]]
+        assert "transmission_angle" in names
+        wished = edited(text, {"do": "optimize", "section": WISH})
+        begun = asked(studio, "optimize", {"text": wished})[1]["number"]
+        seen = list(followed(studio, begun))
+        (best,) = seen[-1]["candidates"]
+        assert best["missed"] == []
+        assert set(best["values"]) == set(WISH["vary"])
+        taken = asked(studio, "set", {"text": wished, "values": best["values"]})[1]["text"]
+        assert len([1 for a, b in zip(wished.splitlines(), taken.splitlines(), strict=True) if a != b]) == 2
+        before, after = (lw.metrics(lw.solve_motion(lw.loads(each))) for each in (wished, taken))
+        assert after.value("transmission_angle") > before.value("transmission_angle") * 1.01
+        assert after.value("swing_angle") == pytest.approx(before.value("swing_angle"), rel=0.0501)
+        longer = edited(
+            text, {"do": "optimize", "section": {**WISH, "evaluations": 10**7, "population": 4000}}
+        )
+        begun = asked(studio, "optimize", {"text": longer})[1]["number"]
+        next(each for each in followed(studio, begun) if each["candidates"])
+        asked(studio, "enough", {})
+        ended = asked(studio, "candidates", {})[1]
+        assert not ended["running"]
+        assert ended["candidates"]
+
+
 def test_reports_and_exports_are_handed_out(tmp_path: Path) -> None:
     """Known endings only, by name; the bytes are those of the format."""
     with serving(tmp_path) as studio:
@@ -408,6 +533,46 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         tab.get_by_role("button", name="Undo").first.click()
         assert becomes(same=True)
         assert errors == []
+
+
+@needs_chromium
+def test_an_optimisation_from_the_studio_writes_its_design_into_the_file(tmp_path: Path) -> None:
+    """Dimensions and a number chosen, designs as they are found, one taken; another machine beside it; nothing for
+    axe."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    text = lw.read_document("gallery:crank_rocker").text
+    (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
+    with serving(tmp_path, "a.yaml") as studio, browser() as chromium:
+        context = chromium.new_context(viewport={"width": 1360, "height": 900}, bypass_csp=True)
+        tab = context.new_page()
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        tab.wait_for_selector(".handle", state="attached")
+        tab.locator("summary", has_text="Optimise").click()
+        tab.get_by_label("Add a dimension …").select_option("coupler.length")
+        tab.get_by_role("button", name="+ Add a number").click()
+        tab.get_by_label("What is made least or greatest").and_(tab.locator("select")).select_option(
+            "greatest"
+        )
+        tab.get_by_label("Name of the number").fill("transmission_angle")
+        tab.get_by_role("button", name="Begin").click()
+        tab.locator(".design").first.hover()
+        assert tab.locator(".paper canvas").is_visible()
+        tab.get_by_role("button", name="Enough").wait_for(state="detached")
+        tab.get_by_role("button", name="Take these dimensions").click()
+        tab.wait_for_function(
+            "() => !/coupler: .*length: 3.5 m/.test(document.querySelector('textarea').value)"
+        )
+        changed = lw.loads(tab.locator("textarea").input_value())
+        assert changed.optimize["maximize"] == "transmission_angle"
+        before, after = (lw.metrics(lw.solve_motion(each)) for each in (lw.loads(text), changed))
+        assert after.value("transmission_angle") > before.value("transmission_angle")
+        tab.get_by_label("Compare with …").select_option("gallery:fourbar_lecture")
+        tab.locator(".comparison thead").wait_for()
+        assert tab.locator("svg.machine").count() == 2
+        found = axe.Axe().run(tab).response["violations"]
+        assert [(each["id"], each["nodes"][0]["html"]) for each in found] == []
+        context.close()
 
 
 NASTY = "\"'><img src=x onerror=window.bad=1><script>window.bad=2</script>"

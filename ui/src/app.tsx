@@ -3,6 +3,7 @@ import { signal, useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Chart, Hodograph } from "./chart";
+import { Comparison } from "./compare";
 import type { Dimension, Group, PageData } from "./data";
 import { isForce, type Values, type Wall } from "./model";
 import { Session } from "./session";
@@ -45,6 +46,11 @@ export class Page {
     this.words.language = this.language.value;
     return this.words.say(`page.${key}`, values);
   };
+
+  /** A word for a region of a machine, with the machine's name where there are several. */
+  region(session: Session, key: string): string {
+    return this.sessions.length > 1 ? `${this.say(key)}: ${session.data.name} (${session.number + 1})` : this.say(key);
+  }
 
   index(session: Session): number {
     const { count, closed } = session.data.positions;
@@ -534,7 +540,7 @@ function Curves({ page, session }: { page: Page; session: Session }) {
   const ids = session.curves.value;
   const spare = session.data.signals.find(({ id }) => !ids.includes(id));
   return (
-    <section class="curves" aria-label={page.say("curves")}>
+    <section class="curves" aria-label={page.region(session, "curves")}>
       {ids.map((id, k) => <Plot key={`${k}:${id}`} page={page} session={session} id={id} place={k} />)}
       {session.hodograph.value && <HodographPlot page={page} session={session} />}
       {spare && ids.length < MOST_CURVES && (
@@ -547,7 +553,7 @@ function Curves({ page, session }: { page: Page; session: Session }) {
 // the whole ------------------------------------------------------------------------------
 
 function Tools({ page, session }: { page: Page; session: Session }) {
-  const history: History = page.history ?? session;
+  const history: History = (session.number ? null : page.history) ?? session;
   useShown(session, () => [history.undoable, history.redoable, session.model.differs].join());
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const download = () => {
@@ -617,7 +623,7 @@ export function Card({ page, session }: { page: Page; session: Session }) {
       <div class="results">
         <Curves page={page} session={session} />
         {session.data.numbers.length > 0 && (
-          <div class="scroll" role="region" tabIndex={0} aria-label={page.say("numbers")}><Numbers page={page} session={session} /></div>
+          <div class="scroll" role="region" tabIndex={0} aria-label={page.region(session, "numbers")}><Numbers page={page} session={session} /></div>
         )}
       </div>
       {session.data.source && <p class="source">{session.data.source}</p>}
@@ -653,6 +659,7 @@ export function App({ page }: { page: Page }) {
       </header>
       <main class={page.sessions.length > 1 ? "side" : ""}>
         {page.sessions.map((session) => <Card key={session.number} page={page} session={session} />)}
+        {page.sessions.length > 1 && <Comparison page={page} sessions={page.sessions} />}
       </main>
       <footer>
         <p role="status" class="said">{page.note.value}</p>

@@ -9,7 +9,7 @@ export interface Picture {
   guided: string[];
 }
 
-export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "mass" | "load" | "curve" | "photo" | "remove";
+export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";
 export type Action = Record<string, unknown> & { do: string };
 
 const SNAP = 12;
@@ -201,7 +201,9 @@ export class Paper {
       }
       case "guide": return this.slide(at, near);
       case "slot": return this.slot(at, near);
-      case "gear": return this.gear(this.link(at));
+      case "gear": return this.pair(this.link(at), (links) => ({ do: "gear", links, teeth: this.value }));
+      case "rack": return this.pair(this.link(at), ([pinion, rack]) => ({ do: "rack", pinion, rack }));
+      case "cam": return this.cam(at, near);
       case "curve": {
         this.drawing = true;
         this.target = [this.free(at)];
@@ -273,11 +275,22 @@ export class Paper {
     this.draw();
   }
 
-  private gear(link: string | null): void {
+  /** Two links clicked one after the other. */
+  private pair(link: string | null, action: (links: [string, string]) => Action): void {
     if (!link) return;
     if (!this.picked) this.picked = link;
     else if (link !== this.picked) {
-      this.act([{ do: "gear", links: [this.picked, link], teeth: this.value }]);
+      this.act([action([this.picked, link])]);
+      this.picked = null;
+    }
+    this.draw();
+  }
+
+  /** The link that is the cam, then the roller's point. */
+  private cam(at: Vec, near: string | null): void {
+    if (!this.picked) this.picked = this.link(at);
+    else if (near && !this.picture.links[this.picked].includes(near)) {
+      this.act([{ do: "cam", cam: this.picked, at: near, lift: this.value }]);
       this.picked = null;
     }
     this.draw();

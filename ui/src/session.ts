@@ -202,6 +202,17 @@ export class Session {
     return count;
   }
 
+  /** Draws the paths of another design, if it can be built, over the present one; null: as before. */
+  foresee(values: Values | null): void {
+    if (!values) return this.sweep(this.swept.value);
+    const { model } = this, known = Object.entries(values).filter(([address]) => address in model.values);
+    const shown = this.shown.paths.size ? [...this.shown.paths] : this.data.points.filter(({ fixed }) => !fixed).map(({ key }) => key);
+    const met = !model.evaluate({ ...model.values, ...Object.fromEntries(known) });
+    const paths = shown.map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
+    model.evaluate(model.values);
+    this.view?.ghosts(met ? paths : []);
+  }
+
   /** The model's text with the changed numbers in their places, and the names of those that have none. */
   text(): { text: string; missing: string[] } {
     let { text } = this.data;

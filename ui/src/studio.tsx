@@ -1,302 +1,18 @@
 // The studio: the living page with its model's text beside it, and tools that draw a mechanism from nothing.
-import { signal } from "@preact/signals";
 import { render } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { Card, keys, Page, save, Transport } from "./app";
-import { bytes, type ModelData, type PageData } from "./data";
-import { code } from "./model";
+import { Card, keys, Page, Transport } from "./app";
+import type { PageData } from "./data";
+import { Comparison } from "./compare";
+import { Desk, WAIT } from "./desk";
+import { Optimise } from "./optimise";
+import { Paper, type Tool } from "./paper";
 import { quantity } from "./words";
-import { type Action, Paper, type Picture, type Tool } from "./paper";
-import { Session } from "./session";
 import "./studio.css";
 
-interface Found {
-  severity: string;
-  line: number;
-  key: string;
-  message: string;
-  remedy: string;
-}
-
-interface Solved {
-  findings: Found[];
-  model: ModelData | null;
-  picture?: Picture;
-  sentence: string;
-  mobility?: number;
-  /** The text that it is about. */
-  text?: string;
-}
-
-const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "slot", "gear", "driver", "mass", "load", "curve", "photo", "remove"];
-const VALUES: Partial<Record<Tool, string>> = { gear: "20:40", mass: "1 kg", load: "100 N", photo: "100 mm" };
+const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "slot", "gear", "rack", "cam", "driver", "mass", "load", "curve", "photo", "remove"];
+const VALUES: Partial<Record<Tool, string>> = { gear: "20:40", cam: "20 mm", mass: "1 kg", load: "100 N", photo: "100 mm" };
 const TAKEN = [".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf"];
-const WAIT = 250, WATCH = 1500, LOOK = 400;
-
-/** A linkage for a curve: its file, how far off it is (m), its curve. */
-interface Candidate {
-  text: string;
-  links: number;
-  error: number;
-  transmission_angle: number;
-  curve: [number, number][];
-}
-
-interface Sought {
-  number: number;
-  running: boolean;
-  candidates: Candidate[];
-  sentence: string;
-}
-
-/** The open file: its text with all its steps, what is found in it, the machine that it makes. */
-class Desk {
-  readonly text = signal("");
-  readonly name = signal("");
-  readonly session = signal<Session | null>(null);
-  readonly solved = signal<Solved>({ findings: [], model: null, sentence: "" });
-  readonly drawing = signal(true);
-  readonly elsewhere = signal<string | null>(null);
-  readonly onDisk = signal("");
-  readonly dirty = signal(false);
-  readonly sought = signal<Sought | null>(null);
-  private readonly window = crypto.randomUUID();
-  private readonly token = new URLSearchParams(location.search).get("token") ?? "";
-  private past: string[] = [];
-  private future: string[] = [];
-  private version = "";
-  private serial = 0;
-  private asked = 0;
-  private timer = 0;
-  private queue: Promise<void> = Promise.resolve();
-  private ready: Promise<void> = Promise.resolve();
-  /** Actions of drawing that are not in the text yet. */
-  pending = 0;
-
-  constructor(readonly page: Page) {
-    page.history = this;
-    window.setInterval(() => void this.watch(), WATCH);
-  }
-
-  say = (key: string, values: Record<string, string> = {}) => {
-    this.page.words.language = this.page.language.value;
-    return this.page.words.say(`studio.${key}`, values);
-  };
-
-  async ask<T>(name: string, body: Record<string, unknown> = {}): Promise<T | null> {
-    try {
-      const answer = await fetch(`/api/${name}`, {
-        method: "POST",
-        headers: { "Content-Type": "application/json", "X-Linkwright-Token": this.token },
-        body: JSON.stringify({ ...body, language: this.page.language.value }),
-      });
-      const found = (await answer.json()) as T & { error?: string };
-      if (answer.ok) return found;
-      this.page.note.value = found.error ?? "";
-    } catch {
-      this.page.note.value = this.say("gone");
-    }
-    return null;
-  }
-
-  get undoable(): boolean {
-    return this.past.length > 0;
-  }
-
-  get redoable(): boolean {
-    return this.future.length > 0;
-  }
-
-  undo(): void {
-    this.go(this.past, this.future);
-  }
-
-  redo(): void {
-    this.go(this.future, this.past);
-  }
-
-  private go(from: string[], to: string[]): void {
-    const text = from.pop();
-    if (text === undefined) return;
-    to.push(this.text.value);
-    this.put(text, 0);
-  }
-
-  /** Takes a text as a step of its own. */
-  change(text: string, wait = 0): void {
-    if (text === this.text.value) return;
-    this.past.push(this.text.value);
-    this.future = [];
-    this.put(text, wait);
-  }
-
-  private put(text: string, wait: number): void {
-    this.text.value = text;
-    this.dirty.value = true;
-    void this.keep();
-    window.clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.solve(), wait);
-  }
-
-  /** Every change goes to the server as a draft, in their order. */
-  private keep(): Promise<void> {
-    this.queue = this.queue.then(async () => {
-      if (!this.name.value || this.elsewhere.value !== null) return;
-      const kept = await this.ask<{ serial: number; other: string | null }>("keep", { name: this.name.value, text: this.text.value, window: this.window, serial: this.serial });
-      if (!kept) return;
-      this.serial = kept.serial;
-      if (kept.other !== null) this.elsewhere.value = kept.other;
-    });
-    return this.queue;
-  }
-
-  private async watch(): Promise<void> {
-    if (!this.name.value || this.elsewhere.value !== null) return;
-    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name: this.name.value, window: this.window });
-    if (!state) return;
-    if (this.page.note.value === this.say("gone")) {
-      this.page.note.value = "";
-      this.serial = state.serial;
-      await this.keep();
-      return;
-    }
-    if (state.other && state.serial !== this.serial) {
-      const opened = await this.ask<{ text: string; serial: number }>("open", { name: this.name.value });
-      if (opened && opened.text !== this.text.value) this.elsewhere.value = opened.text;
-      this.serial = state.serial;
-    }
-    this.onDisk.value = state.version !== this.version ? state.version : "";
-  }
-
-  takeTheirs(): void {
-    const text = this.elsewhere.value;
-    this.elsewhere.value = null;
-    if (text !== null) this.change(text);
-  }
-
-  keepMine(): void {
-    this.elsewhere.value = null;
-    void this.keep();
-  }
-
-  open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
-    return (this.ready = this.opened(asked));
-  }
-
-  private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
-    const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
-    if (!opened) return;
-    this.name.value = opened.name;
-    [this.version, this.serial, this.past, this.future] = [opened.version, opened.serial, [], []];
-    this.elsewhere.value = null;
-    this.onDisk.value = "";
-    this.text.value = opened.text;
-    this.dirty.value = opened.recovered;
-    if (opened.recovered) this.page.note.value = this.say("recovered");
-    this.clear();
-    await this.solve();
-    this.drawing.value = this.session.value === null;
-  }
-
-  async save(name: string): Promise<void> {
-    if (name !== this.name.value) {
-      this.name.value = name;
-      const there = await this.ask<{ version: string; serial: number }>("open", { name });
-      if (!there) return;
-      [this.version, this.serial] = [there.version, there.serial];
-    }
-    await this.keep();
-    const saved = await this.ask<{ saved: boolean; version: string }>("save", { name, text: this.text.value, version: this.version });
-    if (!saved) return;
-    if (!saved.saved) {
-      this.onDisk.value = saved.version;
-      return;
-    }
-    this.version = saved.version;
-    this.dirty.value = false;
-    this.page.note.value = this.say("saved");
-  }
-
-  async overwrite(): Promise<void> {
-    this.version = this.onDisk.value;
-    this.onDisk.value = "";
-    await this.save(this.name.value);
-  }
-
-  private clear(): void {
-    this.session.value = null;
-    this.page.sessions.length = 0;
-  }
-
-  /** Asks what the text makes; a newer question makes an older answer void. */
-  async solve(): Promise<void> {
-    const number = ++this.asked, text = this.text.value;
-    const solved = await this.ask<Solved>("solve", { text });
-    if (!solved || number !== this.asked || text !== this.text.value) return;
-    this.solved.value = { ...solved, text };
-    if (!solved.model?.module) return;
-    const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
-    if (old) session.inherit(old);
-    session.ended = () => void this.adopt(session);
-    this.page.sessions[0] = session;
-    this.session.value = session;
-  }
-
-  /** Writes the dimensions of the machine into the text. */
-  private async adopt(session: Session): Promise<void> {
-    const { dimensions } = session.data;
-    const values = Object.fromEntries(dimensions.filter((d) => session.model.values[d.address] !== d.value).map((d) => [d.address, session.model.values[d.address]]));
-    if (!Object.keys(values).length || session.data.text !== this.text.value) return;
-    const { text, missing } = session.text();
-    if (!missing.length) return this.change(text);
-    const set = await this.ask<{ text: string }>("set", { text: session.data.text, values });
-    if (set && session.data.text === this.text.value) this.change(set.text);
-  }
-
-  /** Has linkages for a curve searched for, and looks what is found so far until the search has ended. */
-  search = async (points: [number, number][], closed: boolean): Promise<void> => {
-    const begun = await this.ask<{ number: number }>("curve", { points, closed });
-    if (!begun) return;
-    this.sought.value = { number: begun.number, running: true, candidates: [], sentence: "" };
-    for (;;) {
-      const found = await this.ask<Sought>("candidates");
-      if (!found || found.number !== begun.number || this.sought.value?.number !== begun.number) return;
-      this.sought.value = found;
-      if (!found.running) return;
-      await new Promise((go) => setTimeout(go, LOOK));
-    }
-  };
-
-  async enough(): Promise<void> {
-    if (this.sought.value) this.sought.value = { ...this.sought.value, running: false };
-    await this.ask("enough");
-  }
-
-  /** A report or an export of the machine, as a download. */
-  async take(ending: string): Promise<void> {
-    this.page.note.value = this.say("making");
-    const found = await this.ask<{ name: string; content: string }>("take", { text: this.text.value, ending });
-    if (!found) return;
-    this.page.note.value = "";
-    const stem = this.name.value.replace(/\.\w+$/, "") || "machine";
-    save(new Blob([bytes(found.content)]), found.name.replace(/^machine/, stem));
-  }
-
-  /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */
-  act = (actions: Action[]): void => {
-    this.pending++;
-    this.queue = this.queue.then(async () => {
-      await this.ready;
-      let text = this.text.value;
-      for (const action of actions) {
-        const edited = await this.ask<{ text: string }>("edit", { text, action });
-        if (!edited) return;
-        text = edited.text;
-      }
-      this.change(text);
-    }).finally(() => this.pending--);
-  };
-}
 
 function Drafting({ desk }: { desk: Desk }) {
   const host = useRef<HTMLDivElement>(null), paper = useRef<Paper | null>(null);
@@ -304,7 +20,7 @@ function Drafting({ desk }: { desk: Desk }) {
   const { picture, mobility, text } = desk.solved.value;
   useEffect(() => {
     paper.current = new Paper(host.current!, desk.act);
-    paper.current.drawn = (points, closed) => void desk.search(points, closed);
+    paper.current.drawn = (points, closed) => void desk.search("curve", { points, closed });
     const observer = new ResizeObserver(([{ contentRect: box }]) => paper.current!.resize(box.width, box.height));
     observer.observe(host.current!);
     return () => observer.disconnect();
@@ -318,7 +34,7 @@ function Drafting({ desk }: { desk: Desk }) {
     Object.assign(paper.current, { tool, value });
     paper.current.leave();
   }, [tool, value]);
-  const sought = desk.sought.value, [shown, show] = useState(0);
+  const found = desk.sought.value, sought = found?.kind === "curve" ? found : null, [shown, show] = useState(0);
   useLayoutEffect(() => {
     if (!paper.current) return;
     const curves = sought?.candidates.map((each) => each.curve) ?? [];
@@ -419,7 +135,7 @@ function Text({ desk }: { desk: Desk }) {
 
 function Bar({ desk }: { desk: Desk }) {
   const [lists, setLists] = useState<{ files: string[]; gallery: string[] }>({ files: [], gallery: [] });
-  const [name, setName] = useState(""), { page } = desk;
+  const [name, setName] = useState(""), { page } = desk, machine = desk.session.value && !desk.drawing.value;
   useEffect(() => void desk.ask<{ files: string[]; gallery: string[] }>("files").then((found) => found && setLists(found)), [desk.dirty.value]);
   useEffect(() => setName(desk.name.value), [desk.name.value]);
   const pick = (title: string, names: string[], take: (name: string) => void) => (
@@ -439,6 +155,21 @@ function Bar({ desk }: { desk: Desk }) {
         <option value="">{desk.say("take")}</option>
         {TAKEN.map((each) => <option key={each} value={each}>{each.startsWith(".report") ? `${desk.say("take_report")} ${each.slice(7)}` : each}</option>)}
       </select>
+      {machine && (
+        <select
+          aria-label={desk.say("beside")} value=""
+          onChange={(event) => {
+            const [kind, name] = event.currentTarget.value.split(/:(.*)/s);
+            event.currentTarget.value = "";
+            void desk.compare(name ? { [kind]: name } : null);
+          }}
+        >
+          <option value="">{desk.say("beside")}</option>
+          {desk.beside.value && <option value="none">{desk.say("without_beside")}</option>}
+          {lists.files.map((each) => <option key={each} value={`name:${each}`}>{each}</option>)}
+          <optgroup label={desk.say("gallery")}>{lists.gallery.map((each) => <option key={each} value={`gallery:${each}`}>{each}</option>)}</optgroup>
+        </select>
+      )}
       <button aria-pressed={desk.drawing.value} onClick={() => (desk.drawing.value = !desk.drawing.value)}>{desk.say(desk.drawing.value ? "run" : "draw")}</button>
       <button disabled={!desk.undoable} onClick={() => desk.undo()}>{page.say("undo")}</button>
       <button disabled={!desk.redoable} onClick={() => desk.redo()}>{page.say("redo")}</button>
@@ -448,7 +179,7 @@ function Bar({ desk }: { desk: Desk }) {
 }
 
 function Room({ desk }: { desk: Desk }) {
-  const { page } = desk, session = desk.solved.value.model && desk.session.value, language = page.language.value;
+  const { page } = desk, beside = desk.beside.value, session = desk.solved.value.model && desk.session.value, language = page.language.value;
   void desk.text.value;
   useEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
@@ -475,9 +206,18 @@ function Room({ desk }: { desk: Desk }) {
       )}
       <main class="room">
         <div class={session && !desk.drawing.value ? "side" : "card"}>
-          {session && !desk.drawing.value ? <Card key={session} page={page} session={session} /> : <Drafting desk={desk} />}
+          {session && !desk.drawing.value ? (
+            <>
+              <Card key={session} page={page} session={session} />
+              {beside && <Card key={beside} page={page} session={beside} />}
+              {beside && <Comparison page={page} sessions={[session, beside]} />}
+            </>
+          ) : <Drafting desk={desk} />}
         </div>
-        <Text desk={desk} />
+        <div class="margin">
+          <Text desk={desk} />
+          {session && !desk.drawing.value && <Optimise desk={desk} session={session} />}
+        </div>
       </main>
       <footer>
         <p role="status" class="said">{page.note.value || (desk.dirty.value ? desk.say("unsaved") : "")}</p>

@@ -10,6 +10,8 @@ const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", 
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
 const COLOURS = 4;
+// Fewer ghosts than these are drawn as strongly as paths.
+const FEW = 12;
 
 export interface Shown {
   paths: Set<string>;
@@ -379,7 +381,7 @@ export class View {
     const pen = canvas.getContext("2d")!;
     pen.scale(dense, dense);
     pen.strokeStyle = getComputedStyle(canvas).color;
-    pen.lineWidth = 0.7;
+    pen.lineWidth = ghostly.length < FEW ? 1.8 : 0.7;
     pen.beginPath();
     for (const { x, y } of ghostly)
       for (let i = 0; i < x.length; i += 2) {

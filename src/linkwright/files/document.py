@@ -96,7 +96,7 @@ class Document:
             self._accept(self.text[:place] + glue + entry + self.text[place:])
             return
         last = node.entries[-1]
-        end = _content_end(last) + offset
+        end = content_end(last) + offset
         line_end = self.text.find("\n", end)
         at = len(self.text) if line_end < 0 else line_end
         if self.text[at - 1 : at] == "\r":
@@ -122,17 +122,17 @@ class Document:
 def _flow_end(node: Mapping, text: str, offset: int) -> int:
     """Where to insert before the closing brace: behind the last entry's value."""
     if node.entries:
-        return _content_end(node.entries[-1]) + offset
+        return content_end(node.entries[-1]) + offset
     return text.rfind("}", 0, node.end + offset)
 
 
-def _content_end(entry: Entry) -> int:
+def content_end(entry: Entry) -> int:
     """Offset behind the last character of an entry's value."""
     value = entry.value
     if isinstance(value, Scalar) or value.end <= value.start:
         return max(value.end, entry.key.end)
     if isinstance(value, Mapping) and not value.flow and value.entries:
-        return _content_end(value.entries[-1])
+        return content_end(value.entries[-1])
     if isinstance(value, Sequence) and not value.flow and value.items:
         return value.items[-1].end
     return value.end

@@ -47,18 +47,21 @@ ALIKE = 1e-5
 
 
 def optimize(
-    source: Mechanism | str | Path,
+    source: Mechanism | Document | str | Path,
     *,
     state: str | Path | None = None,
     progress: Progress | None = None,
+    leading: Callable[[Optimum], None] | None = None,
     **settings: Any,
 ) -> Optimum:
     """The dimensions of a machine that make one number or several least, within what must be kept.
 
     Args:
-        source: a mechanism, or a model file whose section ``optimize`` has the settings.
+        source: a mechanism, or a document or model file whose section ``optimize`` has the settings.
         state: a file that the search keeps up to date; where it exists already, the search goes on from it.
         progress: called with (evaluations done, most); what it raises stops the search.
+        leading: called after every generation with the best so far: designs that move, not polished yet, their
+            demands not all met at first.
         settings: those of the section, by the same names, in place of it:
             ``vary``: by address or parameter a range ``"80..120 mm"``, ``{"values": [...]}`` (a catalogue) or
             ``{"whole": "18..40"}``; ``minimize``, ``maximize``: a number or several: a design number
@@ -84,18 +87,19 @@ def optimize(
     if not task.measures.side_by_side and "evaluations" not in given:
         asked = replace(asked, evaluations=SLOW)
     size = asked.population or (64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables))))
-    run = _Run(
-        task, size, asked.evaluations, None if state is None else Path(state), progress, _digest(asked, given)
-    )
-    return run.optimum(document)
+    path = None if state is None else Path(state)
+    run = _Run(task, size, asked.evaluations, path, progress, _digest(asked, given), document, leading)
+    return run.optimum()
 
 
 def _source(
-    source: Mechanism | str | Path, settings: Mapping[str, Any]
+    source: Mechanism | Document | str | Path, settings: Mapping[str, Any]
 ) -> tuple[Mechanism, Document | None, dict[str, Any]]:
-    document = None if isinstance(source, Mechanism) else read_document(source)
-    mechanism = source if isinstance(source, Mechanism) else document.mechanism if document else None
-    assert mechanism is not None
+    if isinstance(source, Mechanism):
+        document, mechanism = None, source
+    else:
+        document = source if isinstance(source, Document) else read_document(source)
+        mechanism = document.mechanism
     given = dict(mechanism.optimize) | {key: value for key, value in settings.items() if value is not None}
     if not given:
         raise RequestError(Sentence("optimize.no_section", name=partial(title_said, mechanism.name)))
@@ -132,30 +136,51 @@ class _Run:
     """One search."""
 
     def __init__(
-        self, task: Task, size: int, most: int, path: Path | None, progress: Progress | None, digest: str
+        self,
+        task: Task,
+        size: int,
+        most: int,
+        path: Path | None,
+        progress: Progress | None,
+        digest: str,
+        document: Document | None,
+        leading: Callable[[Optimum], None] | None,
     ) -> None:
         self.task, self.size, self.most, self.path = task, size, most, path
         self.progress, self.digest, self.stopped = progress, digest, False
+        self.document, self.leading = document, leading
 
-    def optimum(self, document: Document | None) -> Optimum:
+    def optimum(self) -> Optimum:
         state = self._searched()
         judged = state.judged if self.stopped else self._polished(state.judged)
+        chosen = self._chosen(judged)
+        if not np.isfinite(chosen.violations).all():
+            raise RequestError(
+                Sentence("optimize.nothing_moves", name=partial(title_said, self.task.problem.mechanism.name))
+            )
+        found = self._made(chosen, state, made=True)
+        if not (judged.total == 0).any():
+            raise OptimizeError(self._failing(found), found)
+        return found
+
+    @staticmethod
+    def _chosen(judged: Judged) -> Judged:
+        """The best design, or the front of those that meet all demands."""
         feasible = judged.total == 0
         several = judged.goals.shape[1] > 1
         if feasible.any() and several:
             good = taken(judged, np.flatnonzero(feasible))
             chosen = taken(good, np.flatnonzero(fronts(good) == 0))
-            chosen = _apart(taken(chosen, np.lexsort(chosen.goals.T[::-1])))
-        else:
-            chosen = taken(judged, ranked(judged)[:1])
-        if not np.isfinite(chosen.violations).all():
-            raise RequestError(
-                Sentence("optimize.nothing_moves", name=partial(title_said, self.task.problem.mechanism.name))
-            )
-        found = self._made(chosen, state, document)
-        if not feasible.any():
-            raise OptimizeError(self._failing(found), found)
-        return found
+            return _apart(taken(chosen, np.lexsort(chosen.goals.T[::-1])))
+        return taken(judged, ranked(judged)[:1])
+
+    def _tell(self, state: State) -> None:
+        if self.progress is not None:
+            self.progress(min(state.evaluations, self.most), self.most)
+        if self.leading is not None:
+            chosen = self._chosen(state.judged)
+            if np.isfinite(chosen.violations).all():
+                self.leading(self._made(chosen, state, made=False))
 
     def _searched(self) -> State:
         state = self._begun()
@@ -167,8 +192,7 @@ class _Run:
                 if self.path is not None and time.monotonic() - saved > SAVED:
                     self._save(snapshot)
                     saved = time.monotonic()
-                if self.progress is not None:
-                    self.progress(min(state.evaluations, self.most), self.most)
+                self._tell(state)
         except KeyboardInterrupt:
             self.stopped = True
             if self.path is None:
@@ -235,10 +259,12 @@ class _Run:
                 break
         return rows
 
-    def _made(self, chosen: Judged, state: State, document: Document | None) -> Optimum:
+    def _made(self, chosen: Judged, state: State, *, made: bool) -> Optimum:
+        """The designs as an optimum; ``made``: at the end, with the share of machines that meet all demands and the
+        variables that change nothing."""
         task, asked = self.task, self.task.problem
         values = task.place(chosen.x)
-        idle = task.without_effect(values[0])
+        idle = task.without_effect(values[0]) if made else ()
         for i, each in enumerate(asked.variables):
             if each.address in idle:
                 values[:, i] = each.allowed(asked.start[i : i + 1])
@@ -252,7 +278,7 @@ class _Run:
             choices.append(Choice(
                 {each.address: float(values[k, i]) for i, each in enumerate(asked.variables)},
                 {text: float(each[k]) for text, each in chosen.values.items()}, missed,
-                task.yield_of(values[k]) if asked.tolerances and k == 0 else None,
+                task.yield_of(values[k]) if made and asked.tolerances and k == 0 else None,
             ))  # fmt: skip
         share = None
         if len(asked.goals) > 1 and np.isfinite(chosen.goals).all():
@@ -263,7 +289,7 @@ class _Run:
             asked, tuple(choices), dict(task.at_start), {each.text: (each.low, each.high) for each in task.bounds},
             {text: task.measures.dimension(text) for text in task.measures.expressions}, task.measures.evaluations,
             state.generation, tuple(state.history), share, task.measures.side_by_side, self.stopped, idle,
-            document,
+            self.document,
         )  # fmt: skip
 
     def _failing(self, found: Optimum) -> Sentence:

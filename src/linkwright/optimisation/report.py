@@ -19,7 +19,7 @@ def report(found: Optimum, language: str) -> list[str]:
     tell = speaker(language)
     name = title_said(found.problem.mechanism.name, language)
     lines = [tell("optimize.title", name=name, goals=_goals(found, tell)), ""]
-    lines += _comparison(found, found.best, tell)
+    lines += aligned(comparison(found, found.best, tell), "<>>><")
     if len(found.problem.goals) > 1:
         lines += [
             "",
@@ -42,7 +42,8 @@ def _goals(found: Optimum, tell: Say) -> str:
     return ", ".join(tell(words[goal.sign], number=goal.text) for goal in found.problem.goals)
 
 
-def _comparison(found: Optimum, choice: Choice, tell: Say) -> list[str]:
+def comparison(found: Optimum, choice: Choice, tell: Say) -> list[list[str]]:
+    """A head and a row for every variable and number: name, start, design, change, bounds."""
     rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
         factor = units.unit(variable.unit)[0] if variable.unit else 1.0
@@ -55,16 +56,16 @@ def _comparison(found: Optimum, choice: Choice, tell: Say) -> list[str]:
         symbol, factor = shown_unit(kind)
         was = found.start[text]
         shown = [_shown(value, factor, symbol) for value in (was, now)]
-        rows.append([text, *shown, _change(was, now), _limits(found, text, factor, tell)])
-    return aligned(rows, "<>>><")
+        rows.append([text, *shown, _change(was, now), _limits(found, choice, text, factor, tell)])
+    return rows
 
 
-def _limits(found: Optimum, text: str, factor: float, tell: Say) -> str:
+def _limits(found: Optimum, choice: Choice, text: str, factor: float, tell: Say) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
     said = [tell("optimize.goal" if goals[text] > 0 else "optimize.goal_most")] if text in goals else []
     if text in found.limits:
         said.append(_between(found, text, factor))
-    if text in found.best.missed:
+    if text in choice.missed:
         said.append(tell("optimize.missed"))
     return ", ".join(said)
 

@@ -1,20 +1,19 @@
-"""Linkages for a curve that was drawn by hand: found in the background, the best so far at any time."""
+"""Linkages for a curve that was drawn by hand."""
 
 from __future__ import annotations
 
 import itertools
-import threading
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.files.model_file import dump
+from linkwright.server.background import Job, Plain
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words.sentence import Sentence
 
-Plain = dict[str, Any]
 #: Times of the searches that follow on each other, s; points of a curve that is sent, and of one that is sought.
 SECONDS, SENT, CORNERS = (1.0, 6.0), 180, 48
 #: Largest lengths of four-bars beyond the curve's place, in widths of the curve; smallest transmission angle, rad.
@@ -22,89 +21,50 @@ REACH, TRANSMISSION = 4.0, 0.35
 _FEWEST, _MOST = 3, 4000
 
 
-class Stopped(Exception):
-    """Another search has begun, or this one was ended."""
+def linkages(points: Sequence[Sequence[float]], closed: bool) -> Callable[[Job], None]:
+    """The search for linkages whose coupler curve goes through ``points`` (m)."""
+    curve = np.array(points, dtype=float)
+    if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
+        raise LinkwrightError(Sentence("studio.no_curve"))
+    if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
+        raise LinkwrightError(Sentence("studio.no_curve"))
+    return partial(_search, _even(curve, closed), closed)
 
 
-class Search:
-    """At most one search at a time; a new one ends the one before."""
+def _search(curve: np.ndarray, closed: bool, job: Job) -> None:
+    best: list[Plain] = []
+    refused: LinkwrightError | None = None
+    for result in _results(job, curve, closed):
+        if isinstance(result, LinkwrightError):
+            refused = result
+            continue
+        shown = (_shown(each, curve) for each in result)
+        best = _distinct(sorted([*best, *shown], key=lambda each: float(each["error"])))
+        job.tell(best)
+    if refused is not None and not best:
+        raise refused
 
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._number = 0
-        self._found: Plain = {"number": 0, "running": False, "candidates": [], "sentence": ""}
 
-    def begin(self, points: Sequence[Sequence[float]], closed: bool, language: str) -> Plain:
-        """Starts a search for the curve through ``points`` (m)."""
-        curve = np.array(points, dtype=float)
-        if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
-            raise LinkwrightError(Sentence("studio.no_curve"))
-        if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
-            raise LinkwrightError(Sentence("studio.no_curve"))
-        with self._lock:
-            self._number += 1
-            self._found = {"number": self._number, "running": True, "candidates": [], "sentence": ""}
-            number = self._number
-        even = _even(curve, closed)
-        threading.Thread(target=self._run, args=(number, even, closed, language), daemon=True).start()
-        return {"number": number}
+def _results(job: Job, curve: np.ndarray, closed: bool) -> Iterator[Synthesis | LinkwrightError]:
+    from linkwright.synthesis.free_curve.generate import free_curve
+    from linkwright.synthesis.path_generation.generate import path_generation
 
-    def end(self) -> Plain:
-        """Ends the search; what was found stays."""
-        with self._lock:
-            self._number += 1
-            self._found = {**self._found, "running": False}
-        return {}
+    def alive(*_: float) -> None:
+        job.alive()
 
-    def state(self) -> Plain:
-        """The candidates so far, best first."""
-        with self._lock:
-            return self._found
-
-    def _run(self, number: int, curve: np.ndarray, closed: bool, language: str) -> None:
-        best: list[Plain] = []
-        sentence = ""
+    try:
+        few = curve[:: max(1, len(curve) // 16)]
+        goal = np.vstack([few, few[:1]]) if closed else few
+        bound = float(np.abs(curve).max() + REACH * np.ptp(curve, axis=0).max())
+        yield path_generation(goal, bound=bound, transmission_angle=TRANSMISSION)
+    except LinkwrightError as error:
+        yield error
+    for seed, seconds in enumerate(SECONDS):
+        job.alive()
         try:
-            for result in self._results(number, curve, closed):
-                if isinstance(result, LinkwrightError):
-                    sentence = result.say(language)
-                    continue
-                shown = (_shown(each, curve) for each in result)
-                best = _distinct(sorted([*best, *shown], key=lambda each: float(each["error"])))
-                self._tell(number, best, "", running=True)
-            self._tell(number, best, "" if best else sentence, running=False)
-        except Stopped:
-            return
-
-    def _results(self, number: int, curve: np.ndarray, closed: bool) -> Iterator[Synthesis | LinkwrightError]:
-        from linkwright.synthesis.free_curve.generate import free_curve
-        from linkwright.synthesis.path_generation.generate import path_generation
-
-        def alive(*_: float) -> None:
-            if number != self._number:
-                raise Stopped
-
-        try:
-            few = curve[:: max(1, len(curve) // 16)]
-            goal = np.vstack([few, few[:1]]) if closed else few
-            bound = float(np.abs(curve).max() + REACH * np.ptp(curve, axis=0).max())
-            yield path_generation(goal, bound=bound, transmission_angle=TRANSMISSION)
+            yield free_curve(curve, closed=closed, seconds=seconds, seed=seed, progress=alive)
         except LinkwrightError as error:
             yield error
-        for seed, seconds in enumerate(SECONDS):
-            alive()
-            try:
-                yield free_curve(curve, closed=closed, seconds=seconds, seed=seed, progress=alive)
-            except LinkwrightError as error:
-                yield error
-
-    def _tell(self, number: int, candidates: list[Plain], sentence: str, *, running: bool) -> None:
-        with self._lock:
-            if number != self._number:
-                raise Stopped
-            self._found = {
-                "number": number, "running": running, "candidates": candidates, "sentence": sentence,
-            }  # fmt: skip
 
 
 def _even(curve: np.ndarray, closed: bool) -> np.ndarray:

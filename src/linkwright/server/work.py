@@ -12,9 +12,12 @@ from linkwright.errors import Finding, LinkwrightError
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
-from linkwright.server.edits import edited, picture, with_values
+from linkwright.server.background import Background
+from linkwright.server.draft import picture
+from linkwright.server.edits import edited, with_values
 from linkwright.server.files import Files
-from linkwright.server.search import Search
+from linkwright.server.search import linkages
+from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence, in_language
 
 Plain = dict[str, Any]
@@ -28,10 +31,11 @@ class Work:
 
     def __init__(self, files: Files) -> None:
         self.files = files
-        self.search = Search()
+        self.background = Background()
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "gallery": gallery_names()},
             "open": self._open,
+            "read": lambda a: {"text": self._read(a)},
             "keep": lambda a: files.keep(
                 _text(a, "name"), _text(a, "text"), _text(a, "window"), int(a["serial"])
             ),
@@ -39,11 +43,13 @@ class Work:
             "save": lambda a: files.save(_text(a, "name"), _text(a, "text"), _text(a, "version")),
             "solve": self._solve,
             "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
-            "curve": lambda a: self.search.begin(
-                a["points"], bool(a["closed"]), str(a.get("language", "en"))
+            "curve": lambda a: self.background.begin(
+                "curve", linkages(a["points"], bool(a["closed"])), _language(a)
             ),
-            "candidates": lambda a: self.search.state(),
-            "enough": lambda a: self.search.end(),
+            "optimize": self._optimize,
+            "goals": self._goals,
+            "candidates": lambda a: self.background.state(),
+            "enough": lambda a: self.background.end(),
             "take": self._take,
             "set": lambda a: {
                 "text": with_values(_text(a, "text"), {k: float(v) for k, v in a["values"].items()})
@@ -54,8 +60,7 @@ class Work:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
         if asked.get("gallery"):
             name = _text(asked, "gallery")
-            text = read_source(f"gallery:{name}")[0]
-            return {**self.files.open(self.files.fresh(name)), "text": text}
+            return {**self.files.open(self.files.fresh(name)), "text": self._read(asked)}
         if asked.get("name"):
             return self.files.open(_text(asked, "name"))
         unsaved = None if asked.get("fresh") else self.files.unsaved()
@@ -63,14 +68,21 @@ class Work:
             return self.files.open(unsaved)
         return {**self.files.open(self.files.fresh("machine")), "text": NEW}
 
+    def _read(self, asked: Plain) -> str:
+        """The text of a file, or of one of the gallery."""
+        if asked.get("gallery"):
+            return read_source(f"gallery:{_text(asked, 'gallery')}")[0]
+        return str(self.files.open(_text(asked, "name"))["text"])
+
     def _solve(self, asked: Plain) -> Plain:
         """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
-        text, language = _text(asked, "text"), str(asked.get("language", "en"))
+        text, language = _text(asked, "text"), _language(asked)
         mechanism, findings = read_text(text, "model")
         found: Plain = {
             "findings": [_finding(each, language) for each in findings],
             "model": None,
             "sentence": "",
+            "optimize": {},
         }
         try:
             found["picture"] = picture(text)
@@ -80,19 +92,28 @@ class Work:
                 from linkwright.structure import structure
 
                 found["mobility"] = structure(mechanism).mobility
+                found["optimize"] = dict(mechanism.optimize)
                 data, _ = page_data([(solve_motion(mechanism, steps=360), text)], language)
                 found["model"] = data["models"][0]
         except LinkwrightError as error:
             found["sentence"] = error.say(language)
         return found
 
+    def _optimize(self, asked: Plain) -> Plain:
+        """Begins the optimisation that the text's section asks."""
+        from linkwright.server.optimising import optimised
+
+        return self.background.begin("optimum", optimised(_text(asked, "text")), _language(asked))
+
+    def _goals(self, asked: Plain) -> Plain:
+        """What an optimisation of a text's model can make least or keep."""
+        from linkwright.server.optimising import goals
+
+        return {"goals": goals(_text(asked, "text"), _language(asked))}
+
     def _take(self, asked: Plain) -> Plain:
         """A report, or an export, of a text: its name and its bytes in base64."""
-        text, ending, language = (
-            _text(asked, "text"),
-            _text(asked, "ending"),
-            str(asked.get("language", "en")),
-        )
+        text, ending, language = _text(asked, "text"), _text(asked, "ending"), _language(asked)
         if ending not in TAKEN:
             raise LinkwrightError(Sentence("studio.no_ending", ending=ending))
         document = Document(text, "model", read_text)
@@ -128,3 +149,8 @@ def _text(asked: Plain, key: str) -> str:
     if not isinstance(value, str):
         raise TypeError(key)
     return value
+
+
+def _language(asked: Plain) -> str:
+    found = asked.get("language")
+    return found if found in LANGUAGES else "en"

@@ -30,7 +30,8 @@ WORDS = {
     "elsewhere": "Another window has changed this file.",
     "take_theirs": "Take its text",
     "keep_mine": "Keep mine",
-    "on_disk": "The file on the disk has changed since it was opened; save under another name, or overwrite it.",
+    "on_disk": "The file on the disk has changed since it was opened; save under another name, or overwrite "
+    "it.",
     "overwrite": "Overwrite",
     "draw": "Draw",
     "run": "Run",
@@ -80,4 +81,47 @@ WORDS = {
     "take": "Report and export",
     "take_report": "Report",
     "making": "The file is being made …",
+    "cam": "Cam",
+    "rack": "Rack",
+    "help_cam": "Click the link that turns as a cam, then a point of a link that slides or turns on the "
+    "frame: a roller there is lifted by {value}. The base circle goes where the roller stands.",
+    "help_rack": "Click a link with a fixed point, then a link that slides: they mesh as pinion and rack, "
+    "with the pinion as large as it is drawn.",
+    "no_cam": "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller a link "
+    "of its own that slides or turns on the frame",
+    "no_guide_angle": "the direction of {name!r} is no plain angle, so that no cam can be placed by it; "
+    "write it in degrees",
+    "long_lift": "the lift {lift!r} is longer than a follower's arm of {arm} can go; write a smaller one, "
+    "or an angle",
+    "no_rack": "{pinion!r} and {rack!r} are no pinion and rack: click a link with a fixed point, then a "
+    "link that slides on the frame in a direction given as an angle",
+    "rack_through": "{rack!r} slides through the middle of {pinion!r}, which leaves no room for a pinion; "
+    "move one of them",
+    "braces": "this text is one mapping in braces; drawing goes into files that are written line by line, "
+    "so write this one so, or begin a new one",
+    "no_optimize": "the text has no section optimize; choose what varies and what is made least first",
+    "optimize": "Optimise",
+    "vary": "What varies",
+    "goals": "What is made least or greatest",
+    "demands": "What is kept",
+    "least": "least",
+    "most": "greatest",
+    "add_dimension": "Add a dimension …",
+    "add_goal": "Add a number",
+    "add_demand": "Add a demand",
+    "range_of": "Range of {name}",
+    "number_name": "Name of the number",
+    "demand_text": "Demand",
+    "demand_hint": "at least 40 deg",
+    "forget": "Forget {name}",
+    "begin": "Begin",
+    "tried": "{done} of at most {most} machines tried",
+    "design": "Design {number}",
+    "missed": "misses {names}",
+    "take_design": "Take these dimensions",
+    "help_optimize": "Choose dimensions with their ranges and a number; the file keeps the settings. Every "
+    "design passes the whole cycle in the assembly of the present one. The pointer over a design shows its "
+    "paths; taking one writes its dimensions into the file.",
+    "beside": "Compare with …",
+    "without_beside": "End the comparison",
 }

@@ -1,0 +1,182 @@
+"""A text that need not be a model yet: entries put in and taken out, and what of it can be drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from linkwright import units
+from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.compose import compose
+from linkwright.files.document import Document, content_end
+from linkwright.files.write import flow, scalar
+from linkwright.words.sentence import Sentence
+
+Plain = dict[str, Any]
+
+
+class Draft(Document):
+    """A text that need not be a model yet: what is written into it is not checked."""
+
+    def __init__(self, text: str) -> None:
+        self.name, self.text = "model", text
+
+    def _accept(self, text: str) -> None:
+        self.text = text
+
+    @property
+    def root(self) -> MappingNode:
+        """The tree; raises LinkwrightError for a text that has none."""
+        root, _ = compose(self.text.removeprefix("\ufeff"))
+        if root is None:
+            return MappingNode(0, 0, 0, 0)
+        if not isinstance(root, MappingNode):
+            raise LinkwrightError(Sentence("studio.no_mapping"))
+        if root.flow:
+            raise LinkwrightError(Sentence("studio.braces"))
+        return root
+
+    def section(self, name: str) -> MappingNode | None:
+        """The mapping behind a key of the top."""
+        found = self.root.get(name)
+        return found if isinstance(found, MappingNode) else None
+
+    def put(self, section: str, key: str, value: Any) -> None:
+        """Write an entry of a section, which is added at the end where it is missing."""
+        found = self.section(section)
+        if found is None:
+            self._append(f"{section}:\n  {key}: {flow(value)}")
+        elif (old := found.get(key)) is not None:
+            self.write(old, flow(value))
+        else:
+            self._insert(found, key, flow(value))
+
+    def write(self, node: Node, text: str) -> None:
+        """Writes a text in place of a node."""
+        offset = 1 if self.text.startswith("\ufeff") else 0
+        start, end = node.start + offset, node.end + offset
+        while end > start and self.text[end - 1] in " \r\n":
+            end -= 1
+        self.text = self.text[:start] + text + self.text[end:]
+
+    def _append(self, text: str) -> None:
+        self.text = self.text.rstrip("\n") + ("\n" if self.text.strip() else "") + text + "\n"
+
+    def put_top(self, key: str, value: Any) -> None:
+        """Write a key of the top."""
+        old = self.root.get(key)
+        if old is None:
+            self._append(f"{key}: {flow(value)}")
+        else:
+            self.write(old, flow(value))
+
+    def put_section(self, key: str, entries: Mapping[str, Any]) -> None:
+        """Write a whole section, a line for each entry, those of mappings below them; without entries it goes."""
+        old = next((entry for entry in self.root.entries if entry.key.text == key), None)
+        if not entries:
+            if old is not None:
+                self.cut_top(key)
+            return
+        text = "\n".join([f"{key}:", *_block(entries, "  ")])
+        if old is None:
+            self._append(text)
+            return
+        offset = 1 if self.text.startswith("\ufeff") else 0
+        end = content_end(old) + offset
+        self.text = self.text[: old.key.start + offset] + text + self.text[end:]
+
+    def take_out(self, section: str, key: str) -> None:
+        """Take an entry out of a section, and the section with its last entry."""
+        found = self.section(section)
+        place = [entry.key.text for entry in found.entries].index(key) if found is not None else 0
+        assert found is not None
+        if len(found.entries) == 1:
+            self.cut_top(section)
+            return
+        entry = found.entries[place]
+        if found.flow:
+            nearby = found.entries[place + 1].key.start if place + 1 < len(found.entries) else entry.value.end
+            start = entry.key.start if place + 1 < len(found.entries) else found.entries[place - 1].value.end
+            self.text = self.text[:start] + self.text[nearby:]
+            return
+        start = self.text.rfind("\n", 0, entry.key.start) + 1
+        after = found.entries[place + 1].key.start if place + 1 < len(found.entries) else entry.value.end
+        end = self.text.rfind("\n", 0, after) + 1 if place + 1 < len(found.entries) else self._line_end(after)
+        self.text = self.text[:start] + self.text[end:]
+
+    def cut_top(self, key: str) -> None:
+        """Take a key of the top out."""
+        entries = self.root.entries
+        place = [entry.key.text for entry in entries].index(key)
+        start = entries[place].key.start
+        end = entries[place + 1].key.start if place + 1 < len(entries) else len(self.text)
+        self.text = self.text[:start] + self.text[end:]
+
+    def _line_end(self, place: int) -> int:
+        while place > 0 and self.text[place - 1] in "\r\n ":
+            place -= 1
+        end = self.text.find("\n", place)
+        return len(self.text) if end < 0 else end + 1
+
+
+def picture(text: str) -> Plain:
+    """What of a text can be drawn before it is a model: points (m), links with their points, fixed points, driver."""
+    draft = Draft(text)
+    frame = draft.section("frame")
+    fixed = _places(frame.get("points") if frame is not None else None)
+    links = {}
+    for name, link in draft.section("links") or ():
+        points = link.get("points") if isinstance(link, MappingNode) else None
+        names = [name for name, _ in points] if isinstance(points, MappingNode) else texts(points)
+        links[name] = names
+    driver = draft.section("driver")
+    turned = driver.get("turn") if driver is not None else None
+    return {
+        "points": {**_places(draft.root.get("drawing")), **fixed},
+        "fixed": list(fixed),
+        "links": links,
+        "driver": turned.text if isinstance(turned, Scalar) else None,
+        "guided": [
+            each.text
+            for _, joint in draft.section("joints") or ()
+            if isinstance(joint, MappingNode)
+            and joint.get("block") is not None
+            and isinstance(each := joint.get("at"), Scalar)
+        ],
+    }
+
+
+def fresh(stem: str, known: Iterable[str]) -> str:
+    """The first of stem1, stem2, … that is not known."""
+    place, taken = 1, set(known)
+    while f"{stem}{place}" in taken:
+        place += 1
+    return f"{stem}{place}"
+
+
+def texts(node: Node | None) -> list[str]:
+    """The scalars of a list."""
+    items = node.items if isinstance(node, Sequence) else []
+    return [each.text for each in items if isinstance(each, Scalar)]
+
+
+def _places(node: Node | None) -> dict[str, list[float]]:
+    found = {}
+    for name, place in node if isinstance(node, MappingNode) else ():
+        try:
+            found[name] = [units.parse(text, "length") for text in texts(place)]
+        except QuantityError:
+            continue
+    return {name: place for name, place in found.items() if len(place) == 2}
+
+
+def _block(entries: Mapping[str, Any], indent: str) -> list[str]:
+    lines = []
+    for key, value in entries.items():
+        if isinstance(value, Mapping) and value:
+            lines += [f"{indent}{scalar(str(key))}:", *_block(value, indent + "  ")]
+        else:
+            lines.append(f"{indent}{scalar(str(key))}: {flow(value)}")
+    return lines

@@ -1,0 +1,78 @@
+"""Optimisation of the open model, by the section ``optimize`` of its text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.files.document import Document
+from linkwright.files.model_file import read_text
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import solve_forces
+from linkwright.metrics import METRICS, metrics
+from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.optimisation.optimize import optimize
+from linkwright.optimisation.optimum import OptimizeError, Optimum
+from linkwright.optimisation.problem import problem
+from linkwright.optimisation.report import comparison
+from linkwright.server.background import Job, Plain
+from linkwright.study.criteria import criterion
+from linkwright.words import speaker
+from linkwright.words.sentence import Sentence
+
+#: Designs of a front that are shown.
+SHOWN = 8
+
+
+def optimised(text: str) -> Callable[[Job], None]:
+    """The optimisation of a model; raises LinkwrightError with all findings about its settings."""
+    document = Document(text, "model", read_text)
+    mechanism = document.mechanism
+    if not mechanism.optimize:
+        raise RequestError(Sentence("studio.no_optimize"))
+    problem(mechanism, mechanism.optimize, document.name)
+    return partial(_optimise, document)
+
+
+def _optimise(document: Document, job: Job) -> None:
+    def tell(found: Optimum) -> None:
+        job.tell(**_shown(found, job.language))
+
+    try:
+        tell(optimize(document, progress=job.alive, leading=tell))
+    except OptimizeError as error:
+        tell(error.nearest)
+        raise
+
+
+def _shown(found: Optimum, language: str) -> Plain:
+    """The designs with their values (SI) and the rows of numbers beside those of the start, as texts."""
+    say = speaker(language)
+    choices = found.choices[:: -(-len(found) // SHOWN)]
+    tables = [comparison(found, each, say) for each in choices]
+    return {
+        "head": tables[0][0],
+        "candidates": [
+            {"values": dict(each.values), "rows": rows[1:], "missed": list(each.missed)}
+            for each, rows in zip(choices, tables, strict=True)
+        ],
+    }
+
+
+def goals(text: str, language: str) -> list[Plain]:
+    """What can be made least or kept: design numbers of the machine and of their subjects, with their labels."""
+    mechanism = Document(text, "model", read_text).mechanism
+    rows = metrics(solve_forces(solve_motion(mechanism)))
+    names: dict[str, None] = {}
+    for row in rows:
+        if METRICS[row.metric].better is not None:
+            names |= {row.metric: None, f"{row.metric} {row.subject}": None}
+    for output in mechanism_outputs(mechanism):
+        names |= {f"{output.owner}.{output.kind} {kind}": None for kind in ("range", "max", "min")}
+    found = []
+    for name in names:
+        with suppress(LinkwrightError):
+            found.append({"name": name, "label": criterion(name).label(language)})
+    return found

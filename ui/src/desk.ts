@@ -1,0 +1,326 @@
+// The open file of the studio: its text with all its steps, what is found in it, the machine that it makes.
+import { signal } from "@preact/signals";
+import { save, type Page } from "./app";
+import { bytes, type ModelData } from "./data";
+import { code, type Values } from "./model";
+import type { Action, Picture } from "./paper";
+import { Session } from "./session";
+
+export interface Found {
+  severity: string;
+  line: number;
+  key: string;
+  message: string;
+  remedy: string;
+}
+
+export interface Solved {
+  findings: Found[];
+  model: ModelData | null;
+  picture?: Picture;
+  sentence: string;
+  mobility?: number;
+  /** The text that it is about. */
+  text?: string;
+  /** What the text asks an optimisation. */
+  optimize?: Record<string, unknown>;
+}
+
+/** Rest after typing before a text is solved, ms. */
+export const WAIT = 250;
+const WATCH = 1500, LOOK = 400;
+
+/** A linkage for a curve: its file, how far off it is (m), its curve. */
+export interface Candidate {
+  text: string;
+  links: number;
+  error: number;
+  transmission_angle: number;
+  curve: [number, number][];
+}
+
+/** A better machine: its dimensions (SI), its numbers beside those of the present one as texts. */
+export interface Better {
+  values: Values;
+  rows: string[][];
+  missed: string[];
+}
+
+interface Progress {
+  number: number;
+  running: boolean;
+  sentence: string;
+  /** Pieces of work done, and the most there will be. */
+  done: number[];
+}
+
+export type Sought = Progress & ({ kind: "curve"; candidates: Candidate[] } | { kind: "optimum"; head?: string[]; candidates: Better[] });
+
+export class Desk {
+  readonly text = signal("");
+  readonly name = signal("");
+  readonly session = signal<Session | null>(null);
+  /** The machine that it is compared with. */
+  readonly beside = signal<Session | null>(null);
+  readonly solved = signal<Solved>({ findings: [], model: null, sentence: "" });
+  readonly drawing = signal(true);
+  readonly elsewhere = signal<string | null>(null);
+  readonly onDisk = signal("");
+  readonly dirty = signal(false);
+  readonly sought = signal<Sought | null>(null);
+  private readonly window = crypto.randomUUID();
+  private readonly token = new URLSearchParams(location.search).get("token") ?? "";
+  private past: string[] = [];
+  private future: string[] = [];
+  private version = "";
+  private serial = 0;
+  private asked = 0;
+  private timer = 0;
+  private queue: Promise<void> = Promise.resolve();
+  private ready: Promise<void> = Promise.resolve();
+  /** Actions of drawing that are not in the text yet. */
+  pending = 0;
+
+  constructor(readonly page: Page) {
+    page.history = this;
+    window.setInterval(() => void this.watch(), WATCH);
+  }
+
+  say = (key: string, values: Record<string, string> = {}) => {
+    this.page.words.language = this.page.language.value;
+    return this.page.words.say(`studio.${key}`, values);
+  };
+
+  async ask<T>(name: string, body: Record<string, unknown> = {}): Promise<T | null> {
+    try {
+      const answer = await fetch(`/api/${name}`, {
+        method: "POST",
+        headers: { "Content-Type": "application/json", "X-Linkwright-Token": this.token },
+        body: JSON.stringify({ ...body, language: this.page.language.value }),
+      });
+      const found = (await answer.json()) as T & { error?: string };
+      if (answer.ok) return found;
+      this.page.note.value = found.error ?? "";
+    } catch {
+      this.page.note.value = this.say("gone");
+    }
+    return null;
+  }
+
+  get undoable(): boolean {
+    return this.past.length > 0;
+  }
+
+  get redoable(): boolean {
+    return this.future.length > 0;
+  }
+
+  undo(): void {
+    this.go(this.past, this.future);
+  }
+
+  redo(): void {
+    this.go(this.future, this.past);
+  }
+
+  private go(from: string[], to: string[]): void {
+    const text = from.pop();
+    if (text === undefined) return;
+    to.push(this.text.value);
+    this.put(text, 0);
+  }
+
+  /** Takes a text as a step of its own. */
+  change(text: string, wait = 0): void {
+    if (text === this.text.value) return;
+    this.past.push(this.text.value);
+    this.future = [];
+    this.put(text, wait);
+  }
+
+  private put(text: string, wait: number): void {
+    this.text.value = text;
+    this.dirty.value = true;
+    void this.keep();
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.solve(), wait);
+  }
+
+  /** Every change goes to the server as a draft, in their order. */
+  private keep(): Promise<void> {
+    this.queue = this.queue.then(async () => {
+      if (!this.name.value || this.elsewhere.value !== null) return;
+      const kept = await this.ask<{ serial: number; other: string | null }>("keep", { name: this.name.value, text: this.text.value, window: this.window, serial: this.serial });
+      if (!kept) return;
+      this.serial = kept.serial;
+      if (kept.other !== null) this.elsewhere.value = kept.other;
+    });
+    return this.queue;
+  }
+
+  private async watch(): Promise<void> {
+    if (!this.name.value || this.elsewhere.value !== null) return;
+    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name: this.name.value, window: this.window });
+    if (!state) return;
+    if (this.page.note.value === this.say("gone")) {
+      this.page.note.value = "";
+      this.serial = state.serial;
+      await this.keep();
+      return;
+    }
+    if (state.other && state.serial !== this.serial) {
+      const opened = await this.ask<{ text: string; serial: number }>("open", { name: this.name.value });
+      if (opened && opened.text !== this.text.value) this.elsewhere.value = opened.text;
+      this.serial = state.serial;
+    }
+    this.onDisk.value = state.version !== this.version ? state.version : "";
+  }
+
+  takeTheirs(): void {
+    const text = this.elsewhere.value;
+    this.elsewhere.value = null;
+    if (text !== null) this.change(text);
+  }
+
+  keepMine(): void {
+    this.elsewhere.value = null;
+    void this.keep();
+  }
+
+  open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+    return (this.ready = this.opened(asked));
+  }
+
+  private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+    const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
+    if (!opened) return;
+    this.name.value = opened.name;
+    [this.version, this.serial, this.past, this.future] = [opened.version, opened.serial, [], []];
+    this.elsewhere.value = null;
+    this.onDisk.value = "";
+    this.text.value = opened.text;
+    this.dirty.value = opened.recovered;
+    if (opened.recovered) this.page.note.value = this.say("recovered");
+    this.clear();
+    await this.solve();
+    this.drawing.value = this.session.value === null;
+  }
+
+  async save(name: string): Promise<void> {
+    if (name !== this.name.value) {
+      this.name.value = name;
+      const there = await this.ask<{ version: string; serial: number }>("open", { name });
+      if (!there) return;
+      [this.version, this.serial] = [there.version, there.serial];
+    }
+    await this.keep();
+    const saved = await this.ask<{ saved: boolean; version: string }>("save", { name, text: this.text.value, version: this.version });
+    if (!saved) return;
+    if (!saved.saved) {
+      this.onDisk.value = saved.version;
+      return;
+    }
+    this.version = saved.version;
+    this.dirty.value = false;
+    this.page.note.value = this.say("saved");
+  }
+
+  async overwrite(): Promise<void> {
+    this.version = this.onDisk.value;
+    this.onDisk.value = "";
+    await this.save(this.name.value);
+  }
+
+  private clear(): void {
+    this.session.value = null;
+    this.side();
+  }
+
+  /** Asks what the text makes; a newer question makes an older answer void. */
+  async solve(): Promise<void> {
+    const number = ++this.asked, text = this.text.value;
+    const solved = await this.ask<Solved>("solve", { text });
+    if (!solved || number !== this.asked || text !== this.text.value) return;
+    this.solved.value = { ...solved, text };
+    if (!solved.model?.module) return;
+    const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
+    if (old) session.inherit(old);
+    session.ended = () => void this.adopt(session);
+    this.session.value = session;
+    this.side();
+  }
+
+  /** Writes the dimensions of the machine into the text. */
+  private async adopt(session: Session): Promise<void> {
+    const { dimensions } = session.data;
+    const values = Object.fromEntries(dimensions.filter((d) => session.model.values[d.address] !== d.value).map((d) => [d.address, session.model.values[d.address]]));
+    if (!Object.keys(values).length || session.data.text !== this.text.value) return;
+    const { text, missing } = session.text();
+    if (!missing.length) return this.change(text);
+    await this.write(values);
+  }
+
+  /** Begins a search and looks what is found so far until it has ended. */
+  async search(name: "curve" | "optimize", body: Record<string, unknown>): Promise<void> {
+    const begun = await this.ask<{ number: number }>(name, body);
+    if (!begun) return;
+    this.page.note.value = "";
+    for (;;) {
+      const found = await this.ask<Sought>("candidates");
+      if (!found || found.number !== begun.number || (this.sought.value?.number ?? 0) > begun.number) return;
+      this.sought.value = found;
+      if (!found.running) return;
+      await new Promise((go) => setTimeout(go, LOOK));
+    }
+  }
+
+  /** Writes dimensions (SI) into the text. */
+  async write(values: Values): Promise<void> {
+    const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
+    if (set && text === this.text.value) this.change(set.text);
+  }
+
+  /** Puts another machine beside the open one; none takes it away. */
+  async compare(asked: { name?: string; gallery?: string } | null): Promise<void> {
+    const found = asked && (await this.ask<{ text: string }>("read", asked));
+    const solved = found && (await this.ask<Solved>("solve", { text: found.text }));
+    if (solved && !solved.model?.module) this.page.note.value = solved.sentence || solved.findings.map(({ message }) => message).join("; ");
+    this.beside.value = solved?.model?.module ? new Session(solved.model, await code(solved.model, 1), 1) : null;
+    this.side();
+  }
+
+  private side(): void {
+    this.page.sessions.length = 0;
+    for (const each of [this.session.value, this.beside.value]) if (each) this.page.sessions.push(each);
+  }
+
+  async enough(): Promise<void> {
+    if (this.sought.value) this.sought.value = { ...this.sought.value, running: false };
+    await this.ask("enough");
+  }
+
+  /** A report or an export of the machine, as a download. */
+  async take(ending: string): Promise<void> {
+    this.page.note.value = this.say("making");
+    const found = await this.ask<{ name: string; content: string }>("take", { text: this.text.value, ending });
+    if (!found) return;
+    this.page.note.value = "";
+    const stem = this.name.value.replace(/\.\w+$/, "") || "machine";
+    save(new Blob([bytes(found.content)]), found.name.replace(/^machine/, stem));
+  }
+
+  /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */
+  act = (actions: Action[]): Promise<void> => {
+    this.pending++;
+    return (this.queue = this.queue.then(async () => {
+      await this.ready;
+      let text = this.text.value;
+      for (const action of actions) {
+        const edited = await this.ask<{ text: string }>("edit", { text, action });
+        if (!edited) return;
+        text = edited.text;
+      }
+      this.change(text);
+    }).finally(() => this.pending--));
+  };
+}
