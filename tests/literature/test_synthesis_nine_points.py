@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.nine_point_trace import curve
 
 import linkwright as lw
 from linkwright.synthesis.nine_points import tracker
@@ -29,6 +30,17 @@ def test_every_solution_and_its_cognates_satisfy_the_equations(solved: NinePoint
     for each in relatives(solved.solutions, solved.q):
         assert residual(each, solved.q).max() < 1e-5
     assert np.median(residual(solved.solutions, solved.q)) < 1e-13
+
+
+def test_the_coupler_curves_of_all_solutions_pass_all_points(solved: NinePoints) -> None:
+    """Roberts' sextic, formed without any rotation of the coupler, at the points and at one beside them."""
+    beside = np.array([[0.31 + 0.2j], [0.31 - 0.2j]])
+    values, slopes = curve(solved.solutions[:, :8], np.concatenate([solved.q, beside], 1))
+    size = (np.abs(slopes) * np.abs(solved.solutions[:, None, :8])).sum(2)
+    relative = np.abs(values) / size
+    assert np.median(relative[:, :8].max(1)) < 1e-12
+    assert np.quantile(relative[:, :8].max(1), 0.99) < 1e-7
+    assert np.median(relative[:, 8]) > 1e-4
 
 
 def test_cognates_are_of_one_class(solved: NinePoints) -> None:
