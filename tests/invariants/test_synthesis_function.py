@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.synthesis.function_generation.certain import extremes
 from linkwright.synthesis.function_generation.exact import chebyshev_spacing, five_pairs
+from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar
 
 X = np.linspace(1, 2, 21)
 INPUTS, LOGARITHM = np.radians((X - 1) * 60), np.radians(np.log10(X) / np.log10(2) * 90)
@@ -77,6 +79,32 @@ def test_zero_angles_do_not_matter_where_they_are_free() -> None:
 def test_a_free_scale_is_no_worse() -> None:
     scaled = lw.function_generation(INPUTS, LOGARITHM, scale_free=True).best
     assert scaled.error <= lw.function_generation(INPUTS, LOGARITHM).best.error
+
+
+@pytest.mark.parametrize("kind", ["four_bar", "slider_crank", "watt", "stephenson", "geared_five_bar"])
+def test_what_is_shown_of_a_range_is_what_every_position_has(kind: str) -> None:
+    """Least sine of the dyads' angles against 4001 positions: assembled everywhere just where it is not 0."""
+    generator = GearedFiveBar(-0.5) if kind == "geared_five_bar" else KINDS[kind]()
+    rng = np.random.default_rng(6)
+    x, signs = generator.sample(rng, 60), rng.choice([-1.0, 1.0], (60, generator.modes))
+    assembled = 0
+    for row, sign in zip(x[:, None], signs[:, None], strict=True):
+        low = rng.uniform(0, 6)
+        high = low + rng.uniform(0.2, 2)
+        shown = min(generator.sines(row, sign, low, high))
+        run = generator.run(row, sign, np.linspace(low, high, 4001))
+        assert (shown > 0) == (run.missing.max() == 0)
+        if shown > 0:
+            assembled += 1
+            assert shown == pytest.approx(run.sine.min(), abs=1e-4) and shown <= run.sine.min() + 1e-9
+    assert assembled > 2
+
+
+def test_a_gap_between_positions_is_seen() -> None:
+    """A narrow bump, far thinner than the first intervals, and a bound of its slope."""
+    width = 1e-4
+    least, most = extremes(lambda t: np.exp(-(((t - 0.123456) / width) ** 2)), 1 / width, 0.0, 6.0, 1e-4)
+    assert most == pytest.approx(1.0, abs=1e-4) and least == 0.0
 
 
 def test_chebyshev_spacing_is_that_of_the_polynomial() -> None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.function_generation.generators import Generator, Run
+from linkwright.synthesis.function_generation.generators import Generator
 from linkwright.synthesis.least_squares import minimise, with_differences
 
 Floats = NDArray[np.float64]
@@ -95,9 +95,3 @@ def fit(
 def column_of_zero(generator: Generator) -> int:
     """Column of the input's zero angle among a generator's numbers."""
     return 4 if generator.name == "geared_five_bar" else 3
-
-
-def whole_range(generator: Generator, x: Floats, signs: Floats, angles: Floats) -> Run:
-    """The run of one linkage between its first and last input."""
-    fine = np.linspace(angles.min(), angles.max(), 181)
-    return generator.run(x[None], signs[None], fine)

@@ -205,9 +205,8 @@ def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: i
     if not chosen:
         raise refuse("function.none", linkage=note(f"type.{generator.name}"))
     name = "angle" if generator.output_is_angle else "length"
-    notes = (note("function.sampled", within=FINE, turn=2 * FINE),)
     target = np.stack([demand.inputs, demand.outputs])
-    return Synthesis("function", chosen, name, target, {"optima": len(made)}, notes)
+    return Synthesis("function", chosen, name, target, {"optima": len(made)})
 
 
 def _candidate(
@@ -221,12 +220,12 @@ def _candidate(
     off, constant, factor = demand.matched(at.output * unit)
     fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
     between = generator.run(x, signs, fine)
-    turn = generator.run(x, signs, np.linspace(0, 2 * np.pi, 2 * FINE))
-    turns = bool(turn.missing.max() == 0)
-    seen = turn if turns else between
+    whole_turn = min(generator.sines(x, signs, 0.0, generator.turn()))
+    turns = whole_turn > 0
+    sine = whole_turn if turns else min(generator.sines(x, signs, demand.inputs.min(), demand.inputs.max()))
     steps = np.diff(demand.inputs)
     monotone = bool((steps >= 0).all() or (steps <= 0).all())
-    defects = (() if between.missing.max() == 0 else ("circuit",)) + (() if monotone else ("order",))
+    defects = (() if sine > 0 else ("circuit",)) + (() if monotone else ("order",))
     points = {name: complex(places[0, 0]) * scale for name, places in at.points.items()}
     linkage = generator.linkage(points, turns)
     if not turns:
@@ -242,7 +241,7 @@ def _candidate(
     }
     return Candidate(
         linkage, float(np.sqrt((off**2).mean())), _type(generator, at), defects, turns,
-        float(np.arcsin(np.clip(seen.sine.min(), 0, 1))), float(lengths.max() / lengths.min()),
+        float(np.arcsin(min(sine, 1.0))), float(lengths.max() / lengths.min()),
         worst=float(np.abs(off).max()), curve=curve, values=values,
     )  # fmt: skip
 

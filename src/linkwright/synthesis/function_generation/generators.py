@@ -9,18 +9,24 @@ Where it cannot be assembled the root's negative square measures by how much.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.synthesis.crank_family import CrankFamily
+from linkwright.synthesis.function_generation.certain import least_sine
 from linkwright.synthesis.linkage import Guide, Linkage
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Points = dict[str, Complexes]
+
+#: Denominator of a gear ratio up to which a geared linkage is followed until it repeats itself.
+MOST_TEETH = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +58,25 @@ class Generator(ABC):
         """Points and outputs at input angles (n,)."""
 
     @abstractmethod
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        """Least sine of every dyad's angle for one linkage (1, m) over a range of the input, shown; 0: not assembled
+        everywhere. Signs never change where none is 0: the linkage stays on its circuit and branch.
+        """
+
+    def _apart(self, x: Floats, signs: Floats, first: str, second: str) -> Callable[[Floats], Floats]:
+        """Distance of two points as a function of the input angle."""
+
+        def distance(angles: Floats) -> Floats:
+            points = self.run(x, signs, angles).points
+            return np.asarray(np.abs(points[first][0] - points[second][0]))
+
+        return distance
+
+    def turn(self) -> float:
+        """Input angle after which every driven link is back where it was."""
+        return 2 * np.pi
+
+    @abstractmethod
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         """The named linkage in one pose."""
 
@@ -69,9 +94,27 @@ def dyad(a: Complexes, c: Complexes, b: Floats, r: Floats, sign: Floats) -> tupl
     return place, root / (2 * b * r), missing
 
 
+def _clipped(logarithms: Floats) -> Floats:
+    """Lengths from their logarithms."""
+    return np.exp(np.clip(logarithms, -9, 9))
+
+
 def unwrapped(angle: Floats) -> Floats:
     """Angles (K, n) without jumps along n."""
     return np.asarray(np.unwrap(angle, axis=1))
+
+
+def _cosines(low: float, high: float) -> Floats:
+    """Least and greatest cosine of angles from low to high."""
+    turns = np.pi * np.arange(np.ceil(low / np.pi), np.floor(high / np.pi) + 1)
+    values = np.cos(np.concatenate([[low, high], turns]))
+    return np.array([values.min(), values.max()])
+
+
+def _of_extremes(distances: Floats, b: float, r: float) -> float:
+    """Least sine of a dyad's angle whose ends are between these two distances; 0 where it cannot be assembled."""
+    cosines = (b * b + r * r - distances**2) / (2 * b * r)
+    return float(np.sqrt(np.maximum(1 - cosines**2, 0.0)).min())
 
 
 class FourBar(Generator):
@@ -89,6 +132,11 @@ class FourBar(Generator):
         joint, sine, missing = dyad(pin, o2, b, c, signs[:, 0])
         points = {"O1": 0 * o2, "O2": o2, "A": pin, "B": joint}
         return Run(points, unwrapped(np.angle(joint - o2)), sine, missing)
+
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        a, b, c = (float(each) for each in _clipped(x[0, :3]))
+        cosines = _cosines(low + x[0, 3], high + x[0, 3])
+        return (_of_extremes(np.sqrt(np.maximum(1 + a * a - 2 * a * cosines, 0.0)), b, c),)
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {"input": ("O1", "A"), "coupler": ("A", "B"), "output": ("O2", "B")}
@@ -111,9 +159,14 @@ class TurningFourBar(FourBar):
         return np.column_stack([free, rng.uniform(0, 2 * np.pi, count)])
 
     def run(self, x: Floats, signs: Floats, angles: Floats) -> Run:
+        return super().run(self._plain(x, signs), signs, angles)
+
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        return super().sines(self._plain(x, signs), signs, low, high)
+
+    def _plain(self, x: Floats, signs: Floats) -> Floats:
         b, c, d = CrankFamily(signs[:, 1] > 0, self.transmission).lengths(x)
-        plain = np.column_stack([np.log(np.stack([1 / d, b / d, c / d], 1)), x[:, 3]])
-        return super().run(plain, signs, angles)
+        return np.column_stack([np.log(np.stack([1 / d, b / d, c / d], 1)), x[:, 3]])
 
 
 class SliderCrank(Generator):
@@ -136,6 +189,12 @@ class SliderCrank(Generator):
         missing = np.sqrt(np.maximum(-inner, 0.0)) / rod[:, None]
         points = {"O1": 0 * pin, "A": pin, "B": slide + 1j * x[:, 2:3]}
         return Run(points, slide, root / rod[:, None], missing)
+
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        r, rod = (float(each) for each in _clipped(x[0, :2]))
+        start = x[0, 3] - np.pi / 2
+        height = np.abs(x[0, 2] - r * _cosines(low + start, high + start)).max() / rod
+        return (float(np.sqrt(max(0.0, 1 - height**2))),)
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {"crank" if turns else "input": ("O1", "A"), "rod": ("A", "B"), "slider": ("B",)}
@@ -175,6 +234,13 @@ class Watt(Generator):
         both = np.minimum(sine, first.sine)
         return Run(points, unwrapped(np.angle(d - o3)), both, missing + first.missing)
 
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        (first,) = FourBar().sines(x, signs, low, high)
+        a, _, c, _, arm, coupler, output = (float(each) for each in _clipped(x[0, :7]))
+        rate = arm * a / c / max(first, 1e-12)
+        apart = self._apart(x, signs, "C", "O3")
+        return first, first and least_sine(apart, rate, (coupler, output), low, high)
+
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
             "input": ("O1", "A"), "coupler": ("A", "B"), "ternary": ("O2", "B", "C"), "second_coupler": ("C", "D"),
@@ -209,6 +275,13 @@ class Stephenson(Generator):
         both = np.minimum(sine, first.sine)
         return Run(points, unwrapped(np.angle(q - o3)), both, missing + first.missing)
 
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        (first,) = FourBar().sines(x, signs, low, high)
+        a, b = (float(each) for each in _clipped(x[0, :2]))
+        rate = a + float(np.hypot(*x[0, 4:6])) * a / b / max(first, 1e-12)
+        link, output = (float(each) for each in _clipped(x[0, 8:10]))
+        return first, first and least_sine(self._apart(x, signs, "P", "O3"), rate, (link, output), low, high)
+
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
             "input": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"), "link": ("P", "Q"),
@@ -239,6 +312,14 @@ class GearedFiveBar(Generator):
         b, sine, missing = dyad(a, c, first, second, signs[:, 0])
         points = {"O1": 0 * o2, "O2": o2, "A": a, "B": b, "C": c}
         return Run(points, unwrapped(np.angle(b - a)), sine, missing)
+
+    def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
+        crank, first, second, geared = (float(each) for each in _clipped(x[0, :4]))
+        rate = crank + abs(self.ratio) * geared
+        return (least_sine(self._apart(x, signs, "A", "C"), rate, (first, second), low, high),)
+
+    def turn(self) -> float:
+        return 2 * np.pi * Fraction(self.ratio).limit_denominator(MOST_TEETH).denominator
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {"crank": ("O1", "A"), "output": ("A", "B"), "link": ("B", "C"), "geared_crank": ("O2", "C")}

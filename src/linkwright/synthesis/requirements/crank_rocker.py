@@ -18,11 +18,17 @@ from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.demands import whole
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
-from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, note, refuse
 
 Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 SAMPLES = 20_001
+#: A rocker swings less than half a turn.
+LARGEST_SWING = math.pi
+#: How far below its border the nearest quick-return angle lies.
+BELOW = 2e-3
+#: Quick-return ratios of the nearest slotted levers, where a demand lies beyond what they can have.
+LEAST_RATIO, MOST_RATIO = 1.05, 1000.0
 
 
 def crank_rocker(
@@ -34,22 +40,18 @@ def crank_rocker(
     shortest (without that limit the best may lie at infinity); the others stand evenly over the family.
 
     Raises:
-        SynthesisError: no crank-rocker has this swing and K (0 < ψ < π, 1 ≤ K < 3).
+        SynthesisError: no crank-rocker has this swing and K (0 < ψ < π, K ≥ 1); ``nearest``: those of the largest
+            K that the swing allows.
     """
     whole(count=count)
     positive(swing_angle=swing_angle, frame=frame)
     theta = angle_between_limits(quick_return_ratio)
-    if not swing_angle < math.pi or not theta < math.pi / 2:
-        raise refuse(
-            "crank_rocker.range", swing=f"{math.degrees(swing_angle):g}", k=f"{quick_return_ratio:g}"
-        )
     pivots, limits = _family(swing_angle, theta)
     facts, pins = _assess(pivots, limits)
     lengths = np.abs(pivots)
-    wanted = _limit_positions_right(pivots, pins, swing_angle, theta)
-    good = (facts.kind == 0) & wanted
-    if not good.any():
-        raise refuse("crank_rocker.none", swing=f"{math.degrees(swing_angle):g}", k=f"{quick_return_ratio:g}")
+    good = (facts.kind == 0) & _limit_positions_right(pivots, pins, swing_angle, theta)
+    if swing_angle >= LARGEST_SWING or not good.any():
+        raise _none(swing_angle, quick_return_ratio, frame, link_ratio, count)
     within = good & (facts.ratio <= link_ratio)
     notes = () if within.any() else (note("link_ratio", least=f"{facts.ratio[good].min():.4g}"),)
     if not within.any():
@@ -67,6 +69,34 @@ def crank_rocker(
         values = {"swing_angle [rad]": swing_angle, "quick_return_ratio": quick_return_ratio}
         found.append(four_bar_candidate(o1, a, b, complex(o2), facts, i, 0.0, values=values))
     return Synthesis("crank_rocker", tuple(found), counts={"family": int(good.sum())}, notes=notes)
+
+
+def _none(swing: float, k: float, frame: float, link_ratio: float, count: int) -> SynthesisError:
+    """The refusal with the crank-rockers of the swing (or the largest that goes) and the largest K it allows.
+
+    θ stays below π/2 + ψ/2: there the crank's pivot comes to lie on the rocker's circle.
+    """
+    possible = min(swing, 0.99 * LARGEST_SWING)
+    border = (math.pi + possible) / 2
+    theta = min((1 - BELOW) * border, angle_between_limits(k))
+    while not _good(possible, theta).any():
+        theta *= 1 - BELOW
+    near = _ratio(theta)
+    nearest = crank_rocker(possible, near, frame, link_ratio=link_ratio, count=count)
+    rule = "crank_rocker.range" if possible < swing else "crank_rocker.none"
+    said = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
+    return refuse(rule, nearest, near_swing=f"{math.degrees(possible):.5g}", near=f"{near:.5g}", **said)
+
+
+def _ratio(theta: float) -> float:
+    return (math.pi + theta) / (math.pi - theta)
+
+
+def _good(swing: float, theta: float) -> NDArray[np.bool_]:
+    """Which of the family are crank-rockers of one circuit with the swing and θ."""
+    pivots, limits = _family(swing, theta)
+    facts, pins = _assess(pivots, limits)
+    return np.asarray((facts.kind == 0) & _limit_positions_right(pivots, pins, swing, theta))
 
 
 def _family(swing: float, theta: float) -> tuple[Complexes, Complexes]:
@@ -102,10 +132,14 @@ def _limit_positions_right(
     """Whether the four-bar of one circuit has the swing and θ: its own limit positions, from its lengths."""
     a, d = np.abs(pins[0][:, 0] - pivots), np.abs(pivots)
     b, c = np.abs(pins[1][:, 0] - pins[0][:, 0]), 1.0
-    ends = [np.arccos(np.clip((c * c + d * d - reach**2) / (2 * c * d), -1, 1)) for reach in (b + a, b - a)]
-    sides = [
-        np.arccos(np.clip((reach**2 + d * d - c * c) / (2 * reach * d), -1, 1)) for reach in (b + a, b - a)
-    ]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ends, sides = (
+            [
+                np.arccos(np.clip((near * near + d * d - far * far) / (2 * near * d), -1, 1))
+                for near, far in pairs
+            ]
+            for pairs in (((c, b + a), (c, b - a)), ((b + a, c), (b - a, c)))
+        )
     right_swing = np.abs(np.abs(ends[0] - ends[1]) - swing) < 1e-9
     return np.asarray(right_swing & (np.abs(np.abs(sides[0] - sides[1]) - theta) < 1e-9) & (a > 1e-9))
 
@@ -127,9 +161,11 @@ def quick_return(
     not_negative(stroke=stroke, rod=rod)
     theta = angle_between_limits(quick_return_ratio)
     if theta <= 0:
-        raise refuse("quick_return.one")
+        near = quick_return(LEAST_RATIO, frame, stroke=stroke)
+        raise refuse("quick_return.one", near, near=f"{LEAST_RATIO:g}")
     if math.cos(theta / 2) < 1e-6:
-        raise refuse("quick_return.most", given=f"{quick_return_ratio:g}")
+        near = quick_return(MOST_RATIO, frame, stroke=stroke)
+        raise refuse("quick_return.most", near, given=f"{quick_return_ratio:g}", near=f"{MOST_RATIO:g}")
     crank = frame * math.sin(theta / 2)
     points = {"O1": 0j, "O3": -1j * frame, "A": complex(crank)}
     lever = (complex(crank) + 1j * frame) / abs(complex(crank) + 1j * frame)
@@ -144,7 +180,8 @@ def quick_return(
         least = (arm - height) / math.cos(theta / 2)
         length = rod or max(arm / 2, 1.1 * least)
         if length < least * (1 - 1e-9):
-            raise refuse("quick_return.rod", least=f"{least:.6g}")
+            near = quick_return(quick_return_ratio, frame, stroke=stroke, rod=least)
+            raise refuse("quick_return.rod", near, least=f"{least:.6g}")
         points["F"] = complex(points["E"].real + math.sqrt(length**2 - sink**2), height - frame)
         links |= {"link": ("E", "F"), "ram": ("F",)}
         guides["guide"] = Guide("frame", "O3", 0.0, "ram", "F", height)

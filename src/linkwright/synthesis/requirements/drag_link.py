@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
-from linkwright.synthesis.result import Synthesis, refuse
+from linkwright.synthesis.result import Synthesis, SynthesisError, refuse
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -35,19 +35,48 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
     ``link_ratio``: the longest link is at most so many times the shortest.
 
     Raises:
-        SynthesisError: K ≤ 1, or no drag link found with this K.
+        SynthesisError: K < 1, or no drag link found with this K (``nearest``: the one of the largest K that was
+            found with these links, or of the smallest ratio of links with this K where K = 1 asks for more).
     """
-    positive(frame=frame)
+    positive(frame=frame, link_ratio=link_ratio)
     theta = angle_between_limits(quick_return_ratio)
-    if theta <= 0:
-        raise refuse("drag_link.one")
+    best, value = _best(theta, link_ratio)
+    if value <= 0:
+        raise _none(quick_return_ratio, frame, link_ratio)
+    facts, _ = _score(best[None], math.pi + theta, link_ratio)
+    o1, a, b, o2 = (each * frame for each in _places(best[None], math.pi + theta))
+    values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
+    each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
+    return Synthesis("drag_link", (each,))
+
+
+def _none(quick_return_ratio: float, frame: float, link_ratio: float) -> SynthesisError:
+    """The refusal with the largest K that these links reach, or K = 1 with the smallest ratio of links."""
+    low, high = 1.0, quick_return_ratio
+    if _best(0.0, link_ratio)[1] <= 0:
+        wider = link_ratio
+        while _best(0.0, wider)[1] <= 0:
+            wider *= 1.2
+        given = {"ratio": f"{link_ratio:g}", "least": f"{wider:.4g}"}
+        return refuse("drag_link.links", drag_link(1.0, frame, link_ratio=wider), **given)
+    while high / low > 1.005:
+        middle = math.sqrt(low * high)
+        reached = _best(angle_between_limits(middle), link_ratio)[1] > 0
+        low, high = (middle, high) if reached else (low, middle)
+    nearest = drag_link(low, frame, link_ratio=link_ratio)
+    return refuse("drag_link.none", nearest, k=f"{quick_return_ratio:g}", most=f"{low:.4g}")
+
+
+def _best(theta: float, link_ratio: float) -> tuple[Floats, float]:
+    """The free numbers with the greatest smallest transmission angle, and that angle; -1 where none moves."""
     rng = np.random.default_rng(0)
-    low, high = np.array([math.log(1.05), 0.0, 0.0]), np.array([math.log(12.0), 2 * math.pi, 2 * math.pi])
+    longest = math.log(min(max(link_ratio, 1.0), 12.0))
+    low, high = np.zeros(3), np.array([longest, 2 * math.pi, 2 * math.pi])
     x = rng.uniform(low, high, (GRID, 3))
     width = (high - low) / 8
     best, value = x[0], -1.0
     for _ in range(ROUNDS):
-        facts, score = _score(x, math.pi + theta, link_ratio)
+        _, score = _score(x, math.pi + theta, link_ratio)
         order = np.argsort(-score)[:BEST]
         if score[order[0]] > value:
             best, value = x[order[0]], float(score[order[0]])
@@ -55,13 +84,7 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
             [best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width]
         )
         width = width * 0.6
-    if value <= 0:
-        raise refuse("drag_link.none", k=f"{quick_return_ratio:g}")
-    facts, _ = _score(best[None], math.pi + theta, link_ratio)
-    o1, a, b, o2 = (each * frame for each in _places(best[None], math.pi + theta))
-    values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
-    each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
-    return Synthesis("drag_link", (each,))
+    return best, value
 
 
 def _places(x: Floats, beta: float) -> tuple[Complexes, Complexes, Complexes, Complexes]:

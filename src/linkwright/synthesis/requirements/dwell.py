@@ -15,15 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.synthesis.crank_family import CrankFamily, couplers
+from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Synthesis, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, refuse
 
 Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
 
-ATLAS, SAMPLES, ARCS = 4000, 72, 40
+#: Crank-rockers tried, positions of a turn, arcs kept; positions of the turn of a candidate.
+ATLAS, SAMPLES, ARCS, FINE = 4000, 72, 40, 3600
+MOST_REST, MOST_SWING = np.pi, 2.6
 #: Fan of the output's pivot: directions, and arm lengths in units of the arc's radius.
 DIRECTIONS, ARMS = 36, np.geomspace(0.2, 3.0, 14)
 LEAST_TRANSMISSION = np.radians(30)
@@ -31,15 +33,30 @@ LEAST_TRANSMISSION = np.radians(30)
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """The best arcs: pins A, B and P over one turn (N, SAMPLES), frame d (N,), first sample, centre, radius."""
+    """The best arcs: lengths b, c, d (3, N) with a crank of 1, place of P on the coupler and its path over one turn
+    (N, SAMPLES) from the crank angle ``start`` (rad) at which the arc begins, its centre and radius.
+    """
 
-    a: Complexes
-    b: Complexes
+    shape: Floats
+    arm: Complexes
     p: Complexes
-    d: Floats
-    start: Whole
+    start: Floats
     centre: Complexes
     radius: Floats
+
+    @property
+    def d(self) -> Floats:
+        """Frames."""
+        return np.asarray(self.shape[2])
+
+
+@dataclass(frozen=True)
+class Fan:
+    """The output's pivot: its arm's length, direction from the arc's centre (rad), and the output's swing (rad)."""
+
+    arm: float
+    direction: float
+    travel: float
 
 
 def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: int = 0) -> Synthesis:
@@ -48,25 +65,43 @@ def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: i
     ``frame``: length of the four-bar's frame, m. ``error``: the output's greatest deviation during the rest, rad.
 
     Raises:
-        SynthesisError: angles out of range, or no movable six-bar in the atlas (with the demand that fails).
+        SynthesisError: angles out of range, or no movable six-bar in the atlas; ``nearest``: within the range, or
+            with the nearest swing.
     """
     positive(crank_angle=crank_angle, swing_angle=swing_angle, frame=frame)
-    if crank_angle > np.pi or swing_angle > 2.6:
-        raise refuse("dwell.range")
-    window = max(4, round(crank_angle / (2 * np.pi) * SAMPLES) + 1)
-    arcs = _arcs(window, np.random.default_rng(seed))
-    candidates = [
-        found for i in range(ARCS) if (found := _output(arcs, i, window, swing_angle, frame)) is not None
-    ]
+    degrees = {"swing": f"{np.degrees(swing_angle):.4g}", "crank": f"{np.degrees(crank_angle):.4g}"}
+    possible = min(crank_angle, MOST_REST), min(swing_angle, MOST_SWING)
+    if possible != (crank_angle, swing_angle):
+        try:
+            nearest: Synthesis | None = dwell(*possible, frame=frame, seed=seed)
+        except SynthesisError as error:
+            nearest = error.nearest
+        raise refuse("dwell.range", nearest, **degrees)
+    arcs = _arcs(crank_angle, np.random.default_rng(seed))
+    fans = [_fan(arcs, i, swing_angle) for i in range(len(arcs.d))]
+    made = [_output(arcs, i, fans[i], crank_angle, swing_angle, frame) for i in range(len(fans))]
+    candidates = [each for each in made if each is not None]
     if not candidates:
-        raise refuse(
-            "dwell.none", swing=f"{np.degrees(swing_angle):.4g}", crank=f"{np.degrees(crank_angle):.4g}"
-        )
+        raise _none(arcs, fans, crank_angle, swing_angle, frame, degrees)
     candidates.sort(key=lambda each: each.error)
     return Synthesis("dwell", tuple(candidates[:4]), "rest", counts={"arcs": ARCS})
 
 
-def _arcs(window: int, rng: np.random.Generator) -> Arcs:
+def _none(
+    arcs: Arcs, fans: list[Fan], crank_angle: float, swing: float, frame: float, degrees: dict[str, str]
+) -> SynthesisError:
+    """The refusal with the output whose swing comes nearest."""
+    for i in sorted(range(len(fans)), key=lambda i: abs(fans[i].travel - swing)):
+        if np.isfinite(fans[i].travel):
+            found = _output(arcs, i, fans[i], crank_angle, fans[i].travel, frame)
+            if found is not None:
+                near = f"{np.degrees(fans[i].travel):.4g}"
+                return refuse("dwell.none", Synthesis("dwell", (found,), "rest"), near=near, **degrees)
+    return refuse("dwell.no_arc", None, **degrees)
+
+
+def _arcs(crank_angle: float, rng: np.random.Generator) -> Arcs:
+    window = max(4, round(crank_angle / (2 * np.pi) * SAMPLES) + 1)
     family, free = CrankFamily.random(rng, ATLAS, LEAST_TRANSMISSION)
     shape = family.lengths(free)
     keep = ~family.double & (shape.max(0) < 6)
@@ -87,8 +122,8 @@ def _arcs(window: int, rng: np.random.Generator) -> Arcs:
     start = score.argmin(1)
     rows = np.argsort(score[np.arange(len(p)), start])[:ARCS]
     first = start[rows]
-    b = a + shape[0][:, None] * u
-    return Arcs(a[rows], b[rows], p[rows], shape[2, rows], first, centre[rows, first], radius[rows, first])
+    paths = np.stack([np.roll(p[row], -k) for row, k in zip(rows, first, strict=True)])
+    return Arcs(shape[:, rows], arm[rows], paths, theta[first], centre[rows, first], radius[rows, first])
 
 
 def fit_circles(p: Complexes) -> tuple[Complexes, Floats, Floats]:
@@ -106,26 +141,48 @@ def fit_circles(p: Complexes) -> tuple[Complexes, Floats, Floats]:
     return c + middle[..., 0], radius, off
 
 
-def _output(arcs: Arcs, i: int, window: int, swing: float, frame: float) -> Candidate | None:
-    """The output of one arc whose swing is the demanded one, with the best transmission angle."""
-    p, centre, rod = np.roll(arcs.p[i], -int(arcs.start[i])), arcs.centre[i], arcs.radius[i]
+def _fan(arcs: Arcs, i: int, swing: float) -> Fan:
+    """The pivot of a fan about one arc's centre whose output swings most nearly as demanded."""
+    p, centre, rod = arcs.p[i], arcs.centre[i], arcs.radius[i]
     arms, directions = np.meshgrid(ARMS * rod, np.arange(DIRECTIONS) * 2 * np.pi / DIRECTIONS)
     arm, pivot = arms.ravel(), (centre + arms * np.exp(1j * directions)).ravel()
     angle, sine = _follow(p, pivot, arm, rod, centre)
     travel = np.ptp(angle, axis=1)
     good = np.isfinite(travel) & (np.abs(sine).min(1) > np.sin(LEAST_TRANSMISSION))
-    if not good.any() or np.abs(travel[good] - swing).min() > 0.25 * swing:
-        return None
     best = int(np.where(good, np.abs(travel - swing), np.inf).argmin())
-    arm_length, direction = _refined(p, centre, rod, arm[best], float(np.angle(pivot[best] - centre)), swing)
-    place = centre + arm_length * np.exp(1j * direction)
-    angle, sine = _follow(p, np.array([place]), np.array([arm_length]), rod, centre)
+    return Fan(
+        float(arm[best]), float(directions.ravel()[best]), float(travel[best]) if good[best] else np.inf
+    )
+
+
+def _output(arcs: Arcs, i: int, fan: Fan, crank_angle: float, swing: float, frame: float) -> Candidate | None:
+    """The output of one arc with the demanded swing; None where there is none near the fan's."""
+    if not abs(fan.travel - swing) <= 0.25 * swing:
+        return None
+    theta = arcs.start[i] + np.arange(FINE) * 2 * np.pi / FINE
+    a, u = couplers(theta, arcs.shape[:, i : i + 1])
+    p, centre, rod = (a + arcs.arm[i] * u)[0], arcs.centre[i], arcs.radius[i]
+    arm = _refined(p, centre, rod, fan, swing)
+    pivot = centre + arm * np.exp(1j * fan.direction)
+    angle, _ = _follow(p, np.array([pivot]), np.array([arm]), rod, centre)
     if not np.isfinite(angle).all() or abs(np.ptp(angle) - swing) > 1e-6:
         return None
-    rest = angle[0, :window]
-    return _candidate(
-        arcs, i, complex(place), angle[0], float(np.abs(sine).min()), float(np.ptp(rest) / 2), frame
+    sine = _least_sine(arcs, i, complex(pivot), arm)
+    if sine < np.sin(LEAST_TRANSMISSION) * (1 - 1e-6):
+        return None
+    rest = angle[0, : round(crank_angle / (2 * np.pi) * FINE) + 1]
+    return _candidate(arcs, i, complex(pivot), angle[0], sine, float(np.ptp(rest) / 2), frame)
+
+
+def _least_sine(arcs: Arcs, i: int, pivot: complex, arm: float) -> float:
+    """Least sine of both dyads' angles over the turn, shown; 0 where the six-bar does not turn."""
+    b, c, d = arcs.shape[:, i]
+    place, away = arcs.arm[i] / d, pivot / d
+    lengths = np.log([1 / d, b / d, c / d])
+    x = np.array(
+        [*lengths, 0.0, place.real, place.imag, away.real, away.imag, *np.log([arcs.radius[i] / d, arm / d])]
     )
+    return min(Stephenson().sines(x[None], np.ones((1, 2)), 0.0, 2 * np.pi))
 
 
 def _follow(
@@ -142,14 +199,12 @@ def _follow(
     return np.unwrap(angle, axis=1), np.sin(inner)
 
 
-def _refined(
-    p: Complexes, centre: complex, rod: float, arm: float, direction: float, swing: float
-) -> tuple[float, float]:
+def _refined(p: Complexes, centre: complex, rod: float, fan: Fan, swing: float) -> float:
     """The arm length at which the swing is the demanded one, by the secant rule."""
-    before = 1.02 * arm
+    before, arm = 1.02 * fan.arm, fan.arm
 
     def excess(length: float) -> float:
-        pivot = np.array([centre + length * np.exp(1j * direction)])
+        pivot = np.array([centre + length * np.exp(1j * fan.direction)])
         return float(np.ptp(_follow(p, pivot, np.array([length]), rod, centre)[0])) - swing
 
     low, high = excess(before), excess(arm)
@@ -158,15 +213,17 @@ def _refined(
             break
         before, arm = arm, arm - high * (arm - before) / (high - low)
         low, high = high, excess(arm)
-    return arm, direction
+    return arm
 
 
 def _candidate(
     arcs: Arcs, i: int, pivot: complex, angle: Floats, sine: float, error: float, frame: float
 ) -> Candidate:
-    start, scale = int(arcs.start[i]), frame / arcs.d[i]
-    a, b, p = (each[i, start] for each in (arcs.a, arcs.b, arcs.p))
-    points = {"O1": 0j, "O2": complex(arcs.d[i]), "O3": pivot, "A": a, "B": b, "P": p, "Q": arcs.centre[i]}
+    scale = frame / arcs.d[i]
+    a, u = (complex(each[0, 0]) for each in couplers(arcs.start[i : i + 1], arcs.shape[:, i : i + 1]))
+    b, p = a + arcs.shape[0, i] * u, a + arcs.arm[i] * u
+    end = pivot + abs(pivot - arcs.centre[i]) * np.exp(1j * angle[0])
+    points = {"O1": 0j, "O2": complex(arcs.d[i]), "O3": pivot, "A": a, "B": b, "P": p, "Q": end}
     linkage = Linkage(
         "stephenson",
         {name: complex(place * scale) for name, place in points.items()},

@@ -49,11 +49,15 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
     """
     positive(stroke=stroke, offset=offset)
     theta = angle_between_limits(quick_return_ratio)
+    angle = math.atan2(stroke, offset)
+    largest = (math.pi + angle) / (math.pi - angle)
     if theta <= 0:
-        raise refuse("slider_crank.no_quick_return", given=f"{quick_return_ratio:g}")
+        near = min(1.02, largest)
+        nearest = slider_crank_from_quick_return(stroke, near, offset)
+        raise refuse(
+            "slider_crank.no_quick_return", nearest, given=f"{quick_return_ratio:g}", near=f"{near:.6g}"
+        )
     if theta >= math.pi / 2 or offset > stroke / math.tan(theta) * (1 + ROUND):
-        angle = math.atan2(stroke, offset)
-        largest = (math.pi + angle) / (math.pi - angle)
         nearest = slider_crank_from_quick_return(stroke, largest, offset)
         raise refuse(
             "slider_crank.quick_return", nearest, given=f"{quick_return_ratio:g}", most=f"{largest:.6g}"
@@ -97,7 +101,9 @@ def angle_between_limits(quick_return_ratio: float) -> float:
     """θ = π (K - 1)/(K + 1), rad; raises SynthesisError for K < 1 and infinite K."""
     positive(quick_return_ratio=quick_return_ratio)
     if not quick_return_ratio >= 1:
-        raise refuse("quick_return_below_one", given=f"{quick_return_ratio:g}")
+        raise refuse(
+            "quick_return_below_one", given=f"{quick_return_ratio:g}", inverse=f"{1 / quick_return_ratio:.6g}"
+        )
     return math.pi * ((quick_return_ratio - 1) / (quick_return_ratio + 1))
 
 

@@ -59,7 +59,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     Ranked by size.
 
     Raises:
-        SynthesisError: an unknown kind, or none is straight enough (with the straightest).
+        SynthesisError: an unknown kind, or none is straight enough (``nearest``: the straightest found).
     """
     positive(length=length)
     if kind is not None and kind not in KINDS:
@@ -68,13 +68,24 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     if not allowed > 0:
         raise refuse("not_positive", name="deviation", given=f"{allowed * length:g}")
     names = KINDS if kind is None else (kind,)
+    good, within = _straight(names, length, allowed), allowed
+    while not good:
+        within *= 1.5
+        good = _straight(names, length, within)
+    result = Synthesis("straight_line", good, "deviation")
+    if within > allowed:
+        given, least = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
+        raise refuse("straight_line.none", result, kind=str(kind), given=given, least=least)
+    return result
+
+
+def _straight(names: tuple[str, ...], length: float, allowed: float) -> tuple[Candidate, ...]:
+    """Those of the linkages that are straight enough, smallest first."""
     found = [
         _peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names
     ]
-    good = sorted((each for each in found if each is not None), key=lambda each: each.values["largest [m]"])
-    if not good:
-        raise refuse("straight_line.none", kind=str(kind), given=f"{allowed * length:.4g}")
-    return Synthesis("straight_line", tuple(good), "deviation")
+    good = [each for each in found if each is not None]
+    return tuple(sorted(good, key=lambda each: each.values["largest [m]"]))
 
 
 def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:

@@ -28,7 +28,8 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     """
     positive(force_ratio=force_ratio, distance=distance, stroke=stroke)
     if stroke < distance:
-        raise refuse("toggle.stroke", stroke=f"{stroke:g}", distance=f"{distance:g}")
+        nearest = toggle(force_ratio, distance, distance)
+        raise refuse("toggle.stroke", nearest, stroke=f"{stroke:g}", distance=f"{distance:g}")
     alpha = math.atan(1 / (2 * force_ratio))
     length = distance / (4 * math.sin(alpha / 2) ** 2)
     begin = 1 - stroke / (2 * length)

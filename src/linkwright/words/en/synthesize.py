@@ -79,40 +79,45 @@ linkwright synthesize press.yaml --json""",
     "transmission_range": "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 "
     "and less than 90 deg",
     "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 "
-    "or more",
+    "or more; with the crank turning the other way it is {inverse}",
     "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least "
     "is {least}",
     "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = "
     "{least} (the nearest solution has that)",
     "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; "
-    "give offset 0 "
-    "with a rod ratio or a transmission angle, or a larger K",
+    "give offset 0 with a rod ratio or a transmission angle, or a larger K (the nearest solution has K = {near}; "
+    "a longer rod comes nearer)",
     "slider_crank.quick_return": "stroke and offset allow no quick-return ratio {given}; at most K = {most} "
     "(the nearest solution has that)",
     "slider_crank.demands": "a slider-crank needs stroke and one of: rod_ratio (and offset_ratio); "
     "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
     "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be "
-    "below 180 deg and K below 3",
-    "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; lower "
-    "K or change "
-    "the swing",
-    "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio",
+    "below 180 deg (the nearest solution swings {near_swing} deg with K = {near})",
+    "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; with "
+    "this swing K stays below {most} (the nearest solution has K = {near})",
+    "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio "
+    "(the nearest solution has {near})",
     "quick_return.most": "K = {given} asks for a crank as long as its distance from the lever's pivot; "
-    "ask for a smaller quick-return ratio",
-    "quick_return.rod": "the rod is too short: the ram would turn back before the lever does; give {least} m or more",
-    "drag_link.one": "a drag link for quick return has K > 1; ask for a larger quick-return ratio",
-    "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; lower K or "
-    "allow a larger "
-    "link_ratio",
+    "ask for a smaller quick-return ratio (the nearest solution has {near})",
+    "quick_return.rod": "the rod is too short: the ram would turn back before the lever does; give {least} m or more "
+    "(the nearest solution has that)",
+    "drag_link.none": "no drag link was found with K = {k} and the demanded ratio of links; at most K = {most} was "
+    "reached (the nearest solution has that): lower K or allow a larger link_ratio",
+    "drag_link.links": "no drag link was found whose longest link is at most {ratio} times its shortest; allow "
+    "{least} (the nearest solution has that, with K = 1)",
     "toggle.stroke": "the stroke {stroke} m is shorter than the distance {distance} m at which the force "
-    "ratio is wanted",
+    "ratio is wanted (the nearest solution has a stroke of that distance)",
     "toggle.too_long": "the force ratio at that distance gives links for a stroke of at most {most} m; the "
     "nearest solution has a stroke just below it",
     "straight_line.kind": 'there is no straight-line linkage "{kind}"; known: {known}',
-    "straight_line.none": "{kind} has no stretch that stays within {given} m; allow a larger deviation",
-    "dwell.range": "the rest can last up to 180 deg of the crank, and the swing be up to 149 deg",
+    "straight_line.none": "{kind} has no stretch that stays within {given} m; allow a larger deviation (the "
+    "nearest solution has {least} m)",
+    "dwell.range": "the rest can last up to 180 deg of the crank, and the swing be up to 149 deg, and {crank} deg "
+    "and {swing} deg are demanded (the nearest solution is shown)",
+    "dwell.no_arc": "no stretch of a coupler curve was found that is nearly an arc over {crank} deg of the crank "
+    "(swing {swing} deg); ask for a shorter rest",
     "dwell.none": "no output was found that swings {swing} deg and rests for {crank} deg of the crank with a "
-    "transmission angle above 30 deg; ask for a shorter rest or another swing",
+    "transmission angle above 30 deg; the nearest solution swings {near} deg: ask for a shorter rest or that swing",
     "path.few": "{count} points are too few for a path; give 3 or more",
     "path.angles": "{angles} crank angles do not fit {points} points; give one for each point",
     "path.one_place": "all points of the path lie in one place; give different points",
@@ -175,8 +180,6 @@ linkwright synthesize press.yaml --json""",
     "solution has a greatest error of {error}",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
     "{why}",
-    "function.sampled": "defects and transmission angles were looked at in {within} positions between the first and "
-    "last input ({turn} of a turn), not proved in between",
     "function.free": "zero angles: input {input} deg, output {output}",
     "free_curve.measure": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
     "whole turn, every joint within {size} rms radii of the curve's centroid. drawn_as_given: 1 where the curve is "

@@ -75,29 +75,35 @@ linkwright synthesize press.yaml --json""",
     "not_positive": "{name} 为 {given}；它应为有限正数",
     "negative": "{name} 为 {given}；它不应为负",
     "transmission_range": "最小传动角不能为 {given} deg；应大于 0、小于 90 deg",
-    "quick_return_below_one": "行程速比系数 {given} 小于 1；它是慢行程时间与快行程时间之比，应为 1 或更大",
+    "quick_return_below_one": "行程速比系数 {given} 小于 1；它是慢行程时间与快行程时间之比，应为 1 或更大；"
+    "曲柄反转时即为 {inverse}",
     "link_ratio": "解族中没有满足所给最长与最短杆之比的机构；最小为 {least}",
     "slider_crank.ratio": "λ = {given} 过小，曲柄不能整转；应有 λ ≥ 1 + ε = {least}（最近的解取此值）",
     "slider_crank.no_quick_return": "有偏距的曲柄滑块 K > 1，而要求 K = {given}；请取偏距 0 并给连杆比或"
-    "传动角，或取更大的 K",
+    "传动角，或取更大的 K（最近的解 K = {near}，连杆越长越接近）",
     "slider_crank.quick_return": "所给行程与偏距不允许行程速比系数 {given}；最大 K = {most}（最近的解取此"
     "值）",
     "slider_crank.demands": "曲柄滑块需要 stroke 以及下列之一：rod_ratio（与 offset_ratio）；"
     "quick_return_ratio 与 offset；transmission_angle（与 offset）；所给：{given}",
-    "crank_rocker.range": "没有摆角 {swing} deg、K = {k} 的曲柄摇杆；摆角应小于 180 deg，K 应小于 3",
-    "crank_rocker.none": "没有在同一回路上具有摆角 {swing} deg 与 K = {k} 的曲柄摇杆；请减小 K 或改变摆角",
-    "quick_return.one": "摆动导杆机构 K > 1；请给更大的行程速比系数",
-    "quick_return.most": "K = {given} 要求曲柄与两铰链中心距等长；请减小行程速比系数",
-    "quick_return.rod": "连杆太短：滑枕会先于导杆折返；请给 {least} m 或更长",
-    "drag_link.one": "用于急回的双曲柄机构 K > 1；请给更大的行程速比系数",
-    "drag_link.none": "未求得 K = {k} 且杆长比满足要求的双曲柄；请减小 K 或放宽 link_ratio",
-    "toggle.stroke": "行程 {stroke} m 短于要求力比处的距离 {distance} m",
+    "crank_rocker.range": "没有摆角 {swing} deg、K = {k} 的曲柄摇杆；摆角应小于 180 deg（最近的解摆角 "
+    "{near_swing} deg，K = {near}）",
+    "crank_rocker.none": "没有在同一回路上具有摆角 {swing} deg 与 K = {k} 的曲柄摇杆；该摆角下 K 小于 {most}"
+    "（最近的解 K = {near}）",
+    "quick_return.one": "摆动导杆机构 K > 1；请给更大的行程速比系数（最近的解取 {near}）",
+    "quick_return.most": "K = {given} 要求曲柄与两铰链中心距等长；请减小行程速比系数（最近的解取 {near}）",
+    "quick_return.rod": "连杆太短：滑枕会先于导杆折返；请给 {least} m 或更长（最近的解取此值）",
+    "drag_link.none": "未求得 K = {k} 且杆长比满足要求的双曲柄；求得的最大 K = {most}（最近的解取此值）："
+    "请减小 K 或放宽 link_ratio",
+    "drag_link.links": "未求得最长杆不超过最短杆 {ratio} 倍的双曲柄；请放宽至 {least}（最近的解取此值，K = 1）",
+    "toggle.stroke": "行程 {stroke} m 短于要求力比处的距离 {distance} m（最近的解行程等于该距离）",
     "toggle.too_long": "该距离处的力比所定的杆长，行程至多 {most} m；最近的解略小于此行程",
     "straight_line.kind": '没有直线机构 "{kind}"；已知：{known}',
-    "straight_line.none": "{kind} 没有偏差在 {given} m 以内的一段；请放宽偏差",
-    "dwell.range": "停歇至多为曲柄 180 deg，摆角至多 149 deg",
-    "dwell.none": "未求得摆角 {swing} deg、曲柄转 {crank} deg 期间停歇且传动角大于 30 deg 的输出；请缩短"
-    "停歇或改变摆角",
+    "straight_line.none": "{kind} 没有偏差在 {given} m 以内的一段；请放宽偏差（最近的解为 {least} m）",
+    "dwell.range": "停歇至多为曲柄 180 deg，摆角至多 149 deg，而要求的是 {crank} deg 与 "
+    "{swing} deg（已列出最近的解）",
+    "dwell.no_arc": "未求得在曲柄转 {crank} deg 期间近似圆弧的连杆曲线段（摆角 {swing} deg）；请缩短停歇",
+    "dwell.none": "未求得摆角 {swing} deg、曲柄转 {crank} deg 期间停歇且传动角大于 30 deg 的输出；最近的解摆角为 "
+    "{near} deg：请缩短停歇或取该摆角",
     "path.few": "{count} 个点不足以定轨迹；请给 3 个或更多",
     "path.angles": "{angles} 个曲柄角与 {points} 个点不符；请每点给一个",
     "path.one_place": "轨迹各点重合；请给不同的点",
@@ -145,7 +151,6 @@ linkwright synthesize press.yaml --json""",
     "function.exact": "没有具有所给零位角、精确满足全部 {count} 个位置的实 {linkage}；最近的解最大误差 "
     "{error}",
     "function.no_movable": "精确满足各位置的 {linkage} 都有缺陷；最好的方案有：{why}",
-    "function.sampled": "缺陷与传动角是在首末输入之间的 {within} 个位置（整转时 {turn} 个）上检查的，其间未予证明",
     "function.free": "零位角：输入 {input} deg，输出 {output}",
     "free_curve.measure": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
     "不超过 {size} 个均方根半径。按给定次序：1 表示按所给点的次序画出，0 表示反向；"
