@@ -101,10 +101,10 @@ def test_what_is_shown_of_a_range_is_what_every_position_has(kind: str) -> None:
 
 
 def test_a_gap_between_positions_is_seen() -> None:
-    """A narrow bump, far thinner than the first intervals, and a bound of its slope."""
-    width = 1e-4
-    least, most = extremes(lambda t: np.exp(-(((t - 0.123456) / width) ** 2)), 1 / width, 0.0, 6.0, 1e-4)
-    assert most == pytest.approx(1.0, abs=1e-4) and least == 0.0
+    """A peak far thinner than the first intervals, on a slope; the bound is that of its own slope."""
+    width, rate = 1e-3, 4e3
+    found = extremes(lambda t: t + 4 * np.exp(-(((t - 1.23456) / width) ** 2)), rate, 0.0, 3.0, 1e-4)
+    assert found == pytest.approx((0.0, 5.23456), abs=1e-4)
 
 
 def test_chebyshev_spacing_is_that_of_the_polynomial() -> None:
