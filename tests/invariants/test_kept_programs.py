@@ -1,5 +1,6 @@
 """Programs are kept by a mechanism's shape: results depend on its numbers only, never on what was solved before."""
 
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -92,3 +93,16 @@ def test_eight_threads_share_the_programs():
         found = list(pool.map(torque, designs))
     for one, other in zip(found, expected, strict=True):
         assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    "name", ["jaw_crusher_sixbar", "excavator", "planetary_two_inputs", "rack_and_rocker", "swing_conveyor"]
+)
+def test_every_changed_value_is_in_the_elements_of_the_new_mechanism(name):
+    mechanism = lw.load(f"gallery:{name}")
+    for address, value in mechanism.dimensions().items():
+        if value and address not in mechanism.expressions:
+            changed = mechanism.with_dimensions({address: 1.0001 * value})
+            found_anew = pickle.loads(pickle.dumps(changed)).dimensions()
+            assert found_anew == changed.dimensions()
+            assert found_anew[address] == 1.0001 * value

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from linkwright.engine.linear import Matrix, determinant, inverse, product
+from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, WholeGroup
@@ -230,6 +231,13 @@ def state_name(group: Group, step: TreeJoint) -> str:
 
 def dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
     """The closed form of a group, and the ends of its cut in the order of that form; None for others."""
+    return _shapes.get(group, None, lambda: _dyad_shape(group))
+
+
+_shapes: Recent[Group, tuple[Dyad, tuple[str, str]] | None] = Recent(1024)
+
+
+def _dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
     if len(group.cuts) != 1 or not group.cuts[0].turns or len(group.unknowns) != 2:
         return None
     cut = group.cuts[0]

@@ -96,6 +96,8 @@ class Between:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
+        if motion.positions.cycle:
+            return
         nominal = at_times(motion.mechanism, motion.time)
         for name, (q, *_) in motion.positions.coordinates.items():
             lawful = nominal.coordinates[name][0]
@@ -190,7 +192,8 @@ class Between:
 
 @dataclass
 class Brackets:
-    """Stretches after the positions ``before``, from ``low`` to ``high`` (shares of ``span`` s), with their rates."""
+    """Stretches after the positions ``before``, from ``low`` to ``high`` (shares of ``span`` s), with their rates;
+    near ``start`` the rate is zero."""
 
     before: Indices
     span: Floats
@@ -198,6 +201,7 @@ class Brackets:
     high: Floats
     rate_low: Floats
     rate_high: Floats
+    start: Floats
 
     def of(self, chosen: NDArray[np.bool_] | Indices) -> Brackets:
         """Some of them."""
@@ -208,6 +212,7 @@ class Brackets:
             self.high[chosen],
             self.rate_low[chosen],
             self.rate_high[chosen],
+            self.start[chosen],
         )
 
 
@@ -239,7 +244,7 @@ class _Search:
         brackets = self._brackets(np.where(np.abs(rate) <= still, 0.0, rate), second, still)
         if not len(brackets.before):
             return ()
-        return self._positions(brackets, self._refined(brackets))
+        return self._positions(brackets, *self._refined(brackets))
 
     def _still(self, rate: Floats) -> float | None:
         """Rates that count as zero; None where the output does not move."""
@@ -261,12 +266,15 @@ class _Search:
         a, b = rate[first], rate[after]
         turning = np.flatnonzero(np.sign(a) != np.sign(b))
         span = self._time(last) - self.motion.time[first]
-        dips = np.flatnonzero(_dips(a, b, second[first] * span, second[after] * span))
+        slopes = second[first] * span, second[after] * span
+        dips = np.flatnonzero(_dips(a, b, *slopes))
 
         def bracket(chosen: Indices) -> Brackets:
             rests = last[chosen] - first[chosen] > 2
             low, high = np.where(rests, 0.5, 0.0), np.where(rests, 0.5, 1.0)
-            return Brackets(first[chosen], span[chosen], low, high, a[chosen], b[chosen])
+            ends = a[chosen], b[chosen]
+            start = np.where(rests, 0.5, _zero(*ends, *(each[chosen] for each in slopes)))
+            return Brackets(first[chosen], span[chosen], low, high, *ends, start)
 
         halves = self._split(bracket(dips), still) if len(dips) else []
         return _joined([bracket(turning), *halves]) if halves else bracket(turning)
@@ -296,35 +304,41 @@ class _Search:
         rate = self._rates(dips, middle)[0]
         found = (np.abs(rate) > still) & (np.sign(rate) != np.sign(dips.rate_low)) & np.isfinite(rate)
         some, middle, rate = dips.of(found), middle[found], rate[found]
-        return [
-            Brackets(some.before, some.span, some.low, middle, some.rate_low, rate),
-            Brackets(some.before, some.span, middle, some.high, rate, some.rate_high),
-        ]
+
+        def half(low: Floats, high: Floats, a: Floats, b: Floats) -> Brackets:
+            return Brackets(some.before, some.span, low, high, a, b, low + (high - low) * a / (a - b))
+
+        return [half(some.low, middle, some.rate_low, rate), half(middle, some.high, rate, some.rate_high)]
 
     # refinement -------------------------------------------------------------------------------------
     def _rates(self, brackets: Brackets, share: Floats) -> Floats:
-        """The output's rate and second derivative at shares of the brackets' spans, (2, m)."""
+        """At shares of the brackets' spans the output's rate and second derivative, then what gives its value."""
         time = self.motion.time[brackets.before] + share * brackets.span
-        return self.between.evaluate(self.rate_names, brackets.before, time)
+        return self.between.evaluate((*self.rate_names, *self.value_names), brackets.before, time)
 
-    def _refined(self, brackets: Brackets) -> Floats:
-        """Shares where the rate is zero, by Newton's steps inside the brackets; NaN where it is not (a pole)."""
+    def _refined(self, brackets: Brackets) -> tuple[Floats, Floats]:
+        """Shares where the rate is zero, by Newton's steps inside the brackets, and the output there; NaN where the
+        rate is not zero (a pole).
+
+        The output is that of the last step's beginning: as its rate is zero, it differs by the step's square.
+        """
         a, b = brackets.rate_low, brackets.rate_high
-
-        rate = a
+        rows = np.empty(0)
 
         def rate_and_slope(share: Floats) -> tuple[Floats, Floats]:
-            nonlocal rate
-            rate, second = self._rates(brackets, share)
-            return rate, second * brackets.span
+            nonlocal rows
+            rows = self._rates(brackets, share)
+            return rows[0], rows[1] * brackets.span
 
-        straight = brackets.low + (brackets.high - brackets.low) * a / (a - b)
-        here = zeros(rate_and_slope, brackets.low, brackets.high, a, straight)
-        lost = ~(np.abs(rate) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
+        here = zeros(rate_and_slope, brackets.low, brackets.high, a, brackets.start)
+        lost = ~(np.abs(rows[0]) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
         time = self.motion.time[brackets.before] + here * brackets.span
-        for k in np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED)):
+        touches = np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED))
+        for k in touches:
             here[k] = self._at_touch(brackets, int(k))
-        return here
+        if len(touches):
+            rows = self._rates(brackets, here)
+        return here, self._output(rows[2:], brackets.before)
 
     def _at_touch(self, brackets: Brackets, k: int) -> float:
         """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""
@@ -332,10 +346,10 @@ class _Search:
         touch = self.between.touch(start + span * brackets.low[k], start + span * brackets.high[k])
         return np.nan if touch is None else (touch - start) / span
 
-    def _positions(self, brackets: Brackets, share: Floats) -> tuple[LimitPosition, ...]:
-        brackets, share = brackets.of(np.isfinite(share)), share[np.isfinite(share)]
+    def _positions(self, brackets: Brackets, share: Floats, values: Floats) -> tuple[LimitPosition, ...]:
+        found = np.isfinite(share)
+        brackets, share, values = brackets.of(found), share[found], values[found]
         time = self.motion.time[brackets.before] + share * brackets.span
-        values = self._values(brackets.before, time)
         if not np.isfinite(values).all():
             beside = [self._values(brackets.before, time + s * brackets.span) for s in (-BESIDE, BESIDE)]
             values = np.where(np.isfinite(values), values, 0.5 * (beside[0] + beside[1]))
@@ -348,15 +362,17 @@ class _Search:
         inputs = law.coordinate(time)[0]
         direction = 1.0 if self.motion.time[self.count - 1] >= start else -1.0
         index = np.searchsorted(direction * self.motion.time[: self.count], direction * time, "right") - 1
-        found = [
+        limits = [
             LimitPosition(float(q), float(t), float(v), "max" if up else "min", int(i))
             for q, t, v, up, i in zip(inputs, time, values, grows, index, strict=True)
         ]
-        return tuple(sorted(found, key=lambda each: direction * each.time))
+        return tuple(sorted(limits, key=lambda each: direction * each.time))
 
     def _values(self, before: Indices, time: Floats) -> Floats:
         """The output at these times; angles continuous from the positions before them."""
-        values = self.between.evaluate(self.value_names, before, time)
+        return self._output(self.between.evaluate(self.value_names, before, time), before)
+
+    def _output(self, values: Floats, before: Indices) -> Floats:
         if self.output.kind != "angle":
             return np.asarray(values[0])
         raw = np.arctan2(values[1], values[0])
@@ -380,6 +396,16 @@ def _largest(values: Floats) -> float:
     return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
 
 
+def _zero(a: Floats, b: Floats, slope_a: Floats, slope_b: Floats) -> Floats:
+    """Share at which a rate is about zero, from rates of unlike signs and slopes at both ends: by the cubic of the
+    share over the rate, exact to fourth order; by the straight line where that one leaves the stretch."""
+    with np.errstate(all="ignore"):
+        straight = a / (a - b)
+        at, rest, rise = straight, 1.0 - straight, b - a
+        cubic = at * at * (3.0 - 2.0 * at) + at * rest * rise * (rest / slope_a - at / slope_b)
+    return np.where((cubic > 0.0) & (cubic < 1.0), cubic, straight)
+
+
 def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:
     """Whether a rate of one sign at both ends may cross zero in between, by the cubic through rates and seconds."""
     sign = np.sign(a)
@@ -400,6 +426,6 @@ def _joined(parts: list[Brackets]) -> Brackets:
     def column(name: str) -> Floats:
         return np.concatenate([getattr(part, name) for part in parts])
 
-    names = ("span", "low", "high", "rate_low", "rate_high")
+    names = ("span", "low", "high", "rate_low", "rate_high", "start")
     before = np.concatenate([part.before for part in parts])
     return Brackets(before, *(column(name) for name in names))

@@ -8,6 +8,7 @@ from collections.abc import Hashable, Mapping
 from typing import Any
 
 from linkwright.core.expressions import Expression
+from linkwright.engine.recent import Recent
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Link, Mechanism
 
@@ -23,16 +24,15 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
     """
     numbers = mechanism.dimensions()
     return (
-        tuple(
-            (address, _known(value) if address not in free else None) for address, value in numbers.items()
-        ),
+        tuple(numbers),
+        tuple(_known(value) if address not in free else None for address, value in numbers.items()),
         free,
         _link(mechanism.frame),
         tuple(_link(link) for link in mechanism.links.values()),
-        _plain(mechanism.joints),
+        tuple(_form(joint) for joint in mechanism.joints.values()),
         tuple(_ahead(mechanism, joint) for joint in mechanism.joints.values()),
         tuple((d.name, d.joint, d.link, d.relative_to, type(d.law)) for d in mechanism.drivers.values()),
-        _plain(mechanism.loads),
+        tuple(_form(load) for load in mechanism.loads.values()),
         tuple((address, each.text) for address, each in mechanism.expressions.items()),
         math.frexp(mechanism_size(mechanism))[1],
     )
@@ -56,6 +56,14 @@ def _ahead(mechanism: Mechanism, joint: Any) -> bool | None:
         return None
     start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
     return end > start
+
+
+def _form(element: Any) -> Hashable:
+    """The same of a whole element, kept with it."""
+    return _forms.get(element, None, lambda: _plain(element))
+
+
+_forms: Recent[Any, Hashable] = Recent(1024)
 
 
 def _plain(value: Any) -> Hashable:

@@ -172,33 +172,62 @@ class Mechanism(Frozen):
         is not
         positive, a negative mass or inertia.
         """
-        new = self._dimensions | {
-            address: self._checked(address, value) for address, value in changes.items()
-        }
+        known = self._dimensions
+        new = known | {address: self._checked(address, value) for address, value in changes.items()}
         kept = {address: each for address, each in self.expressions.items() if address not in changes}
         for address, expression in kept.items():
             new[address] = self._checked(address, expression.evaluate(new))
+        moved = {self._owners.get(each) for each in (*changes, *kept) if new[each] != known[each]}
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
-        frame = self.frame.with_dimensions(value)
-        links = {name: link.with_dimensions(value) for name, link in self.links.items()}
-        points = {"frame": frame.points, **{name: link.points for name, link in links.items()}}
-        return replace(
+        links = {
+            name: link.with_dimensions(value) if ("link", name) in moved else link
+            for name, link in {"frame": self.frame, **self.links}.items()
+        }
+        joints = {
+            name: joint.with_dimensions(value).aligned(links[joint.joined[0]].points)
+            if {("joint", name), ("link", joint.joined[0])} & moved
+            else joint
+            for name, joint in self.joints.items()
+        }
+        drivers = {
+            name: driver.with_dimensions(value, parameters)
+            if ("driver", name) in moved or parameters != self.parameters
+            else driver
+            for name, driver in self.drivers.items()
+        }
+        changed = replace(
             self,
-            frame=frame,
+            frame=links.pop("frame"),
             links=links,
-            joints={
-                name: joint.with_dimensions(value).aligned(points[joint.joined[0]])
-                for name, joint in self.joints.items()
+            joints=joints,
+            drivers=drivers,
+            loads={
+                name: load.with_dimensions(value) if ("load", name) in moved else load
+                for name, load in self.loads.items()
             },
-            drivers={
-                name: driver.with_dimensions(value, parameters) for name, driver in self.drivers.items()
-            },
-            loads={name: load.with_dimensions(value) for name, load in self.loads.items()},
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=parameters,
             expressions=kept,
         )
+        vars(changed)["_dimensions"] = new
+        return changed
+
+    @cached_property
+    def _owners(self) -> dict[str, tuple[str, str]]:
+        """The element whose dimension an address is, as its sort and name."""
+        elements: dict[str, Mapping[str, Any]] = {
+            "link": {"frame": self.frame, **self.links},
+            "joint": self.joints,
+            "driver": self.drivers,
+            "load": self.loads,
+        }
+        return {
+            address: (sort, name)
+            for sort, named in elements.items()
+            for name, each in named.items()
+            for address in each.dimensions()
+        }
 
     @cached_property
     def pins(self) -> Mapping[str, TurningJoint]:
