@@ -1,4 +1,4 @@
-"""What is refused of gears, racks and belts: the place, the reason and the remedy of each."""
+"""What is refused of gears, racks, belts, cams and guides: the place, the reason and the remedy of each."""
 
 from __future__ import annotations
 
@@ -7,18 +7,24 @@ import pytest
 import linkwright as lw
 
 HEAD = """format: 1
-frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm]}}
+frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm],
+  S: [0 mm, -20 mm], P: [0 mm, 0 mm], H: [90 mm, 0 mm], K: [95 mm, 0 mm]}}
 links:
   a: {points: {O: [0 mm, 0 mm]}}
   b: {points: {Q: [0 mm, 0 mm]}}
   c: {points: {R: [0 mm, 0 mm]}}
   loose: {points: {O: [0 mm, 0 mm], X: [10 mm, 0 mm]}}
   bar: {points: {X: [0 mm, 0 mm], Y: [10 mm, 0 mm]}}
+  d: {points: {P: [0 mm, 0 mm]}}
+  e: {points: {H: [0 mm, 0 mm], K: [5 mm, 0 mm]}}
   rack: {points: {T: [0 mm, 0 mm], U: [10 mm, 0 mm]}}
 driver: {turn: a, about: O, speed: 1 rad/s}
 joints:
 """
 GUIDE = "  way: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: T}\n"
+CAM = "  m: {{kind: cam, cam: {cam}, follower: {follower}, at: T, touch: flat, base_radius: 20 mm{more}}}"
+PROGRAM = ", program: [{rise: 10 mm, over: 180 deg}, {fall: 10 mm, over: 180 deg}]"
+TABLE = ", angles: [0 deg, 90 deg], lifts: [0 mm, 5 mm]"
 CASES = {
     "centre distance": (
         "  m: {kind: gear, links: [a, b], teeth: [20, 40], module: 3 mm}",
@@ -31,6 +37,14 @@ CASES = {
     "teeth and ratio": (
         "  m: {kind: gear, links: [a, b], teeth: [20, 40], ratio: -2}",
         ("joints.m.ratio", "the ratio -2 does not fit teeth", "-0.5", "leave the ratio out"),
+    ),
+    "ratio of another mesh": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], mesh: internal, ratio: -0.5}",
+        ("joints.m.ratio", "the ratio -0.5 does not fit teeth", "0.5"),
+    ),
+    "distance a little off": (
+        "  m: {kind: gear, links: [a, b], radii: [20 mm, 40.0006 mm]}",
+        ("joints.m.radii", "external pair needs 0.0600006 m"),
     ),
     "half a tooth": (
         "  m: {kind: gear, links: [a, b], teeth: [20.5, 40]}",
@@ -79,6 +93,74 @@ CASES = {
     "rack askew": (
         GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, radius: 20 mm, direction: 10 deg}",
         ("joints.m.direction", "not parallel", "leave the direction out"),
+    ),
+    "rack on itself": (
+        "  m: {kind: rack, pinion: rack, rack: rack, through: T, radius: 20 mm}",
+        ("joints.m.rack", 'both links are "rack"', "two different links"),
+    ),
+    "pinion without pin": (
+        GUIDE + "  m: {kind: rack, pinion: rack, rack: a, through: O, radius: 20 mm}",
+        ("joints.m.pinion", 'the wheel "rack" has no pin', "its centre"),
+    ),
+    "rack of no size": (
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20}",
+        ("joints.m.radius", "nothing says how large", "module"),
+    ),
+    "ring of the same size": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 20], mesh: internal}",
+        ("joints.m", "cannot run in a ring of its own size"),
+    ),
+    "radius of zero": (
+        "  m: {kind: gear, links: [a, b], radii: [0 mm, 60 mm]}",
+        ("joints.m.radii", "a radius is zero or negative"),
+    ),
+    "one centre": (
+        "  m: {kind: gear, links: [a, d], teeth: [20, 40]}",
+        ("joints.m.links", "lie in one place"),
+    ),
+    "several carriers": (
+        "  m: {kind: gear, links: [b, e], teeth: [20, 40]}",
+        ("joints.m", "frame (Q, H)", "frame (Q, K)", "carrier"),
+    ),
+    "cam of itself": (
+        CAM.format(cam="a", follower="a", more=PROGRAM).replace("at: T", "at: O"),
+        ("joints.m.follower", "cannot be its own follower", "two links"),
+    ),
+    "cam without a lift": (
+        CAM.format(cam="a", follower="rack", more=""),
+        ("joints.m.program", "not given, or given twice", "angles: with lifts:"),
+    ),
+    "cam of two lifts": (
+        CAM.format(cam="a", follower="rack", more=PROGRAM + TABLE),
+        ("joints.m.program", "not given, or given twice"),
+    ),
+    "cam with a short table": (
+        CAM.format(cam="a", follower="rack", more=TABLE),
+        ("joints.m.angles", "the table of the lift is none", "eight or more"),
+    ),
+    "roller of no size": (
+        CAM.format(cam="a", follower="rack", more=PROGRAM).replace("flat", "roller"),
+        ("joints.m.roller_radius", "a roller and its radius go together"),
+    ),
+    "follower that no guide holds": (
+        CAM.format(cam="a", follower="rack", more=PROGRAM),
+        ("joints.m.follower", "'rack' has no guide on a link on which the cam 'a' turns", "prismatic"),
+    ),
+    "follower that no pin holds": (
+        CAM.format(cam="a", follower="rack", more=PROGRAM.replace("10 mm", "10 deg") + ", side: left"),
+        ("joints.m.follower", "oscillating follower 'rack' has no pin", "its pivot"),
+    ),
+    "guide on itself": (
+        GUIDE.replace("guide: frame, through: G", "guide: rack, through: U"),
+        ("joints.way.block", 'guide and block are both "rack"', "two different links"),
+    ),
+    "direction of no length": (
+        GUIDE.replace("direction: 0 deg", "direction: [G, S]"),
+        ("joints.way.direction", "at the same place"),
+    ),
+    "point of guide and block": (
+        "  way: {kind: prismatic, guide: a, through: O, direction: 0 deg, block: loose, at: O}",
+        ("joints.way.at", '"O" names a point of the guide and of the block, and frame has it too'),
     ),
     "unknown kind": (
         "  m: {kind: gaer, links: [a, b], ratio: -1}",

@@ -99,6 +99,7 @@ def test_a_design_whose_load_has_no_value_is_told() -> None:
     found = lw.sweep(mechanism, {BY: [0.7, 0.85, 0.71]}, outputs=["driver.effort max"])
     assert found.ok.tolist() == [True, False, True]
     assert "process" in found.unloaded[1] and "300 mm" not in found.unloaded[1]
+    assert np.isnan(found["driver.effort max"]).tolist() == [False, True, False]
 
 
 def test_a_part_longer_than_the_stroke_of_a_design_is_told() -> None:

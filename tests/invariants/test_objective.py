@@ -136,3 +136,31 @@ def test_a_design_that_cannot_turn_has_no_value():
 def test_refusals_say_why(model, terms, vary, words):
     with pytest.raises(lw.LinkwrightError, match=words):
         lw.objective(lw.load(f"gallery:{model}"), terms, vary=vary)
+
+
+CIRCLE = np.stack([np.cos(np.arange(9.0)), np.sin(np.arange(9.0))], axis=1)
+
+
+@pytest.mark.parametrize(
+    ("terms", "options", "words"),
+    [
+        (lw.PathError("coupler.P", CIRCLE[:, :1]), {}, "target"),
+        ([lw.PathError("coupler.P", CIRCLE), lw.PathError("coupler.B", CIRCLE[:8])], {}, "target"),
+        (lw.PathError("coupler.P", CIRCLE), {"at": [0.0, 1.0]}, "9.*2"),
+        ("hertz_pressure", {}, "hertz_pressure"),
+    ],
+)
+def test_paths_and_numbers_that_cannot_be_a_goal_are_refused(terms, options, words):
+    with pytest.raises(lw.LinkwrightError, match=words):
+        lw.objective(lw.load("gallery:crank_rocker"), terms, vary=["coupler.length"], **options)
+
+
+def test_terms_in_a_list_count_once_each_and_values_alone_are_those_of_the_gradient():
+    crusher, names = lw.load(SIXBAR), ["peak_reaction", "rms_input_torque"]
+    both = lw.objective(crusher, names, vary=LENGTHS)
+    parts = [lw.objective(crusher, name, vary=LENGTHS) for name in names]
+    designs = np.stack([both.start, both.start * 1.001])
+    alone = [part.values(designs) for part in parts]
+    assert both.values(designs) == pytest.approx(alone[0] + alone[1], rel=1e-12)
+    assert both(both.start)[0] == pytest.approx(both.values(designs)[0], rel=1e-9)
+    assert np.isnan(both.values(designs * [[1, 1, 1, 1, 1], [20, 1, 1, 1, 1]])).tolist() == [False, True]

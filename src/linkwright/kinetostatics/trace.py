@@ -93,9 +93,9 @@ class ForceTrace:
 def trace_forces(
     motion: MotionTrace,
     *,
-    inertia: bool = True,
+    inertia: bool,
     extra: Mapping[str, list[Wrench]] | None = None,
-    along_input: Set[str] = frozenset(),
+    along_input: Set[str],
 ) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 

@@ -46,7 +46,7 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise RequestError(Sentence("study.bad_shape", address=address, shape=column.shape))
+            raise RequestError(Sentence("study.bad_shape", address=address, shape=str(column.shape)))
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())

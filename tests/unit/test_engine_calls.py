@@ -1,0 +1,86 @@
+"""Compiled programs called: what is missing or misshapen is refused, what lies ready is read where it lies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
+from linkwright.engine.program import Program
+from linkwright.engine.trace import Trace
+
+pytestmark = pytest.mark.skipif(not available(), reason="no llvmlite")
+X = np.linspace(0.0, 1.0, 40)
+
+
+def line(*, carried: bool = False) -> CompiledProgram:
+    """a x + f; or the sum of the x so far, a times."""
+    t = Trace()
+    a, x, f = t.parameter("a"), t.position("x"), t.field_input("f")
+    if carried:
+        total = t.state("s") + x
+        program = Program.of(t, {"y": a * total + f}, {"s": total})
+    else:
+        program = Program.of(t, {"y": a * x + f})
+    compiled = compile_program(program)
+    assert compiled is not None
+    return compiled
+
+
+def test_missing_inputs_and_other_shapes_are_refused() -> None:
+    program, f = line(), np.ones(40)
+    with pytest.raises(ValueError, match="needs the position inputs x: give them"):
+        program.run([1.0], {}, {"f": f})
+    with pytest.raises(ValueError, match="needs the field inputs f: give them"):
+        program.run([1.0], {"x": X})
+    with pytest.raises(ValueError, match=r"one length, but have \[39, 40\]"):
+        program.run([1.0], {"x": X}, {"f": f[1:]})
+    with pytest.raises(ValueError, match=r"parameters must have the shape \(1,\), not \(2,\)"):
+        program.run([1.0, 2.0], {"x": X}, {"f": f})
+    with pytest.raises(
+        ValueError, match=r"out must be a C-contiguous array of floats of the shape \(1, 40\)"
+    ):
+        program.run([1.0], {"x": X}, {"f": f}, np.empty((1, 39)))
+    with pytest.raises(ValueError, match=r"shape \(designs, 1\), but have \(2, 2\)"):
+        program.store(np.ones((2, 2)), {"x": X}, {"f": np.ones((2, 40))})
+    with pytest.raises(ValueError, match="carries the states s: give their start"):
+        line(carried=True).store(np.ones((2, 1)), {"x": X}, {"f": np.ones((2, 40))})
+
+
+def test_a_program_with_states_fills_the_array_that_is_given() -> None:
+    out = np.empty((1, 40))
+    found = line(carried=True).run([2.0], {"x": X}, {"f": np.ones(40)}, out, start=[0.5])
+    assert found is out
+    assert out[0] == pytest.approx(2.0 * (0.5 + np.cumsum(X)) + 1.0, rel=1e-14)
+
+
+def test_parameters_given_again_are_read_where_they_lie() -> None:
+    program, f, given = line(), np.ones(40), np.array([2.0])
+    for value in (2.0, 3.0, 4.0, 5.0):
+        given[0] = value
+        assert program.run(given, {"x": X}, {"f": f})[0] == pytest.approx(value * X + 1.0, rel=1e-15)
+    other = np.array([7.0])
+    assert program.run(other, {"x": X}, {"f": f})[0] == pytest.approx(7.0 * X + 1.0, rel=1e-15)
+    assert program.run(given, {"x": X}, {"f": f})[0] == pytest.approx(5.0 * X + 1.0, rel=1e-15)
+
+
+def test_a_bound_call_follows_its_arrays_and_takes_none_that_it_would_copy() -> None:
+    program, f, given, out = line(), np.ones(40), np.array([2.0]), np.empty((1, 40))
+    call = program.bound(given, {"x": X}, out, {"f": f})
+    given[0] = 3.0
+    call()
+    assert out[0] == pytest.approx(3.0 * X + 1.0, rel=1e-15)
+    with pytest.raises(ValueError, match="as contiguous arrays of floats"):
+        program.bound(given, {"x": np.repeat(X, 2)[::2]}, out, {"f": f})
+    with pytest.raises(ValueError, match="only programs without states are bound"):
+        line(carried=True).bound(given, {"x": X}, out, {"f": f})
+    with pytest.raises(ValueError, match="only programs without states are bound, to"):
+        program.bound(given, {"x": X[:1]}, out[:, :1], {"f": f[:1]})
+
+
+def test_states_without_next_values_are_not_compiled() -> None:
+    t = Trace()
+    with pytest.raises(
+        ValueError, match="no next values of the states s are given: take the states as fields"
+    ):
+        compile_program(Program.of(t, {"y": t.state("s") * 2.0}))
