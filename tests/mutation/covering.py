@@ -35,9 +35,9 @@ class Covering:
     seconds: dict[str, float] = field(default_factory=dict)
 
     def of(self, path: str, lines: range) -> list[str]:
-        """Tests that run one of the lines, or, for what only importing runs, any line of the module."""
+        """Tests that run one of the lines, or, for what importing runs, any line of the module."""
         found = {test for line in lines for test in self.tests.get(f"{path}:{line}", ())}
-        if "" in found and len(found) == 1:
+        if "" in found:
             found = {t for place, tests in self.tests.items() if place.startswith(f"{path}:") for t in tests}
         return sorted(found - {""})
 
