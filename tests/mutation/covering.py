@@ -7,6 +7,7 @@ forgotten before each test, so that every test shows all that it uses.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 import os
@@ -16,6 +17,7 @@ import tempfile
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +39,7 @@ class Covering:
     def of(self, path: str, lines: range) -> list[str]:
         """Tests that run one of the lines, or, for what importing runs, any line of the module."""
         found = {test for line in lines for test in self.tests.get(f"{path}:{line}", ())}
-        if "" in found:
+        if found == {""} or not within_functions(path).intersection(lines):
             found = {t for place, tests in self.tests.items() if place.startswith(f"{path}:") for t in tests}
         return sorted(found - {""})
 
@@ -65,6 +67,14 @@ class Covering:
                 kept.append(test)
                 left -= cost
         return kept
+
+
+@cache
+def within_functions(path: str) -> set[int]:
+    """Lines of a module that run when a function is called, not when the module is imported."""
+    tree = ast.parse((SOURCE / path).read_text("utf-8"))
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    return {k for each in functions for k in range(each.body[0].lineno, (each.end_lineno or 0) + 1)}
 
 
 class Recorder:
