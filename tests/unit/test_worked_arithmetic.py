@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 import pytest
+from tests.reference.geared_mechanisms import geared_case
 from tests.reference.random_mechanisms import random_mechanism
 from tests.unit.worked_reading import is_printed_zero, last_digit, reckon
 
 import linkwright as lw
+from linkwright.worked.page import Relation
 
 #: Worked solutions of cams are refused with a sentence.
 GALLERY = tuple(name for name in lw.gallery_names() if name != "printing_press")
@@ -79,6 +81,34 @@ def test_any_mechanism_comes_out_with_a_calculator(seed: int) -> None:
     assert reckon_lines(page) == []
     wrong, _ = against_solver(page, forces)
     assert wrong == []
+
+
+@pytest.mark.parametrize("seed", [10, 13, 18, 23, 26, 33])
+def test_geared_loops_and_racks_come_out_with_a_calculator(seed: int) -> None:
+    times = np.linspace(0.0, 0.12, 5)
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(geared_case(seed).text), times=times))
+    page = lw.worked(forces, 3)
+    assert reckon_lines(page) == []
+    wrong, seen = against_solver(page, forces)
+    assert wrong == []
+    columns = forces.motion.columns()
+    moving = [name for name, values in columns.items() if abs(values[3]) > 1e-9]
+    assert [name for name in moving if name not in seen and not any(word in name for word in BESIDE)] == []
+
+
+def test_the_row_of_a_pair_is_put_into_the_closure_equations() -> None:
+    """Geared five-bar on an arm: φ4 = 2 φ3 - φ1 + β by hand (ratio 2 on carrier 1), in all four components."""
+    motion = lw.solve_motion(lw.loads(geared_case(23).text), times=[0.0, 0.05])
+    (group,) = [g for g in motion.structure.groups if len(g.cuts) > 1]
+    relations = [i.text for s in lw.worked(motion, 1).steps for i in s.items
+                 if isinstance(i, Relation) and s.group == group.name and s.title == "Positions"]  # fmt: skip
+    tied, *closures = relations
+    assert tied == "φ4 = i_g1,3·φ3 + i_g1,1·φ1 + β_g1"
+    lines = {line.symbol: line for line in lw.worked(motion, 1).equations}
+    assert (lines["i_g1,3"].value, lines["i_g1,1"].value) == (2.0, -1.0)
+    assert len(closures) == 4
+    assert sum("cos(i_g1,3·φ3 + i_g1,1·φ1 + β_g1)" in each for each in closures) == 2
+    assert not any("φ4" in each for each in closures)
 
 
 @pytest.mark.parametrize("name", GALLERY)

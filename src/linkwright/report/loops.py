@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from linkwright.report.case import Case
 from linkwright.structure.group import Group
-from linkwright.worked.chains import Chain, closures
+from linkwright.worked.chains import Chain, chain_closures
 from linkwright.worked.symbols import Book, tex
 
 
 def loops(case: Case, group: Group) -> list[tuple[str, str]]:
     """Left and right side of every loop, LaTeX; for the cut at a guide the component across it.
 
-    None at all where a cut neither turns nor slides, as that of gears: its closure stands among the formulas.
+    Rows of gears and racks are no loops: they stand among the formulas.
     """
-    if not all(case.mechanism.joints[cut.joint].coordinate for cut in group.cuts):
-        return []
     book = Book(*case.worked_motion, case.say)
     found = []
-    for closure in closures(book, group):
+    for closure in chain_closures(book, group):
         first, second = (_sum(chain) for chain in closure.chains)
         if closure.across is not None:
             name = tex(closure.cut.joint)

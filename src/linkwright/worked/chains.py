@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from linkwright.structure.group import Connection, Group, TreeJoint
@@ -174,18 +175,34 @@ def _driven(chain: Chain, book: Book) -> Iterator[tuple[Turn, Term, Term]]:
         yield turn, (rate if own else -rate), (second if own else -second)
 
 
+class Closure(ABC):
+    """Equations of a cut joint as a textbook differentiates them: linear in the rates of the group's unknowns."""
+
+    cut: Connection
+
+    @abstractmethod
+    def column(self, step: TreeJoint) -> list[Term]:
+        """What a unit rate of an unknown does to each equation."""
+
+    @abstractmethod
+    def known_rates(self, book: Book) -> list[Term]:
+        """The equations differentiated, the unknown rates left out."""
+
+    @abstractmethod
+    def known_seconds(self, book: Book, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
+        """Differentiated twice, the unknown second derivatives left out; ``bend``: known part of the acceleration of
+        one end of two chains against the other."""
+
+
 @dataclass(frozen=True)
-class Closure:
-    """One cut: its chains, the sign of each, and the direction of its rows (both axes, or across the guide)."""
+class ChainClosure(Closure):
+    """A pin or a guide that was cut: two chains that meet, the sign of each, and the direction of its rows (both
+    axes, or across the guide)."""
 
     cut: Connection
     chains: tuple[Chain, Chain]
     tip: Spot
     across: Slide | None
-
-    @property
-    def signs(self) -> tuple[int, int]:
-        return (-1, 1) if self.across is not None else (1, -1)
 
     def rows(self, vector: Pair) -> list[Term]:
         """A vector as the rows of this cut see it."""
@@ -193,15 +210,37 @@ class Closure:
             return [vector.x, vector.y]
         return [self.across.along.cross(vector)]
 
-    def joined(self, parts: tuple[Pair, Pair]) -> Pair:
+    def joined(self, parts: Sequence[Pair]) -> Pair:
         """One vector of each chain, signs applied."""
         return parts[0] - parts[1] if self.across is None else parts[1] - parts[0]
 
+    def moved(self, step: TreeJoint) -> Pair:
+        """What a unit rate of an unknown does to one end against the other."""
+        return self.joined([columns(chain).get(step, NOWHERE) for chain in self.chains])
 
-def closures(book: Book, group: Group) -> list[Closure]:
-    """All cuts of a group."""
+    def drifted(self, book: Book) -> Pair:
+        """Velocity of one end against the other, the unknown rates left out."""
+        return self.joined([drift(chain, book) for chain in self.chains])
+
+    def column(self, step: TreeJoint) -> list[Term]:
+        return self.rows(self.moved(step))
+
+    def known_rates(self, book: Book) -> list[Term]:
+        return self.rows(self.drifted(book))
+
+    def known_seconds(self, book: Book, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
+        rows = self.rows(bend(self))
+        if self.across is None:
+            return rows
+        return [rows[0] - TWO * book.omega(self.cut.a) * self.across.rate]
+
+
+def chain_closures(book: Book, group: Group) -> list[ChainClosure]:
+    """The pins and guides at which a group was cut."""
     found = []
     for cut in group.cuts:
+        if cut.higher:
+            continue
         if cut.turns:
             tip, names = book.spot(cut.a, cut.joint), (cut.joint, cut.joint)
             across = None
@@ -212,17 +251,15 @@ def closures(book: Book, group: Group) -> list[Closure]:
         chains = tuple(
             walk(book, group, end, tip, name) for end, name in zip((cut.a, cut.b), names, strict=True)
         )
-        found.append(Closure(cut, chains, tip, across))  # type: ignore[arg-type]
+        found.append(ChainClosure(cut, chains, tip, across))  # type: ignore[arg-type]
     return found
 
 
-def matrix(group: Group, cuts: list[Closure]) -> list[list[Term]]:
+def matrix(group: Group, cuts: Sequence[Closure]) -> list[list[Term]]:
     """Rows: equations of the cuts; columns: the unknowns."""
     rows: list[list[Term]] = []
     for closure in cuts:
-        ends = [columns(chain) for chain in closure.chains]
-        vectors = [closure.joined((ends[0].get(s, NOWHERE), ends[1].get(s, NOWHERE))) for s in group.unknowns]
-        seen = [closure.rows(vector) for vector in vectors]
+        seen = [closure.column(step) for step in group.unknowns]
         rows += [[column[i] for column in seen] for i in range(len(seen[0]))]
     return rows
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from linkwright.groups.base import Dyad
-from linkwright.kinematics.groups import dyad_shape, in_one_step
+from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
 from linkwright.structure.group import Group, TreeJoint
-from linkwright.worked.chains import Trail, attach, trail
+from linkwright.worked.chains import ChainClosure, Trail, attach, chain_closures, trail
+from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, is_unknown, pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, Slide, Spot, tex
 from linkwright.worked.terms import (
@@ -61,29 +63,36 @@ class Places:
             step.find(turn, formula, "°", f"{link}.angle [rad]")
 
     def follow(self, step: Step, joint: TreeJoint) -> None:
-        """The angle of a link that a guide, a weld or a driver turns, from that of its parent."""
+        """Notes the angle of a link that a guide, a weld or a driver turns."""
+        if not (joint.free and joint.turns):
+            self.angle(step, joint.child, self._followed(joint))
+
+    def _followed(self, joint: TreeJoint) -> Term:
+        """The angle of such a link, from that of its parent."""
         book = self.book
         parent = book.turn(joint.parent)
         if not joint.turns:
-            self.angle(step, joint.child, parent + book.turned(joint))
-        elif joint.driver is not None:
-            q = book.drive(joint.driver)[0]
-            own = joint.child == book.mechanism.drivers[joint.driver].link
-            self.angle(step, joint.child, parent + q if own else parent - q)
+            return parent + book.turned(joint)
+        assert joint.driver is not None
+        q = book.drive(joint.driver)[0]
+        return parent + q if joint.child == book.mechanism.drivers[joint.driver].link else parent - q
 
     def guide(self, step: Step, joint: str) -> Slide:
         """Notes the direction of a guide."""
         slide = self.book.slide(joint)
-        prismatic = self.book.mechanism.guides[joint]
         if joint not in self.guides:
             self.guides.add(joint)
-            turn = self.book.turn(prismatic.guide) + self.book.degrees(
-                prismatic.angle_of_guide(self.book.mechanism)
-            )
+            turn = self._guide_turn(joint)
             for term, part in ((slide.along.x, cosine(turn)), (slide.along.y, sine(turn))):
                 if term.op == "symbol":
                     step.find(term, part, "")
         return slide
+
+    def _guide_turn(self, joint: str) -> Term:
+        """Angle of a guide's direction."""
+        prismatic = self.book.mechanism.guides[joint]
+        own = self.book.degrees(prismatic.angle_of_guide(self.book.mechanism))
+        return self.book.turn(prismatic.guide) + own
 
     def displacement(self, step: Step, slide: Slide, formula: Term) -> None:
         """Notes the displacement of a block."""
@@ -102,7 +111,7 @@ class Places:
         if shape is not None and hasattr(shape[0], "work") and self._plain(group, shape[1]):
             self._dyad(step, group, *shape)
         elif group.unknowns and not in_one_step(group):
-            self._newton(step, group)
+            self._numerically(step, group)
         for joint in group.tree:
             self.follow(step, joint)
             if joint.slides:
@@ -276,12 +285,109 @@ class Places:
         if apart:
             self.point(step, tip, zero_1 + n1.times(self.book.slide(g1.joint).s))
 
-    def _newton(self, step: Step, group: Group) -> None:
-        """The unknowns that Newton's method found; the closure is checked once all points are placed."""
-        step.say(self.book.say("worked.newton", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
+    # groups without a dyad's closed form ----------------------------------------------------
+    def _numerically(self, step: Step, group: Group) -> None:
+        """The closure equations with the pairs' rows put in, and the unknowns that solve them; the closure is
+        checked once all points are placed."""
+        book = self.book
+        chains = chain_closures(book, group)
+        rows = pair_closures(book, group, chains)
+        known = self._held(group)
+        if rows:
+            step.say(book.say("worked.newton_pairs", joints=", ".join(row.cut.joint for row in rows)))
+        for row in rows:
+            known |= self._tied(step, row, known)
+        if chains:
+            joints = ", ".join(dict.fromkeys(closure.cut.joint for closure in chains))
+            step.say(book.say("worked.newton_chains", joints=joints))
+        for closure in chains:
+            self._closure(step, group, closure, known)
+        form = whole_form(group)
+        step.say(
+            book.say("worked.newton")
+            if form is None
+            else book.say("worked.own_form", form=form.signature or type(form).__name__)
+        )
+        self.give(step, group)
+
+    def give(self, step: Step, group: Group) -> None:
+        """The unknowns of a group as they were found."""
         for joint in group.unknowns:
             if joint.slides:
+                self.slid.add(joint.joint)
                 step.give(self.book.slide(joint.joint).s, "m", f"{joint.joint}.displacement [m]")
             else:
                 self.angles.add(joint.child)
                 step.give(self.book.turn(joint.child), "°", f"{joint.child}.angle [rad]")
+
+    def _held(self, group: Group) -> dict[str, Term]:
+        """Angles of links that turn with an unknown one, and the directions of guides on moving links."""
+        book = self.book
+        known: dict[str, Term] = {}
+        for joint in group.tree:
+            if not (joint.free and joint.turns):
+                known[book.turn(joint.child).plain] = self._followed(joint).put(known)
+        for connection in group.joints:
+            if connection.slides and connection.a != "frame":
+                turn, along = self._guide_turn(connection.joint), book.slide(connection.joint).along
+                for term, part in ((along.x, cosine(turn)), (along.y, sine(turn))):
+                    if term.op == "symbol":
+                        known[term.plain] = part.put(known)
+        return known
+
+    def _tied(self, step: Step, row: PairClosure, known: dict[str, Term]) -> dict[str, Term]:
+        """Notes a pair's row, solved for an unknown of the group where it has one; what that replaces."""
+        book = self.book
+        free = [part for part in (*row.turns, *row.slides) if part.source is not None]
+        parts = {id(part): self._symbol(part) for part in free}
+        mine = [part for part in free if parts[id(part)].plain not in known]
+        target = next((part for part in reversed(mine) if is_unknown(part)), None)
+        row.give(step, target)
+        if target is None:
+            left, right = row.sum(book.turn, lambda guide: book.slide(guide).s).put(known), ZERO
+            step.relate(left, right)
+            return {}
+        found = row.solved_for(target, book.turn, lambda guide: book.slide(guide).s).put(known)
+        name = parts[id(target)]
+        step.relate(name, found)
+        for key, term in known.items():
+            known[key] = term.put({name.plain: found})
+        return {name.plain: found}
+
+    def _symbol(self, part: Turned | Slid) -> Term:
+        return self.book.slide(part.guide).s if isinstance(part, Slid) else self.book.turn(part.link)
+
+    def _closure(self, step: Step, group: Group, closure: ChainClosure, known: dict[str, Term]) -> None:
+        """The two chains of a cut meet, in components; of a guide across it."""
+        book, cut = self.book, closure.cut
+        if closure.across is None:
+            (a, b) = (self._reach(group, end, cut.joint, cut.joint).put(known) for end in (cut.a, cut.b))
+            step.relate(a.x, b.x)
+            step.relate(a.y, b.y)
+            return
+        joint = book.mechanism.guides[cut.joint]
+        a, b = (
+            self._reach(group, end, name, name) for end, name in ((cut.a, joint.through), (cut.b, joint.at))
+        )
+        offset = symbol(f"h_{cut.joint}", f"h_{{{tex(cut.joint)}}}", joint.offset) if joint.offset else ZERO
+        step.relate(closure.across.along.cross(b - a).put(known), offset)
+
+    def _reach(self, group: Group, end: str, solved: str, tip: str) -> Pair:
+        """The end of a chain: from a point solved before along the chain to the point ``tip`` of its last link."""
+        steps = self._steps(group, end)
+        if not steps:
+            return self.book.spot(end, solved).place
+        start = attach(steps[0], steps[0].parent, self.book)
+        way = trail(self.book, steps, steps[0].parent, start, tip, local=False)
+        found = self.book.spot(steps[0].parent, start).place + way.reach
+        for joint, along, _ in way.slides:
+            found = found + along.times(self.book.slide(joint.joint).s)
+        return found
+
+    def check_pairs(self, step: Step, rows: Sequence[PairClosure]) -> None:
+        """What is left of the rows of higher pairs with the numbers put in."""
+        for row in rows:
+            row.give(step, None)
+            left = row.sum(self.book.rotation, lambda guide: self.book.slide(guide).s)
+            name = row.cut.joint
+            step.find(symbol(f"Δ_{name}", rf"\Delta_{{{tex(name)}}}", 0.0), left, "m")

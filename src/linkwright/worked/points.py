@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.chains import attach, turned
+from linkwright.worked.higher_pairs import pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book, Slide, Spot
@@ -70,10 +71,12 @@ def _guide_ends(book: Book, joint: str) -> tuple[Spot, Spot]:
     return book.spot(prismatic.guide, prismatic.through), book.spot(prismatic.block, prismatic.at)
 
 
-def check_closure(book: Book, step: Step, group: Group) -> None:
+def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
     """What is left of the closure equations with the numbers put in: zero but for rounding."""
     step.say(book.say("worked.closure_check"))
     for cut in group.cuts:
+        if cut.higher:
+            continue
         ends = []
         for end in (cut.a, cut.b):
             name = _end_name(book, cut.joint, end)
@@ -92,6 +95,7 @@ def check_closure(book: Book, step: Step, group: Group) -> None:
         for c, row in rows:
             zero = symbol(f"Δ{c}_{cut.joint}", rf"\Delta {c}_{{{cut.joint}}}", 0.0)
             step.find(zero, row, "m")
+    places.check_pairs(step, pair_closures(book, group, ()))
 
 
 def attach_of(book: Book, group: Group, link: str) -> str:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from linkwright.structure.group import Group
-from linkwright.worked.chains import Closure, Drift, bends, drift, matrix, unknown_names
+from linkwright.structure.group import Connection, Group
+from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
+from linkwright.worked.higher_pairs import PairClosure
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, symbol, total
+from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, symbol, total
 
 
 @dataclass
@@ -19,7 +21,7 @@ class System:
     determinant: Term | None
 
 
-def name_matrix(step: Step, group: Group, cuts: list[Closure]) -> System:
+def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
     """Notes every entry of the group's matrix J and, for two unknowns, the determinant."""
     formulas = matrix(group, cuts)
     entries = []
@@ -72,7 +74,7 @@ class RateWriter:
         self.book = book
         self.written: set[str] = set()
 
-    def velocities(self, step: Step, group: Group, cuts: list[Closure]) -> System | None:
+    def velocities(self, step: Step, group: Group, cuts: Sequence[Closure]) -> System | None:
         """The matrix, the right sides, and the unknown velocities."""
         book, system = self.book, None
         self.links(step, group, second=False, before=True)
@@ -80,17 +82,13 @@ class RateWriter:
             names = unknown_names(book, group, 1)
             self._relations(step, group, cuts, names, second=False)
             system = name_matrix(step, group, cuts)
-            gaps = [
-                -row
-                for c in cuts
-                for row in c.rows(c.joined((drift(c.chains[0], book), drift(c.chains[1], book))))
-            ]
+            gaps = [-row for closure in cuts for row in closure.known_rates(book)]
             right = self._right(step, gaps, "b", "m/s")
             solve(step, book, system, names, right, *self._labels(group, second=False))
         self.links(step, group, second=False, before=False)
         return system
 
-    def accelerations(self, step: Step, group: Group, cuts: list[Closure], system: System | None) -> None:
+    def accelerations(self, step: Step, group: Group, cuts: Sequence[Closure], system: System | None) -> None:
         """The known parts one by one, the right sides, and the unknown accelerations."""
         book = self.book
         self.links(step, group, second=True, before=True)
@@ -98,18 +96,32 @@ class RateWriter:
             assert system is not None
             names = unknown_names(book, group, 2)
             self._relations(step, group, cuts, names, second=True)
-            gaps = [-row for closure in cuts for row in self._bend(step, closure)]
+            noted: dict[Connection, Pair] = {}
+
+            def bend(closure: ChainClosure) -> Pair:
+                if closure.cut not in noted:
+                    noted[closure.cut] = self._bend(step, closure)
+                return noted[closure.cut]
+
+            gaps = [-row for closure in cuts for row in closure.known_seconds(book, bend)]
             right = self._right(step, gaps, "c", "m/s²")
             solve(step, book, system, names, right, *self._labels(group, second=True))
         self.links(step, group, second=True, before=False)
 
     def _relations(
-        self, step: Step, group: Group, cuts: list[Closure], names: list[Term], *, second: bool
+        self, step: Step, group: Group, cuts: Sequence[Closure], names: list[Term], *, second: bool
     ) -> None:
-        joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts))
+        joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts if not c.cut.higher))
+        pairs = ", ".join(c.cut.joint for c in cuts if c.cut.higher)
         key = "worked.acceleration_closure" if second else "worked.velocity_closure"
-        across = any(closure.across is not None for closure in cuts)
-        step.say(self.book.say(f"{key}_guide" if across else key, joints=joints))
+        across = any(closure.cut.slides for closure in cuts)
+        if joints:
+            step.say(self.book.say(f"{key}_guide" if across else key, joints=joints))
+        if pairs:
+            step.say(self.book.say("worked.pair_rates", joints=pairs))
+            for closure in cuts:
+                if isinstance(closure, PairClosure):
+                    closure.give(step, None)
         letter = "c" if second else "b"
         for i, row in enumerate(matrix(group, cuts), 1):
             entries = [
@@ -131,24 +143,15 @@ class RateWriter:
                 found.append(step.find(term, gap, unit))
         return found
 
-    def _drift(self, closure: Closure) -> list[Term]:
-        """Known part of the velocity of one end against the other."""
-        first, second = (drift(chain, self.book) for chain in closure.chains)
-        return closure.rows(closure.joined((first, second)))
-
-    def _bend(self, step: Step, closure: Closure) -> list[Term]:
-        """Notes the known parts of the accelerations of both ends; gives the rows of their difference."""
+    def _bend(self, step: Step, closure: ChainClosure) -> Pair:
+        """Notes the known parts of the accelerations of both ends; gives their difference."""
         ends = []
         for chain in closure.chains:
             whole = NOWHERE
             for part in bends(chain, self.book):
                 whole = whole + (part.vector if part.kind == "base" else self._part(step, part))
             ends.append(whole)
-        rows = closure.rows(closure.joined((ends[0], ends[1])))
-        if closure.across is None:
-            return rows
-        omega = self.book.omega(closure.cut.a)
-        return [rows[0] - TWO * omega * closure.across.rate]
+        return closure.joined(ends)
 
     def _part(self, step: Step, part: Drift) -> Pair:
         """Notes one known part of an acceleration, unless the other cut has noted it already."""

@@ -12,12 +12,13 @@ from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.applied import Known, KnownForces
-from linkwright.worked.chains import attach, closures
+from linkwright.worked.chains import ChainClosure, attach
+from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Step
 from linkwright.worked.rates import name_matrix, solve
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
-from linkwright.worked.wheels import Wheels
+from linkwright.worked.wheels import Wheels, tangential
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,8 @@ class Reactions:
         book = self.book
         cuts = closures(book, group)
         step.say(book.say("worked.cut_forces", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
+        if any(cut.higher for cut in group.cuts):
+            step.say(book.say("worked.pair_forces"))
         right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
         step.say(book.say("worked.same_matrix"))
         system = name_matrix(step, group, cuts)
@@ -89,6 +92,10 @@ class Reactions:
         place = 0
         for closure in cuts:
             cut = closure.cut
+            if not isinstance(closure, ChainClosure):
+                self._press(step, cut, unknowns[place])
+                place += 1
+                continue
             if cut.turns:
                 force, on = Pair(unknowns[place], unknowns[place + 1]), cut.a
                 place += 2
@@ -107,14 +114,18 @@ class Reactions:
         step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
         right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
         for cut, force in zip(group.cuts, wheels.multipliers(step, group, right), strict=True):
-            formula, place, couple = wheels.contact(cut, force)
-            on = cut.a if cut.a != "frame" else cut.b
-            if on != cut.a:
-                formula, couple = -formula, -couple
-            name, column = self._names(cut, on)
-            found = step.find_pair(name, self._solver_force(cut, on, 0j), formula, column)
-            self._size(step, cut, on, found)
-            self.found.append(Found(cut, on, Known(found, place, NOWHERE, couple)))
+            self._press(step, cut, force)
+
+    def _press(self, step: Step, cut: Connection, tangential: Term) -> None:
+        """The force of a higher pair, from its tangential force."""
+        formula, place, couple = Wheels(self.book).contact(step, cut, tangential)
+        on = cut.a if cut.a != "frame" else cut.b
+        if on != cut.a:
+            formula, couple = -formula, -couple
+        name, column = self._names(cut, on)
+        found = step.find_pair(name, self._solver_force(cut, on, 0j), formula, column)
+        self._size(step, cut, on, found)
+        self.found.append(Found(cut, on, Known(found, place, NOWHERE, couple)))
 
     def passive(self, names: tuple[str, ...], number: int) -> Step:
         """Pairs that others make superfluous: how they share the load is not determined; they count as unloaded."""
@@ -144,6 +155,10 @@ class Reactions:
         columns: list[str] = []
         for cut in group.cuts:
             place = len(unknowns)
+            if cut.higher:
+                unknowns.append(tangential(cut, float(values[place])))
+                columns.append("")
+                continue
             if cut.slides:
                 unknowns.append(symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", float(values[place])))
                 columns.append("")

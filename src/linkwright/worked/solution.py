@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.angles import geared
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -15,7 +14,7 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
 from linkwright.words import LANGUAGES, speaker
 from linkwright.words.sentence import Sentence
-from linkwright.worked.chains import closures
+from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Equation, Step
 from linkwright.worked.places import Places
 from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
@@ -84,9 +83,6 @@ def worked(
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
     _refuse_missing(motion, position)
-    loops = tuple(g.name for g in motion.structure.groups if geared(g) and not in_one_step(g))
-    if loops:
-        raise LinkwrightError(Sentence("worked.geared_loops", groups=loops))
     index = position % motion.steps
     say = speaker(language)
     book = Book(motion, index, say)
@@ -171,7 +167,7 @@ class _Kinematics:
         place_points(self.book, self.places, places, group)
         cut_displacements(self.book, self.places, places, group)
         if group.unknowns and dyad_shape(group) is None and not wheels:
-            check_closure(self.book, places, group)
+            check_closure(self.book, self.places, places, group)
         if not moving:
             return [head, places]
         if wheels:

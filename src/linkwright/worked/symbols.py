@@ -49,6 +49,7 @@ class Book:
         self.index = index
         self.say = say
         self.numbers = {"frame": 0} | {name: i for i, name in enumerate(self.mechanism.links, 1)}
+        self.given: set[str] = set()
         self._spots: dict[str, Spot] = {}
 
     # links --------------------------------------------------------------------------------
@@ -64,6 +65,16 @@ class Book:
             return ZERO
         n = self.numbers[link]
         return symbol(f"φ{n}", rf"\varphi_{{{n}}}", self.angle_of(link), degrees=True)
+
+    def rotation(self, link: str) -> Term:
+        """φ of a link and the turns that pairs count with it."""
+        turn = self.turn(link)
+        if link == "frame" or not self.motion.solver.motion.angles.counts(link):
+            return turn
+        counted = math.degrees(float(self.motion.row("o", link)[self.index]))
+        turns = round((counted - turn.amount) / 360.0)
+        whole = number(360.0 * abs(turns), degrees=True)
+        return turn + whole if turns > 0 else turn - whole
 
     def omega(self, link: str) -> Term:
         """ω of a link."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 #: Anything smaller (SI) is nothing but rounding.
 NOTHING = 1e-12
@@ -73,6 +73,12 @@ class Term:
             return APPLY[self.op](self, [each.reckon(leaf) for each in self.args])
         except (ValueError, ZeroDivisionError, OverflowError):
             return math.nan
+
+    def put(self, known: Mapping[str, Term]) -> Term:
+        """The term with symbols, by their plain names, replaced by what is known of them."""
+        if not self.args:
+            return known.get(self.plain, self) if self.op == "symbol" else self
+        return replace(self, args=tuple(each.put(known) for each in self.args))
 
     def leaves(self) -> list[Term]:
         """All symbols and numbers in it."""
@@ -185,6 +191,10 @@ class Pair:
     def cross(self, other: Pair) -> Term:
         """Component of the vector product along z."""
         return self.x * other.y - self.y * other.x
+
+    def put(self, known: Mapping[str, Term]) -> Pair:
+        """Both components with symbols replaced."""
+        return Pair(self.x.put(known), self.y.put(known))
 
     def dot(self, other: Pair) -> Term:
         """Scalar product."""

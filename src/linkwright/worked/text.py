@@ -31,7 +31,7 @@ def _step(step: Step) -> Iterator[str]:
                 yield ""
             yield from wrapped(item.text)
         elif isinstance(item, Relation):
-            yield f"    {item.text}"
+            yield from _long("    ", item.text, "    ")
         else:
             yield from _equation(item, margin)
         previous_note = isinstance(item, Note)

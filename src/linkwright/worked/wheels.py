@@ -2,162 +2,159 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
 from linkwright.joints.base import Contact
 from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, one_by_one, pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import ZERO, Pair, Term, cosine, number, root, sine, symbol, total
 
 
-@dataclass(frozen=True)
-class WheelRow:
-    """One pair's row: what every unknown of the group and every known rotation or slide counts in it, in m."""
-
-    cut: Connection
-    unknown: list[float]
-    rotations: dict[str, float]
-    slides: dict[str, float]
-
-
 class Wheels:
-    """Writes the positions and rates of such groups."""
+    """Writes the positions, rates and forces of such groups."""
 
     def __init__(self, book: Book) -> None:
         self.book = book
 
-    def rows(self, group: Group) -> list[WheelRow]:
-        """The rows of a group's pairs, scaled so that their multipliers are forces."""
-        found = []
-        for cut in group.cuts:
-            joint = self.book.mechanism.joints[cut.joint]
-            rotations, slides, _ = joint.sums(self.book.mechanism)
-            scale = joint.contact(self.book.mechanism).scale
-            unknown = [0.0] * len(group.unknowns)
-            left: dict[str, float] = {}
-            for link, factor in rotations.items():
-                source = self._source(group, link)
-                if source is None:
-                    left[link] = scale * factor
-                else:
-                    unknown[group.unknowns.index(source)] += scale * factor
-            free = {step.joint: step for step in group.unknowns if step.slides}
-            kept = {}
-            for name, factor in slides.items():
-                if name in free:
-                    unknown[group.unknowns.index(free[name])] += scale * factor
-                else:
-                    kept[name] = scale * factor
-            found.append(WheelRow(cut, unknown, {k: v for k, v in left.items() if k != "frame"}, kept))
-        return found
-
-    @staticmethod
-    def _source(group: Group, link: str) -> TreeJoint | None:
-        """The free pin of the group with which a link turns."""
-        for step in group.path(link):
-            if step.free and step.turns:
-                return step
-        return None
-
     def positions(self, step: Step, places: Places, group: Group) -> None:
         """Rotations and displacements, as the pairs add them up."""
         book = self.book
-        step.say(book.say("worked.wheels", joints=", ".join(cut.joint for cut in group.cuts)))
+        step.say(book.say("worked.wheels", joints=_names(group)))
         for joint in group.unknowns:
             if joint.slides:
-                slide = places.guide(step, joint.joint)
-                if joint.joint not in places.slid:
-                    places.slid.add(joint.joint)
-                    step.give(slide.s, "m", f"{joint.joint}.displacement [m]")
-            elif joint.child not in places.angles:
-                places.angles.add(joint.child)
-                step.give(book.turn(joint.child), "°", f"{joint.child}.angle [rad]")
+                places.guide(step, joint.joint)
+        rows = pair_closures(book, group, ())
+        solved = list(one_by_one(group, rows))
+        for row, target in solved:
+            row.give(step, target)
+            formula = row.solved_for(target, book.rotation, lambda guide: book.slide(guide).s)
+            if isinstance(target, Slid):
+                places.displacement(step, book.slide(target.guide), formula)
+            else:
+                places.angle(step, target.link, formula)
+        if not solved:
+            places.give(step, group)
+            places.check_pairs(step, rows)
 
     def rates(self, step: Step, group: Group, *, second: bool) -> None:
         """Velocities or accelerations of the unknowns: every row is linear in them."""
         book = self.book
-        names = [self._rate(joint, second) for joint in group.unknowns]
-        rows = self.rows(group)
-        rests = [self._rest(row, second) for row in rows]
-        if all(rest.is_zero for rest in rests):
+        rows = pair_closures(book, group, ())
+        rate = book.alpha if second else book.omega
+        speed = self._second if second else self._speed
+        solved = [(row, target, row.rate_of(target, rate, speed)) for row, target in one_by_one(group, rows)]
+        if solved:
+            if any(not formula.is_zero for *_, formula in solved):
+                step.say(book.say("worked.wheel_rates", joints=_names(group)))
+            for _, target, formula in solved:
+                name, unit, column = self._rate(target, second)
+                if not name.is_zero:
+                    step.find(name, formula, unit, column)
             return
-        step.say(book.say("worked.wheel_rates", joints=", ".join(row.cut.joint for row in rows)))
-        if len(rows) == 1:
-            name, unit, column = names[0]
-            step.find(name, -rests[0] / number(rows[0].unknown[0]), unit, column)
-            return
-        for name, unit, column in names:
-            step.give(name, unit, column)
-        for row, rest in zip(rows, rests, strict=True):
-            left = total([number(k) * name for k, (name, _, _) in zip(row.unknown, names, strict=True) if k])
-            step.find(symbol("0", "0", 0.0), left + rest, "")
+        step.say(book.say("worked.wheel_rates", joints=_names(group)))
+        self._together(step, group, rows, second=second)
 
-    def _rest(self, row: WheelRow, second: bool) -> Term:
+    def _together(self, step: Step, group: Group, rows: Sequence[PairClosure], *, second: bool) -> None:
+        """Unknowns that no row gives alone, with every row put in."""
         book = self.book
-        turns = [
-            number(k) * (book.alpha(link) if second else book.omega(link))
-            for link, k in row.rotations.items()
-        ]
-        slides = [book.slide(name) for name in row.slides]
-        moved = [
-            number(k) * (slide.second if second else slide.rate)
-            for slide, k in zip(slides, row.slides.values(), strict=True)
-        ]
-        return total([*turns, *moved])
+        names = [self._rate(joint, second) for joint in group.unknowns]
+        for row in rows:
+            row.give(step, None)
+        for name, unit, column in names:
+            if not name.is_zero:
+                step.give(name, unit, column)
+        for row in rows:
+            known = row.known_seconds(book, _no_chain)[0] if second else row.known_rates(book)[0]
+            left = [
+                row.column(joint)[0] * name for joint, (name, *_) in zip(group.unknowns, names, strict=True)
+            ]
+            formula = total([*left, known])
+            if not formula.is_zero:
+                step.find(symbol("0", "0", 0.0), formula, "")
 
-    def _rate(self, joint: TreeJoint, second: bool) -> tuple[Term, str, str]:
+    def _speed(self, guide: str) -> Term:
+        return self.book.slide(guide).rate
+
+    def _second(self, guide: str) -> Term:
+        return self.book.slide(guide).second
+
+    def _rate(self, of: Turned | Slid | TreeJoint, second: bool) -> tuple[Term, str, str]:
+        joint = of if isinstance(of, TreeJoint) else of.source
+        assert joint is not None
         word, unit = ("acceleration", "/s²") if second else ("velocity", "/s")
         if joint.slides:
-            slide = self.book.slide(joint.joint)
-            return slide.second if second else slide.rate, f"m{unit}", f"{joint.joint}.{word} [m{unit}]"
-        rate = self.book.alpha(joint.child) if second else self.book.omega(joint.child)
-        return rate, f"rad{unit}", f"{joint.child}.angular_{word} [rad{unit}]"
+            rate = self._second(joint.joint) if second else self._speed(joint.joint)
+            return rate, f"m{unit}", f"{joint.joint}.{word} [m{unit}]"
+        turned = self.book.alpha(joint.child) if second else self.book.omega(joint.child)
+        return turned, f"rad{unit}", f"{joint.child}.angular_{word} [rad{unit}]"
 
     # forces -----------------------------------------------------------------------------------
     def multipliers(self, step: Step, group: Group, right: list[Term]) -> list[Term]:
         """The tangential force of every pair, from the moments on the unknowns."""
-        rows = self.rows(group)
-        named = [symbol(f"T_{r.cut.joint}", f"T_{{{tex(r.cut.joint)}}}", 0.0) for r in rows]
-        matrix = np.array([r.unknown for r in rows]).T
+        rows = pair_closures(self.book, group, ())
+        for row in rows:
+            row.give(step, None)
+        entries = [[row.column(joint)[0] for row in rows] for joint in group.unknowns]
+        matrix = np.array([[entry.value for entry in line] for line in entries])
         values = np.linalg.solve(matrix, np.array([term.value for term in right]))
-        named = [symbol(n.plain, n.latex, float(value)) for n, value in zip(named, values, strict=True)]
+        named = [tangential(row.cut, float(value)) for row, value in zip(rows, values, strict=True)]
         if len(rows) == 1:
             if right[0].is_zero:
                 step.give(named[0], "N")
             else:
-                step.find(named[0], right[0] / number(rows[0].unknown[0]), "N")
+                step.find(named[0], right[0] / entries[0][0], "N")
             return named
         for term in named:
             step.give(term, "N")
-        for j, goal in enumerate(right):
-            left = total([number(r.unknown[j]) * t for r, t in zip(rows, named, strict=True) if r.unknown[j]])
+        for line, goal in zip(entries, right, strict=True):
+            left = total([entry * force for entry, force in zip(line, named, strict=True)])
             step.find(symbol("0", "0", 0.0) if goal.is_zero else goal, left, "")
         return named
 
-    def contact(self, cut: Connection, force: Term) -> tuple[Pair, Pair, Term]:
+    def contact(self, step: Step, cut: Connection, force: Term) -> tuple[Pair, Pair, Term]:
         """Force on the pair's first link, where it acts, and its couple there, from the tangential force."""
         book = self.book
         contact = book.mechanism.joints[cut.joint].contact(book.mechanism)
-        along = self._along(contact)
+        along = self._along(step, cut, contact)
         link, point = contact.at
         place = book.spot(link, point).place
         pushed = along.perp.times(number(contact.across) * force)
-        if contact.press:
-            pushed = pushed + along.times(number(contact.press) * root(force.squared))
-        if contact.steady:
-            pushed = pushed + along.times(number(contact.steady))
+        if contact.press or contact.steady:
+            size = number(contact.press) * root(force.squared) + number(contact.steady)
+            named = symbol(f"S_{cut.joint}", f"S_{{{tex(cut.joint)}}}", size.value)
+            pushed = pushed + along.times(step.find(named, size, "N"))
         couple = number(contact.couple) * force if contact.couple else ZERO
         return pushed, place + along.times(number(contact.reach)) if contact.reach else place, couple
 
-    def _along(self, contact: Contact) -> Pair:
-        turn = self.book.turn(contact.link) + number(
-            float(f"{math.degrees(contact.angle):.13g}"), degrees=True
-        )
-        if contact.angle == 0.0:
-            turn = self.book.turn(contact.link)
-        return Pair(cosine(turn), sine(turn))
+    def _along(self, step: Step, cut: Connection, contact: Contact) -> Pair:
+        """Unit vector along the line of centres, or square to a rack, away from which S presses."""
+        own = self.book.degrees(contact.angle)
+        turn = self.book.turn(contact.link) + own
+        if turn.is_zero or turn.op == "symbol":
+            return Pair(cosine(turn), sine(turn))
+        value = (turn.value + 180.0) % 360.0 - 180.0
+        name = symbol(f"γ_{cut.joint}", rf"\gamma_{{{tex(cut.joint)}}}", value, degrees=True)
+        if own == turn:
+            step.give(name, "°")
+        else:
+            rounds = number(turn.value - value, degrees=True)
+            step.find(name, turn - rounds, "°")
+        return Pair(cosine(name), sine(name))
+
+
+def tangential(cut: Connection, value: float) -> Term:
+    """T, the tangential force of a pair."""
+    return symbol(f"T_{cut.joint}", f"T_{{{tex(cut.joint)}}}", value)
+
+
+def _names(group: Group) -> str:
+    return ", ".join(cut.joint for cut in group.cuts)
+
+
+def _no_chain(closure: object) -> Pair:
+    raise AssertionError("a group without other cuts")

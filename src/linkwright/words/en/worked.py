@@ -1,12 +1,19 @@
 """The worked solution of one position."""
 
 WORDS = {
-    "geared_loops": "the worked solution does not go through groups in which gears, belts or racks are part of a "
-    "loop ({groups})",
-    "wheels": "The pairs {joints} add the rotations up, counted with their turns:",
-    "wheel_rates": "Equal velocities along the tangent at the pitch points of {joints}:",
-    "wheel_forces": "Moments about the wheels' centres: T is the tangential force of each of {joints}; teeth add "
-    "T tan α along the line of centres, belts pull along their strands.",
+    "wheels": "The pairs {joints} add the rotations up, counted with their turns (i: ratio to each link, r: lever "
+    "arm; β, c: from the drawing or the file):",
+    "wheel_rates": "The rows of {joints}, differentiated:",
+    "wheel_forces": "Moments about the wheels' centres give T, the tangential force of each of {joints}. S acts "
+    "along the line of centres (direction: γ): T tan α, which presses teeth apart, or the pull of a belt's strands.",
+    "newton_pairs": "The pairs {joints} tie rotations, counted with their turns, and displacements to each other, "
+    "as the closure equations have them (i: ratio to each link, r: lever arm; β, c: from the drawing or the file):",
+    "newton_chains": "Closure equations of the chains, cut at {joints}:",
+    "newton": "They have no closed form; Newton's method gives",
+    "own_form": "The closed form {form} of a package gives",
+    "pair_rates": "The rows of {joints}, differentiated (r: lever arms of the rotations):",
+    "pair_forces": "T: tangential force of a pair. S acts along the line of centres (its direction: γ), does no work "
+    "and follows from T: T tan α, which presses teeth apart, or the pull of a belt's strands.",
     "passive": "Passive pairs {joints}",
     "passive_share": "How they share the load with others is not determined by rigid links; they count as unloaded.",
     "title": "{name}: worked solution of one position",
@@ -39,7 +46,6 @@ WORDS = {
     "+ρ.",
     "mode_rpr_minus": "The block lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ.",
     "zero_slide": "{name}: where {b} would be with the displacement 0.",
-    "newton": "No closed form. The chains are cut at {joints}; Newton's method on the closure equations gives",
     "closure_check": "The closure put in: what is left is zero to the digits shown.",
     "velocity_closure": "Both ends at {joints} have the same velocity:",
     "velocity_closure_guide": "Both ends at {joints} have the same velocity (for a guide: across it):",

@@ -1,10 +1,18 @@
 """一个位置的解题过程。"""
 
 WORDS = {
-    "geared_loops": "解题步骤不包括齿轮、带或齿条处于回路之中的杆组（{groups}）",
-    "wheels": "由 {joints} 将各转角（计入整圈数）叠加：",
-    "wheel_rates": "{joints} 节点处沿切线的速度相等：",
-    "wheel_forces": "对轮心取矩：T 为 {joints} 各自的切向力；轮齿另有沿连心线的 T tan α，带沿其带边拉紧。",
+    "wheels": "由 {joints} 将各转角（计入整圈数）叠加（i：对各构件的传动比，r：力臂；β、c：由图或文件给定）：",
+    "wheel_rates": "{joints} 的方程求导：",
+    "wheel_forces": "对轮心取矩得 T，即 {joints} 各自的切向力。S 沿连心线（方向角 γ）：轮齿为 T tan α，使两轮分离；"
+    "带为两侧带边的拉力。",
+    "newton_pairs": "{joints} 把各转角（计入整圈数）与位移联系起来，并代入封闭方程（i：对各构件的传动比，r：力臂；"
+    "β、c：由图或文件给定）：",
+    "newton_chains": "在 {joints} 处拆开运动链，封闭方程为：",
+    "newton": "无封闭解，用牛顿法得",
+    "own_form": "由扩展包的封闭解 {form} 得",
+    "pair_rates": "{joints} 的方程求导（r：各转角的力臂）：",
+    "pair_forces": "T 为高副的切向力。S 沿连心线（方向角 γ），不做功，由 T 确定：轮齿为 T tan α，使两轮分离；"
+    "带为两侧带边的拉力。",
     "passive": "虚约束高副 {joints}",
     "passive_share": "各副如何分担载荷，刚性构件不能确定；此处按不受力计。",
     "title": "{name}：一个位置的解题过程",
@@ -33,7 +41,6 @@ WORDS = {
     "mode_rpr_plus": "沿导路看，滑块在由 {p} 所作垂线的垂足之前：取 +ρ。",
     "mode_rpr_minus": "沿导路看，滑块在由 {p} 所作垂线的垂足之后：取 -ρ。",
     "zero_slide": "{name}：位移为零时 {b} 所在之处。",
-    "newton": "无封闭解。在 {joints} 处拆开运动链，对封闭方程用牛顿法，得",
     "closure_check": "代回封闭方程：余量在所示位数内为零。",
     "velocity_closure": "两侧在 {joints} 处速度相等：",
     "velocity_closure_guide": "两侧在 {joints} 处速度相等（移动副：垂直于导路的分量）：",
