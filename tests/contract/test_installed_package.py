@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.contract import triad_of_a_package as triad
 from tests.contract.settling import LAW
 
 import linkwright
@@ -24,7 +25,7 @@ settling = slots:Settling
 LEVER[linkwright.metrics]
 mean_torque = slots:MeanTorque
 """
-LEVER = "[linkwright.groups]\nslotted_lever = slots:SlottedLever\n"
+LEVER = "[linkwright.groups]\nslotted_lever = slots:SlottedLever\nthree_guides = trammels:ThreeGuides\n"
 #: A slotted lever driven by a crank's pin, once with the kind of the package, once with a massless block and a guide.
 PROGRAM = r'''
 import sys, numpy as np, linkwright as lw
@@ -98,8 +99,8 @@ else:
 try:
     lw.worked(found)
     raise SystemExit("worked")
-except lw.LinkwrightError as error:
-    assert "(lever)" in str(error)
+except LackingError as error:
+    assert "\"pin_in_slot\" does not supply \"sums\"" in str(error)
 law = lw.loads(known.replace("speed: 60 rpm}", "settling: 90 deg}\ncycle: {duration: 1 s}"))
 assert abs(lw.solve_motion(law, steps=4).input[-1] - np.radians(90) * (1 - np.exp(-1.0))) < 1e-14
 open("own.yaml", "w").write(own)
@@ -121,14 +122,15 @@ def test_an_installed_package_of_elements(tmp_path: Path, way: str) -> None:
     """With and without a closed form for the group of the package's joint."""
     (code,) = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     (tmp_path / "slots.py").write_text(code + LAW, "utf-8")
+    (tmp_path / "trammels.py").write_text(triad.PACKAGE, "utf-8")
     info = tmp_path / "slots-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: slots\nVersion: 1.0\n", "utf-8")
     (info / "entry_points.txt").write_text(POINTS.replace("LEVER", LEVER if way == "closed" else ""), "utf-8")
     source = str(Path(linkwright.__file__).parents[1])
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([source, str(tmp_path)])}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([source, str(tmp_path), str(ROOT)])}
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, way],
+        [sys.executable, "-c", PROGRAM + (triad.PROGRAM if way == "closed" else ""), way],
         capture_output=True,
         text=True,
         cwd=tmp_path,

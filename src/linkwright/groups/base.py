@@ -71,6 +71,10 @@ class Dyad(Protocol):
         """Writes the formulas of the positions in worked solutions; a class without it gets the closure's check."""
         ...
 
+    def at_end(self, facts: Mapping[str, float]) -> str:
+        """How the group stands where the range of the input ends; a class without it is called singular."""
+        ...
+
     def explain(self, facts: Mapping[str, float]) -> str:
         """Why the group cannot be assembled, from the facts at that position; a ``Sentence`` has other languages."""
         ...

@@ -41,6 +41,9 @@ class PRP:
             facts={"sine": sine},
         )
 
+    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+        return Sentence("range.parallel")
+
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         return Sentence("outcome.prp_parallel", sine=f"{facts['sine']:.1e}")
 

@@ -52,6 +52,9 @@ class RPR:
             facts={"distance²": dd, "offset": e},
         )
 
+    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+        return Sentence("range.closest")
+
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
         return Sentence(

@@ -50,6 +50,9 @@ class RRP:
             facts={"height": h, "length²": rr},
         )
 
+    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+        return Sentence("range.perpendicular")
+
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
         return Sentence(

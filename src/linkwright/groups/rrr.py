@@ -53,6 +53,11 @@ class RRR:
             facts={"distance²": dd, "first²": r1, "second²": r2},
         )
 
+    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+        distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
+        stretched = abs(distance - r1 - r2) < abs(distance - abs(r1 - r2))
+        return Sentence("range.stretched" if stretched else "range.folded")
+
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
         far = distance > r1 + r2

@@ -349,26 +349,18 @@ class _Search:
         states = self._states(stop, np.array([good, bad]))
         solver, modes = self._solver(stop.modes), {n: np.full(2, v) for n, v in stop.modes.items()}
         placed = solver.motion.placed
-        names = tuple(f"quality:{name}" for name, p in placed.items() if p.facts and p.dyad is not None)
+        names = tuple(f"quality:{name}" for name, p in placed.items() if p.dyad is not None)
         quality = solver.evaluate(names, ends, states, modes)
         least = {name.removeprefix("quality:"): row[0] for name, row in zip(names, quality, strict=True)}
         stuck = min(least, key=least.__getitem__, default=None)
         stuck = stop.group or stuck
         assert stuck is not None
-        if placed[stuck].dyad is None:
+        told = getattr(placed[stuck].dyad, "at_end", None)
+        if told is None:
             return groups[stuck], Sentence("range.singular")
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
-        return groups[stuck], _how(groups[stuck].signature, dict(zip(facts, map(float, row), strict=True)))
-
-
-def _how(signature: str, facts: Mapping[str, float]) -> str:
-    if {"distance²", "first²", "second²"} <= set(facts):
-        distance, a, b = (math.sqrt(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
-        apart, near = abs(distance - a - b), abs(distance - abs(a - b))
-        return Sentence("range.stretched" if apart < near else "range.folded")
-    known = {"RRP": "range.perpendicular", "RPR": "range.closest"}
-    return Sentence(known.get(signature, "range.parallel"))
+        return groups[stuck], told(dict(zip(facts, map(float, row), strict=True)))
 
 
 def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
