@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -16,6 +16,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
@@ -33,6 +34,8 @@ from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 VALUE = "objective"
+#: Change of an angle between two positions, rad, up to which there is no doubt how often it has turned.
+CLEAR = 0.75 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,8 +192,9 @@ def objective(
     Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, wheels and racks on links that a dyad places,
-            friction, and the loads that :func:`sweep` finds design by design, through which no gradient is found yet.
+        LinkwrightError: unknown names; groups without closed form, friction, and the loads that :func:`sweep` finds
+            design by design, through which no gradient is found yet; positions too far apart to count the turns of a
+            link that a dyad places and a wheel follows.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
@@ -277,9 +281,7 @@ class _Builder:
         motion = plain.solver.motion
         if any(placed.next_states for placed in motion.placed.values()):
             raise RequestError(Sentence("study.objective_iterates", name=mechanism.name))
-        if motion.angles.counted:
-            links = tuple(motion.angles.counted)
-            raise RequestError(Sentence("study.objective_turns", name=mechanism.name, links=links))
+        self.turns = counted_turns(plain)
         outputs = [summary.output for summary in self.summaries]
         loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
         if loads is None:
@@ -307,8 +309,13 @@ class _Builder:
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
+        loaded = self.loads.stages(self.traced, judged=False)
+        if self.turns is not None:
+            loaded = (self.turns, *loaded)
+            refuse_turns(self.traced, loaded[1:], self.turns.keep)
+            program = states_as_fields(program, self.turns.keep)
         stages = (
-            *self.loads.stages(self.traced, judged=False),
+            *loaded,
             Stage(program, made, valid=VALID, complete=True),
             Stage(self._total(), {VALUE: Reduction(VALUE, "first")}, steps=1),
         )
@@ -354,6 +361,41 @@ class _Builder:
         for k, (_, weight) in enumerate(self.paths):
             total = total + weight * t.parameter(f"path {k}")
         return Program.of(t, {VALUE: total})
+
+
+def counted_turns(traced: Traced) -> Stage | None:
+    """Rotations of links that a dyad places, counted from position to position, as fields that further stages take;
+    None where nothing counts them.
+
+    Raises:
+        RequestError: a link turns too far between two positions for its turns to be told.
+    """
+    motion, positions = traced.solver.motion, traced.positions
+    carried = motion.angles.carried
+    if not carried:
+        return None
+    trace = motion.trace
+    passed: Mask = motion.valid
+    for name, value in carried.items():
+        passed = trace.logic("and", passed, absolute(value - trace.state(name)) < CLEAR)
+    known = traced.solver.states(positions)
+    starts = {name: float(known[name][0]) for name in carried}
+    program = Program.of(trace, {**carried, VALID: passed}, carried)
+    stage = Stage(program, valid=VALID, complete=True, starts=starts, keep=tuple(carried))
+    if any(np.nanmax(np.abs(np.diff(known[name])), initial=0.0) >= CLEAR for name in carried):
+        raise RequestError(
+            Sentence(
+                "study.objective_turns", name=traced.mechanism.name, links=tuple(motion.angles.counted),
+            )
+        )  # fmt: skip
+    return stage
+
+
+def refuse_turns(traced: Traced, stages: Iterable[Stage], names: Collection[str]) -> None:
+    """Refuses loads whose limits are found between positions by rotations that are counted at positions alone."""
+    if any(set(names) & set(stage.program.states) for stage in stages):
+        links = tuple(traced.solver.motion.angles.counted)
+        raise RequestError(Sentence("study.objective_turned_loads", name=traced.mechanism.name, links=links))
 
 
 def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:

@@ -109,9 +109,10 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "design at a time",
     "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
     "found; use sensitivity",
-    "objective_turns": "{name!r}: a wheel, rack, belt or cam follows the turns of {links}, but a dyad places that "
-    "link, so its turns are counted from position to position, through which no gradient of many designs is found; "
-    "use sensitivity",
+    "objective_turns": "{name!r}: {links} turns so far between two positions that its turns cannot be counted; "
+    "give more steps, or more inputs",
+    "objective_turned_loads": "{name!r}: loads go by limits of what a wheel, rack, belt or cam on {links} moves, "
+    "whose turns are counted from position to position, so no gradient of many designs is found; use sensitivity",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",
     "objective_idle": "{names} has no influence on what is asked; leave it out",

@@ -93,8 +93,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_loads": "{name!r} 含有摩擦，或载荷以输出为除数、取决于整转构件的转角，或原动件不是匀速转一整周，"
     "因此不能成批求梯度；请用 sensitivity，它逐个方案计算",
     "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；请用 sensitivity",
-    "objective_turns": "“{name}”中的齿轮、齿条、带或凸轮随 {links} 转动，而该构件由二级杆组确定，其整圈数逐位置累计，"
-    "不能成批求梯度；请用 sensitivity",
+    "objective_turns": "“{name}”：{links} 在相邻两个位置之间转得太多，不能确定整圈数；请增加步数或输入位置",
+    "objective_turned_loads": "“{name}”：载荷取决于 {links} 上的齿轮、齿条、带或凸轮所带动构件的极限，"
+    "而其整圈数逐位置累计，不能成批求梯度；请用 sensitivity",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
