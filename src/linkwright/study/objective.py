@@ -311,7 +311,7 @@ class _Builder:
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
         loaded = self.loads.stages(self.traced, judged=False)
         if self.turns is not None:
-            loaded = (self.turns, *loaded)
+            loaded = [self.turns, *loaded]
             refuse_turns(self.traced, loaded[1:], self.turns.keep)
             program = states_as_fields(program, self.turns.keep)
         stages = (

@@ -48,6 +48,11 @@ class PairClosure(Closure):
     book: Book
     group: Group
 
+    @property
+    def parts(self) -> tuple[Turned | Slid, ...]:
+        """All that the row adds up."""
+        return (*self.turns, *self.slides)
+
     # symbols ----------------------------------------------------------------------------------
     def arm(self, part: Turned) -> Term:
         """r: how far the pitch point moves with a link's rotation."""
@@ -199,7 +204,7 @@ def one_by_one(group: Group, rows: Sequence[PairClosure]) -> Iterator[tuple[Pair
     known: set[TreeJoint] = set()
     while waiting:
         for row in waiting:
-            parts = [part for part in (*row.turns, *row.slides) if part.source and part.source not in known]
+            parts = [part for part in row.parts if part.source and part.source not in known]
             if len(parts) == 1 and is_unknown(parts[0]):
                 break
         else:

@@ -338,7 +338,7 @@ class Places:
     def _tied(self, step: Step, row: PairClosure, known: dict[str, Term]) -> dict[str, Term]:
         """Notes a pair's row, solved for an unknown of the group where it has one; what that replaces."""
         book = self.book
-        free = [part for part in (*row.turns, *row.slides) if part.source is not None]
+        free = [part for part in row.parts if part.source is not None]
         parts = {id(part): self._symbol(part) for part in free}
         mine = [part for part in free if parts[id(part)].plain not in known]
         target = next((part for part in reversed(mine) if is_unknown(part)), None)
