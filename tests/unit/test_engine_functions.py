@@ -356,3 +356,27 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
         )
     with pytest.raises(ValueError, match="one trace"):
         tr.slope(y, {tr.Trace().position("x"): 1.0})
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["sin", "cos", "atan", "angle"])
+def test_functions_in_all_lanes_are_exact_to_two_units_in_the_last_place(name: str) -> None:
+    """Against mpmath, near multiples of a quarter turn and of the ratios where the formula changes, far away too."""
+    traced, exact, arguments = CASES[name]
+    random = np.random.default_rng(1)
+    quarters = np.arange(-40, 40) * (np.pi / 2) * (1.0 + 1e-15 * random.normal(size=80))
+    ratios = np.repeat([0.0, 0.4375, 0.6875, 1.1875, 2.4375], 4) + 1e-9 * random.normal(size=20)
+    x = np.concatenate([quarters, ratios, -ratios, random.uniform(-9e4, 9e4, 60), [1e-300, 1e7, -1e22]])
+    given = [x, random.normal(size=len(x)) * 10.0 ** random.uniform(-3, 3, len(x))][: len(arguments)]
+    names = [f"x{k}" for k in range(len(given))]
+    t = tr.Trace()
+    program = Program.of(t, {"y": traced(*[t.position(n) for n in names])})
+    got = evaluate(program, "llvm", [], dict(zip(names, given, strict=True)))[0]
+    with mpmath.workdps(60):
+        for value, *numbers in zip(got, *given, strict=True):
+            want = exact(*[mpmath.mpf(float(number)) for number in numbers])
+            assert abs(mpmath.mpf(float(value)) - want) <= 2 * np.spacing(abs(float(want))), numbers
+    at_zero = {"sin": [0.0, -0.0], "cos": [1.0, 1.0], "atan": [0.0, -0.0], "angle": [0.0, -0.0]}[name]
+    zeros = {n: np.array([0.0, -0.0] if n == "x0" else [1.0, 1.0]) for n in names}
+    found = evaluate(program, "llvm", [], zeros)[0]
+    assert (found == at_zero).all() and (np.signbit(found) == np.signbit(at_zero)).all()

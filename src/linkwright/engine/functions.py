@@ -1,9 +1,10 @@
 """Functions of one or two numbers: value, slopes, and their names in NumPy, LLVM and the C library.
 
 Equal bits: ``sqrt``, ``abs`` and ``floor`` are exact, so they are equal on all back ends. The others
-come from the C library on Python floats and in compiled code, equal to the last bit there; NumPy has
-vectorised ones of its own, which may differ from these in the last digits (its stated bound is 4 units
-in the last place). Look-ups are equal as well. Sums, products and quotients are rounded one by one by
+come from the C library on Python floats, and in compiled code but for ``sin``, ``cos``, ``atan`` and
+``atan2`` of values along the positions: these are found in all lanes at once, to 1.5 units in the last
+place (``ir_functions``). NumPy has vectorised ones of its own, too (its stated bound is 4 units). Look-ups
+are equal as well. Sums, products and quotients are rounded one by one by
 Python and NumPy; compiled code may fuse and regroup them.
 """
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.engine.ir_lines import FAST, LineWriter, number
+from linkwright.engine.ir_functions import number
+from linkwright.engine.ir_lines import FAST, LineWriter
 from linkwright.engine.reductions import PLACE, Accumulation, Step
 
 _START = {"min": float("inf"), "max": float("-inf"), "at_min": float("nan"), "at_max": float("nan")}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after import following_lines
+from linkwright.engine.ir_functions import vector_functions
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_lookup import lookup_functions
 from linkwright.engine.lines import Lines
@@ -50,30 +51,35 @@ class Shape:
         return cls(parameters, positions, fields, states, len(lines.outputs), tables)
 
 
-def kernel(lines: Lines, width: int, accumulation: Accumulation | None) -> tuple[str, int]:
-    """The module, and how much it is to be optimised. Lanes are positions, or designs where states are carried."""
-    text = kernel_text(lines, width, accumulation)
+def kernel(
+    lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False
+) -> tuple[str, int]:
+    """The module, and how much it is to be optimised. Lanes are positions, or designs where states are carried.
+
+    ``library``: all functions are called from outside, lane by lane.
+    """
+    text = kernel_text(lines, width, accumulation, library=library)
     return text, 0 if text.count("\n") > LARGE else 3
 
 
-def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None) -> str:
+def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False) -> str:
     """The module's text."""
     if lines.carried:
         from linkwright.engine.ir_states import StateKernel
 
-        return StateKernel(lines, width, accumulation).text()
-    return PositionKernel(lines, width, accumulation).text()
+        return StateKernel(lines, width, accumulation, library).text()
+    return PositionKernel(lines, width, accumulation, library).text()
 
 
 class PositionKernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
-    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
+    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
-        self.writer = LineWriter(lines, width, wide=False)
+        self.writer = LineWriter(lines, width, wide=False, library=library)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, "%fresh")
 
     def text(self) -> str:
@@ -338,4 +344,6 @@ def module_text(body: list[str], width: int) -> str:
             if f.library
         ),
     ]
-    return "\n".join([*declarations, *body, *lookup_functions(body, width), ""])
+    return "\n".join(
+        [*declarations, *body, *lookup_functions(body, width), *vector_functions(body, width), ""]
+    )

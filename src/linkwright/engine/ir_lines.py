@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
 
 from linkwright.engine.functions import FUNCTIONS, Function
+from linkwright.engine.ir_functions import IN_LANES, VECTOR, number
 from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.lines import Line, Lines
 
@@ -17,24 +17,21 @@ _COMPARISON = {"less": "olt", "less_equal": "ole"}
 _LOGIC = {"and": "and", "or": "or"}
 
 
-def number(value: float) -> str:
-    """A double as LLVM writes it exactly."""
-    return "0x" + struct.pack(">d", value).hex().upper()
-
-
 class LineWriter:
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
-    ``wide``: whether the lines per design are vectors too (the lanes are designs). ``names`` and
+    ``wide``: whether the lines per design are vectors too (the lanes are designs). ``library``: functions
+    are called from outside, lane by lane. ``names`` and
     ``tables`` may be changed where lines are written beside others: the names of values, and where
     the tables stand.
     """
 
-    def __init__(self, lines: Lines, width: int, wide: bool) -> None:
+    def __init__(self, lines: Lines, width: int, wide: bool, library: bool = False) -> None:
         self.lines = lines.lines
         self.outputs = lines.outputs
         self.width = width
         self.wide = wide
+        self._in_lanes = frozenset[str]() if library or width < 2 else IN_LANES
         self.vector = f"<{width} x double>"
         self.mask = f"<{width} x i1>"
         self.names: dict[int, str] = {}
@@ -122,21 +119,24 @@ class LineWriter:
     def _function(
         self, function: Function, value: str, kind: str, args: list[str], vector: bool
     ) -> list[str]:
-        """An intrinsic, or a call of the C library, lane by lane."""
+        """An intrinsic, a function in all lanes, or a call of the C library, lane by lane."""
         if function.exact:
             suffix = f"v{self.width}f64" if vector else "f64"
             return [f"{value} = call {FAST} {kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
         name = f"@linkwright_{function.library}"
         if not vector:
             return [f"{value} = call double {name}({', '.join(f'double {a}' for a in args)})"]
+        if function.library in self._in_lanes:
+            given = ", ".join(f"{self.vector} {a}" for a in args)
+            return [f"{value} = call {self.vector} @{VECTOR}{function.library}({given})"]
         lines, last = [], "poison"
         for lane in range(self.width):
-            given = [f"{value}.x{lane}.{place}" for place in range(len(args))]
+            places = [f"{value}.x{lane}.{place}" for place in range(len(args))]
             lines += [
                 f"{at} = extractelement {self.vector} {argument}, i32 {lane}"
-                for at, argument in zip(given, args, strict=True)
+                for at, argument in zip(places, args, strict=True)
             ]
-            lines.append(f"{value}.y{lane} = call double {name}({', '.join(f'double {a}' for a in given)})")
+            lines.append(f"{value}.y{lane} = call double {name}({', '.join(f'double {a}' for a in places)})")
             into = value if lane == self.width - 1 else f"{value}.i{lane}"
             lines.append(f"{into} = insertelement {self.vector} {last}, double {value}.y{lane}, i32 {lane}")
             last = into

@@ -13,7 +13,7 @@ from linkwright.engine.reductions import Accumulation
 class StateKernel:
     """The last vector repeats the last design in the lanes that are left over."""
 
-    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None) -> None:
+    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
         self.width = width
@@ -21,7 +21,7 @@ class StateKernel:
         self.integers = f"<{width} x i64>"
         self.pointers = f"<{width} x ptr>"
         self.all = f"<{', '.join(['i1 true'] * width)}>"
-        self.writer = LineWriter(lines, width, wide=True)
+        self.writer = LineWriter(lines, width, wide=True, library=library)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, None)
 
     def text(self) -> str:

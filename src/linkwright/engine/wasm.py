@@ -36,7 +36,7 @@ def wasm_module(programs: Sequence[Program]) -> bytes | None:
     bodies: list[str] = []
     level = 3
     for number, program in enumerate(programs):
-        text, wanted = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None)
+        text, wanted = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
         text = text.replace(f"@{ENTRY}(", f"@kernel{number}(").replace(f"@{LOOKUP}", f"@{LOOKUP}_{number}_")
         level = min(level, wanted)
         for line in text.splitlines():
