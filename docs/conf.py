@@ -21,7 +21,7 @@ extensions = ["myst_parser", "sphinx_design"]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence", "html_image"]
 myst_heading_anchors = 3
 source_suffix = {".md": "markdown", ".markdown": "markdown"}
-exclude_patterns = ["_build", "made/extra", "made/en/validation_table.markdown"]
+exclude_patterns = ["_build", "made/extra", "made/*/validation_table.markdown"]
 templates_path = ["_templates"]
 html_static_path = ["_static"]
 html_extra_path = ["made/extra"]
@@ -43,27 +43,14 @@ html_theme_options = {
 }
 #: A Chinese character or mark.
 CHINESE = "[\u3001-\u3011\u4e00-\u9fff\uff01-\uff1f]"
-#: Pages that have another name in the other language.
-COUNTERPARTS = {
-    "en/how-to/model": "zh/model", "en/how-to/drawings": "zh/drawings", "en/how-to/gears": "zh/gears",
-    "en/how-to/cams": "zh/cams", "en/how-to/worked": "zh/worked", "en/how-to/report": "zh/report",
-    "en/how-to/course": "zh/course", "en/how-to/export": "zh/export", "en/how-to/machine": "zh/machine",
-    "en/how-to/synthesis": "zh/synthesis", "en/how-to/parts": "zh/parts",
-    "en/how-to/studio": "zh/studio", "en/how-to/optimisation": "zh/optimisation",
-    "en/cases/jaw_crusher": "zh/cases",
-}  # fmt: skip
 
 
 def other_language(name: str, known: set[str]) -> tuple[str, str]:
     """The page of the other language, and that language; its entrance where there is no such page."""
-    reverse = {zh: en for en, zh in COUNTERPARTS.items()}
     for own, other in (("zh", "en"), ("en", "zh")):
-        if f"/{own}/" in f"/{name}" or name.startswith(f"{own}/"):
-            direct = f"/{name}".replace(f"/{own}/", f"/{other}/", 1)[1:]
-            found = next(
-                (each for each in (COUNTERPARTS.get(name), reverse.get(name), direct) if each in known), None
-            )
-            return found or f"{other}/index", other
+        if f"/{own}/" in f"/{name}":
+            found = f"/{name}".replace(f"/{own}/", f"/{other}/", 1)[1:]
+            return (found if found in known else f"{other}/index"), other
     return "zh/index", "zh"
 
 

@@ -1,15 +1,19 @@
-"""Pages that are made when the documentation is built: gallery, model files, API, published numbers.
+"""Pages that are made when the documentation is built: gallery, model files, functions, API, published numbers.
 
 They have the ending ``.markdown``, are no part of the repository, and stand in ``docs/made``.
 """
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import inspect
 import re
+import sys
+import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -19,6 +23,9 @@ from linkwright import gallery
 from linkwright.cli.source import gallery_title
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
+
+sys.path.insert(0, str(Path(__file__).parent))
+from chinese import FORMS, MEANINGS, NAMES
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
@@ -55,9 +62,12 @@ def make() -> None:
         write(f"{language}/gallery/index", "\n".join(gallery_index(language)))
         for name in gallery.names():
             write(f"{language}/gallery/{name}", "\n".join(gallery_page(name, language)))
-    write("en/model_file", "\n".join(model_file()))
+        write(f"{language}/model_file", "\n".join(model_file(language)))
+        write(f"{language}/functions", "\n".join(functions(language)))
     write("en/api", "\n".join(api()))
-    write("en/validation_table", f"{validate().markdown()}\n")
+    compared = validate()
+    for language in ("en", "zh"):
+        write(f"{language}/validation_table", f"{compared.markdown(language)}\n")
 
 
 def write(name: str, text: str) -> None:
@@ -105,7 +115,7 @@ def gallery_index(language: str) -> Iterator[str]:
         model = lw.load(f"gallery:{name}")
         title = gallery_title(name, model.name, language)
         yield f":::{{grid-item-card}} {title}\n:link: {name}\n:link-type: doc\n:img-top: ../../pictures/{name}.svg\n"
-        yield f"{first_sentence(model.purpose) if language == 'en' else ''}\n:::\n"
+        yield f"{first_sentence(purpose(name, model.purpose, language))}\n:::\n"
     yield "::::\n"
     yield "```{toctree}\n:hidden:\n"
     yield from gallery.names()
@@ -114,14 +124,26 @@ def gallery_index(language: str) -> Iterator[str]:
 
 def first_sentence(text: str) -> str:
     """The beginning of a purpose, up to its first semicolon."""
-    return escaped(text.partition(";")[0])
+    return escaped(re.split("[;；]", text)[0])
+
+
+def purpose(name: str, own: str, language: str) -> str:
+    """What a model is for; in Chinese from the page of the kinds of machines."""
+    return own if language == "en" else chinese_purposes()[name]
+
+
+@cache
+def chinese_purposes() -> dict[str, str]:
+    """Of every model of the gallery, from the tables of ``zh/gallery.md``."""
+    text = (ROOT / "zh/gallery.md").read_text("utf-8")
+    return dict(re.findall(r"^\| `(\w+)` \| (.+?) \| .+? \|$", text, re.MULTILINE))
 
 
 def gallery_page(name: str, language: str) -> Iterator[str]:
     """One model: picture, purpose, source, commands, structure, file."""
     model, words = lw.load(f"gallery:{name}"), WORDS[language]
     yield f"# {gallery_title(name, model.name, language)}\n"
-    yield f"{escaped(model.purpose)}\n"
+    yield f"{escaped(purpose(name, model.purpose, language))}\n"
     if (EXTRA / "living" / f"{name}.html").exists():
         yield f'```{{raw}} html\n<iframe class="living" src="../../../living/{name}.html#lang={language}"'
         yield f'  loading="lazy" sandbox="allow-scripts allow-downloads" title="{words["living"]}"></iframe>\n```\n'
@@ -143,28 +165,63 @@ def escaped(text: str) -> str:
 
 
 # model files ------------------------------------------------------------------------------------
-def model_file() -> Iterator[str]:
+FILE_WORDS = {
+    "en": {
+        "title": "Model file reference",
+        "intro": "Generated from the schema that `linkwright schema` prints and editors complete from. A quantity is "
+        'written with its unit (`"60.5 mm"`) or as an expression of `parameters`; the right column shows the form.',
+        "head": "| key | meaning | form |",
+        "required": " (required)",
+        "name": "name of a {}",
+        "list": "list of {}({})",
+        "or": " or ",
+        "see": "Its keys: [{0}]({0}).",
+    },
+    "zh": {
+        "title": "模型文件参考",
+        "intro": "由 `linkwright schema` 输出、编辑器据以补全的 schema 生成。"
+        '量要写单位（`"60.5 mm"`），或写成 `parameters` 的表达式；右栏为写法。',
+        "head": "| 键 | 含义 | 写法 |",
+        "required": "（必须）",
+        "name": "{}的名称",
+        "list": "列表：{}（{}）",
+        "or": "，或",
+        "see": "各键见 [{0}]({0})。",
+    },
+}
+#: Pages that describe what a section holds, where the schema leaves it to a command.
+SECTIONS = {
+    "expected": "gallery",
+    "synthesis": "how-to/synthesis",
+    "report": "how-to/report",
+    "course": "how-to/course",
+    "optimize": "how-to/optimisation",
+}
+
+
+def model_file(language: str = "en") -> Iterator[str]:
     """Every section and key of a model file, from its schema."""
-    schema = lw.json_schema()
-    yield "# Model file reference\n"
-    yield (
-        "Generated from the schema that `linkwright schema` prints and editors complete from. A quantity is written "
-        'with its unit (`"60.5 mm"`) or as an expression of `parameters`; the right column shows the form.\n'
-    )
+    schema, words = lw.json_schema(), FILE_WORDS[language]
+    yield f"# {words['title']}\n\n{words['intro']}\n"
     for name, section in schema["properties"].items():
-        yield f"## `{name}`{' (required)' if name in schema.get('required', ()) else ''}\n"
-        yield f"{sentence(section)}\n"
-        yield from section_body(section)
+        yield f"## `{name}`{words['required'] if name in schema.get('required', ()) else ''}\n"
+        yield f"{sentence(section, language)}\n"
+        if name in SECTIONS:
+            yield f"{words['see'].format(f'../../{language}/{SECTIONS[name]}.md')}\n"
+        yield from section_body(section, language)
 
 
-def sentence(schema: Mapping[str, Any]) -> str:
+def sentence(schema: Mapping[str, Any], language: str) -> str:
     """What a key is, in its own words."""
-    text = " ".join(str(schema.get("description", "")).replace("``", "`").split())
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "")[0]) or not text else ".")
+    found = str(schema.get("description", ""))
+    text = " ".join((MEANINGS[found] if language == "zh" and found else found).replace("``", "`").split())
+    stop = "。" if language == "zh" else "."
+    return text[:1].upper() + text[1:] + (stop if text and not text.endswith((".", "。")) else "")
 
 
-def section_body(schema: Mapping[str, Any]) -> Iterator[str]:
+def section_body(schema: Mapping[str, Any], language: str) -> Iterator[str]:
     """Tables of a section's keys, one for each kind where there are several."""
+    words = FILE_WORDS[language]
     inner = schema.get("additionalProperties")
     if isinstance(inner, Mapping) and ("properties" in inner or "oneOf" in inner):
         schema = inner
@@ -173,11 +230,12 @@ def section_body(schema: Mapping[str, Any]) -> Iterator[str]:
         if len(kinds) > 1:
             yield f"### {kind.get('title') or ', '.join(kind['properties'])}\n"
             if "description" in kind:
-                yield f"{sentence(kind)}\n"
-        yield "| key | meaning | form |\n|---|---|---|"
+                yield f"{sentence(kind, language)}\n"
+        yield f"{words['head']}\n|---|---|---|"
         for key, value in kind["properties"].items():
-            needed = " (required)" if key in kind.get("required", ()) else ""
-            yield f"| `{key}`{needed} | {cell(sentence(value))} | {cell(form(value))} |"
+            needed = words["required"] if key in kind.get("required", ()) else ""
+            meaning, written = cell(sentence(value, language)), cell(form(value, language))
+            yield f"| `{key}`{needed} | {meaning} | {written} |"
         yield ""
 
 
@@ -185,24 +243,90 @@ def cell(text: str) -> str:
     return text.replace("|", "\\|").replace("\n", " ")
 
 
-def form(schema: Mapping[str, Any]) -> str:
+def form(schema: Mapping[str, Any], language: str) -> str:
     """How a value is written."""
+    words = FILE_WORDS[language]
+
+    def said(word: str) -> str:
+        return FORMS[word] if language == "zh" and word else word
+
     if "enum" in schema:
         return ", ".join(f"`{each}`" for each in schema["enum"])
     if "x-dimension" in schema:
-        return f"{schema['x-dimension'].replace('_', ' ')}, `{schema['examples'][0]}`" if "examples" in schema else \
-            str(schema["x-dimension"])  # fmt: skip
+        dimension = said(schema["x-dimension"].replace("_", " "))
+        return f"{dimension}, `{schema['examples'][0]}`" if "examples" in schema else dimension
     if "x-reference" in schema:
-        return f"name of a {schema['x-reference']}"
+        return words["name"].format(said(schema["x-reference"]))
     if schema.get("type") == "array" and isinstance(schema.get("items"), Mapping):
         least, most = schema.get("minItems"), schema.get("maxItems")
         count = f"{least} " if least == most and least else ""
-        return f"list of {count}({form(schema['items'])})"
+        return words["list"].format(count, form(schema["items"], language))
     options = schema.get("anyOf") or schema.get("oneOf")
     if options:
-        return " or ".join(dict.fromkeys(filter(None, map(form, options))))
+        return words["or"].join(dict.fromkeys(filter(None, (form(each, language) for each in options))))
     kind = schema.get("type", "")
-    return " or ".join(kind) if isinstance(kind, list) else str(kind)
+    return words["or"].join(map(said, kind)) if isinstance(kind, list) else said(str(kind))
+
+
+# functions --------------------------------------------------------------------------------------
+FUNCTION_WORDS = {
+    "en": (
+        "Functions and where they are shown",
+        "Every public name of `linkwright`, with the pages whose examples use it; all examples are run by the tests.",
+        "| name | what it is | examples |",
+    ),
+    "zh": (
+        "函数一览",
+        "`linkwright` 的全部公开名称，以及用到它的示例页；所有示例都由测试运行。名称链接到英文的 API 说明。",
+        "| 名称 | 是什么 | 示例 |",
+    ),
+}
+FENCE = re.compile(r"^ *```python[^\n]*\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
+
+
+def functions(language: str) -> Iterator[str]:
+    """Public names with the pages that have a runnable example of them."""
+    title, intro, head = FUNCTION_WORDS[language]
+    yield f"# {title}\n\n{intro}\n\n{head}\n|---|---|---|"
+    shown = names_shown(language)
+    english = {} if language == "en" else names_shown("en")
+    for name in sorted((each for names in lw.PUBLIC.values() for each in names), key=str.lower):
+        text = NAMES[name] if language == "zh" else plain(first_line(getattr(lw, name)))
+        pages = (shown.get(name) or english[name])[:3]
+        links = ", ".join(f"[{heading(each)}](../../{each.relative_to(ROOT).as_posix()})" for each in pages)
+        yield f"| [`{name}`](../en/api.markdown#{name.lower()}) | {cell(text)} | {links} |"
+
+
+def first_line(value: Any) -> str:
+    """The first sentence of a docstring."""
+    return (inspect.getdoc(value) or "").partition("\n\n")[0].replace("``", "`").replace("\n", " ")
+
+
+def heading(page: Path) -> str:
+    """The title of a page."""
+    return page.read_text("utf-8").partition("\n")[0].removeprefix("# ")
+
+
+@cache
+def names_shown(language: str) -> dict[str, list[Path]]:
+    """Pages of a language by the names of ``linkwright`` that their Python examples use; how-tos first."""
+    found: dict[str, list[Path]] = {}
+    for page in sorted((ROOT / language).rglob("*.md"), key=lambda each: ("how-to" not in each.parts, each)):
+        for body in FENCE.findall(page.read_text("utf-8")):
+            for node in ast.walk(ast.parse(textwrap.dedent(body))):
+                for name in used(node):
+                    if page not in found.setdefault(name, []):
+                        found[name].append(page)
+    return found
+
+
+def used(node: ast.AST) -> list[str]:
+    """Names of the package that one node of a program takes from it."""
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "lw":
+        return [node.attr]
+    if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("linkwright"):
+        return [each.name for each in node.names]
+    return []
 
 
 # API --------------------------------------------------------------------------------------------

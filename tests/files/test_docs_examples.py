@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import linkwright
 from linkwright.cli import main
 from linkwright.metrics import METRICS
 
@@ -96,11 +97,28 @@ def test_there_are_examples() -> None:
     assert len(WITH_PYTHON) >= 10 and len(COMMANDS) >= 20
 
 
+def test_every_public_name_is_in_an_example() -> None:
+    """A function is called, a class made, caught, or said to be what an example finds: text alone does not count."""
+    shown = set()
+    for page in sorted((ROOT / "docs" / "en").rglob("*.md")):
+        for node in ast.walk(ast.parse("".join(blocks(page, "python")))):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "lw":
+                shown.add(node.attr)
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("linkwright"):
+                shown |= {each.name for each in node.names}
+    missing = {each for names in linkwright.PUBLIC.values() for each in names} - shown
+    assert not missing
+
+
 @pytest.mark.parametrize("page", WITH_PYTHON, ids=name)
 def test_python_of_the_page_runs(page: Path, desk: Path) -> None:
     known: dict[str, object] = {"__name__": "__main__"}
     for number, body in enumerate(blocks(page, "python"), 1):
         exec(compile(body, f"{name(page)}, block {number}", "exec"), known)
+        for said in ast.parse(body).body:
+            if isinstance(said, ast.AnnAssign) and isinstance(said.target, ast.Name):
+                kind = eval(ast.unparse(said.annotation), known)
+                assert isinstance(known[said.target.id], kind), f"{said.target.id} is no {kind.__name__}"
 
 
 @pytest.mark.parametrize(("words", "line"), COMMANDS)

@@ -1,6 +1,7 @@
 """Pages that are made when the documentation is built hold everything that they promise."""
 
 import importlib.util
+import re
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,8 @@ import pytest
 import linkwright as lw
 from linkwright import gallery
 
-PAGES = Path(__file__).parents[2] / "docs" / "pages.py"
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = DOCS / "pages.py"
 specification = importlib.util.spec_from_file_location("pages", PAGES)
 assert specification is not None and specification.loader is not None
 pages = importlib.util.module_from_spec(specification)
@@ -23,8 +25,9 @@ def test_the_api_has_every_public_name_with_its_arguments() -> None:
     assert "- `steps`:" in text and "**Raises**" in text and "``" not in text.replace("```", "")
 
 
-def test_the_reference_of_model_files_has_every_key_of_the_schema() -> None:
-    text = "\n".join(pages.model_file())
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_reference_of_model_files_has_every_key_of_the_schema(language: str) -> None:
+    text = "\n".join(pages.model_file(language))
     schema = lw.json_schema()
     for name in schema["properties"]:
         assert f"## `{name}`" in text
@@ -39,3 +42,23 @@ def test_the_gallery_shows_every_model(language: str) -> None:
     assert all(f":link: {name}\n" in index and f"pictures/{name}.svg" in index for name in gallery.names())
     page = "\n".join(pages.gallery_page("truss", language))
     assert "linkwright structure gallery:truss" in page and gallery.file("truss").read_text("utf-8") in page
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_public_name_leads_to_its_example(language: str) -> None:
+    rows = {line.split("`")[1]: line for line in pages.functions(language) if line.startswith("| [`")}
+    assert set(rows) == {name for names in lw.PUBLIC.values() for name in names}
+    assert all(".md)" in line for line in rows.values())
+
+
+def test_a_page_in_one_language_is_there_in_the_other() -> None:
+    en, zh = ({page.relative_to(DOCS / own) for page in (DOCS / own).rglob("*.md")} for own in ("en", "zh"))
+    assert en == zh
+
+
+def test_links_of_pages_lead_to_pages() -> None:
+    """Also those of the README, which no build of the documentation looks at; made pages are there once built."""
+    for page in (DOCS.parent / "README.md", *DOCS.rglob("*.md")):
+        for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text("utf-8")):
+            found = page.parent / target
+            assert "made" in found.parts or found.exists(), f"{page}: {target}"

@@ -146,8 +146,8 @@ class Load:
     def schema(cls) -> Schema:
         """JSON Schema of the load in a file."""
         found = table_schema({"kind": Word((cls.kind,), required=True), **cls.fields()})
-        doc = (cls.__doc__ or "").strip().splitlines()
-        return {"title": cls.kind, "description": doc[0] if doc else "", **found}
+        doc = " ".join((cls.__doc__ or "").partition("\n\n")[0].split())
+        return {"title": cls.kind, "description": doc, **found}
 
     def dimensions(self) -> dict[str, float]:
         """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""

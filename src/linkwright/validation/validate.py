@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Printed, Published, published
-from linkwright.words import speaker
+from linkwright.words import say, speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 from linkwright.words.width import aligned
@@ -99,15 +99,13 @@ class Validation:
             for each in self.checks
         ]
 
-    def markdown(self) -> str:
+    def markdown(self, language: str = "en") -> str:
         """The table of the documentation."""
-        lines = [
-            "| case | source | numbers | agree | largest difference, last digits |",
-            "|---|---|--:|--:|--:|",
-        ]
+        lines = [say("validate.columns", language), "|---|---|--:|--:|--:|"]
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
-            lines.append(f"| {case} | {source.replace('|', '/')} | {len(checks)} | {agree} | {worst:.1f} |")
+            cells = (title_said(case, language), source, len(checks), agree, f"{worst:.1f}")
+            lines.append(f"| {' | '.join(str(each).replace('|', '/') for each in cells)} |")
         return "\n".join(lines)
 
 

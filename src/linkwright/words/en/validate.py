@@ -1,6 +1,7 @@
 """The command ``validate``."""
 
 WORDS = {
+    "columns": "| case | source | numbers | agree | largest difference, last digits |",
     "summary": "published numbers beside ours: source, digits given, difference",
     "description": """\
 Compares every published number that the package knows (course reports, textbooks,
