@@ -72,6 +72,17 @@ def test_a_guide_that_is_turned_gives_the_same_bits_whatever_was_solved_before(f
     assert np.array_equal(torque(changed), expected)
 
 
+def test_the_programs_used_last_are_the_ones_that_stay(monkeypatch):
+    programs._kept.clear()
+    monkeypatch.setattr(programs, "_KEPT", 2)
+    first, second, third = (lw.load(f"gallery:{name}") for name in ("crank_rocker", "kite", "scotch_yoke"))
+    for each in (first, second, first, third):
+        torque(each)
+    monkeypatch.setattr(programs, "trace_motion", lambda *_, **__: pytest.fail("traced again"))
+    for each in (first, third):
+        assert np.isfinite(torque(each)).all()
+
+
 def test_friction_follows_the_coefficient():
     text = """
 format: 1

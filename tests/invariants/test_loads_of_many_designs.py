@@ -39,6 +39,9 @@ LOADS = {
     "angle": f"{AT}, magnitude: F0*(1 + sin(rod)) + 100 N*cos(3*input)",
     "time": f"{AT}, magnitude: F0*t/(1 s)",
     "table": f"{AT}, table: {{over: input, x: [0 deg, 90 deg, 200 deg, 360 deg], y: [0 N, 500 N, 900 N, 0 N]}}",
+    "table from within the turn": f"{AT}, table: {{over: input, x: [30 deg, 90 deg, 200 deg, 390 deg], "
+    "y: [0 N, 500 N, 900 N, 0 N]}",
+    "short ramp": f"{AT}, ramp: [100 N, 900 N], phase: {{input: [-30 deg, 20 deg]}}",
     "table of output": f"{AT}, table: {{over: guide, x: [300 mm, 600 mm, 700 mm, 1 m], y: [0 N, 500 N, 900 N, 0 N]}}",
     "torsion spring": "kind: torsion_spring, links: [frame, rod], stiffness: 30 N·m/rad, free_angle: 10 deg",
 }

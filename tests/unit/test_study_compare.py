@@ -166,3 +166,13 @@ def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> No
         "different kinds" in note
         for note in lw.compare([crusher, shaper], output=["jaw", "guide"], steps=72).notes
     )
+
+
+def test_an_output_that_turns_through_is_said_to_travel_its_whole_turns() -> None:
+    """20 to 40 teeth, one turn of the wheel in two of the pinion."""
+    gears = lw.load("gallery:external_gear_pair")
+    fast = replace(gears, name="fast").with_dimensions(
+        {"driver.speed": 3.0 * gears.dimension("driver.speed")}
+    )
+    said = compare([gears, fast]).evaluation()
+    assert said.count("travels 360°") == 2

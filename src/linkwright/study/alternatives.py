@@ -96,6 +96,14 @@ class Alternative:
         forces: Forces = resolver.at(np.array([time]), "forces")
         return forces
 
+    @property
+    def way(self) -> float:
+        """How far the output gets over the cycle, the last step to where it begins again included (rad or m)."""
+        places = self.travel()[0]
+        turns = round((places[-1] - places[0]) / (2 * np.pi)) if self.output.dimension == "angle" else 0
+        back = places[0] + 2 * np.pi * turns if self.motion.positions.closed else places[-1]
+        return float(np.ptp(np.append(places, back)))
+
     def travel(self) -> tuple[Floats, Floats, Floats]:
         """The output and its rates in time, (n,) each."""
         return (

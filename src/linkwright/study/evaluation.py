@@ -113,8 +113,7 @@ def _motion(comparison: Comparison, say: Say) -> str:
                 "compare.motion_of",
                 label=each.label,
                 output=str(each.output),
-                travel=_measured(each, "travel")
-                or told(float(np.ptp(each.travel()[0])), each.output.dimension),
+                travel=_measured(each, "travel") or told(each.way, each.output.dimension),
                 rate=_measured(each, "output_velocity"),
                 second=_measured(each, "output_acceleration"),
             )

@@ -120,7 +120,7 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
     if expected is None:
         return
     kind = units.unit(unit)[1] if unit else units.NONE
-    if kind != expected and not (not unit and expected == units.NONE):
+    if kind != expected:
         need = units.name_of(expected)
         example = units.si_symbol(expected)
         told = Sentence("study.has_unit", unit=unit) if unit else Sentence("study.has_no_unit")
