@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import pkgutil
 import threading
@@ -142,8 +141,10 @@ def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str,
     folded = {text.casefold(): text for text in reversed(known)}
     if name.casefold() in folded:
         return folded[name.casefold()]
+    from difflib import get_close_matches
+
     same, share = nearest_in_meaning(name, known)
-    slip = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=SLIP)
+    slip = get_close_matches(name.casefold(), list(folded), n=1, cutoff=SLIP)
     if slip and share < 1.0:
         return folded[slip[0]]
     if share >= 0.5:
@@ -154,5 +155,5 @@ def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str,
     inside = [text for key, text in folded.items() if len(name) > 2 and key.startswith(name.casefold())]
     if inside:
         return min(inside, key=len)
-    found = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.5)
+    found = get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.5)
     return folded[found[0]] if found else None

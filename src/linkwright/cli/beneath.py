@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -20,14 +20,18 @@ from linkwright.metrics.analysis import Kind
 from linkwright.words import Say
 from linkwright.words.width import aligned
 
+Wanted = tuple[Callable[[Forces], Floats], Kind]
+
 
 @dataclass(frozen=True)
 class Place:
-    """A number of a result where it is largest or smallest: ``value``, the input there as text, the time, s."""
+    """A number of a result where it is largest or smallest: ``value``, the input there as text, the forces there and
+    the number of their position."""
 
     value: float
     input: str
-    time: float
+    forces: Forces
+    row: int
 
 
 def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
@@ -41,14 +45,13 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
         return []
     several = solved.motion.steps > 1
     title = "largest_of_cycle" if solved.grid is not None else "largest_forces" if several else "joint_forces"
-    found = [
-        (joint, link, *_peak(solved, joint, link, degrees))
-        for joint, link in reaction_pairs(forces.mechanism)
-    ]
+    pairs = reaction_pairs(forces.mechanism)
+    peaks = _places(solved, [(partial(_size, joint=joint, on=link), "max") for joint, link in pairs], degrees)
     rows = [
         tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))
     ]
-    for joint, link, peak, force in found:
+    for (joint, link), peak in zip(pairs, peaks, strict=True):
+        force = peak.forces.reaction(joint, on=link)[peak.row]
         number = Column("", "", "", "N", np.array([peak.value]), solved.force_scale).text
         rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
@@ -57,33 +60,30 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     return [heading, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
 
 
-def _peak(solved: Solved, joint: str, link: str, degrees: bool) -> tuple[Place, Floats]:
-    """The largest size of a joint's force on a link, and the force there, (2,) N."""
+def _size(forces: Forces, joint: str, on: str) -> Floats:
+    """Size of a joint's force on a link, (n,) N."""
+    return np.asarray(np.hypot(*forces.reaction(joint, on=on).T))
 
-    def force(forces: Forces) -> Floats:
-        return forces.reaction(joint, on=link)
 
-    place = _extreme(solved, lambda forces: np.hypot(*force(forces).T), "max", degrees)
+def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Place]:
+    """Extremes of what the forces give: refined between the positions of a whole cycle, else those of positions."""
+    forces = solved.forces
+    assert forces is not None
     if solved.grid is None:
-        return place, force(_of(solved))[int(np.nanargmax(np.hypot(*force(_of(solved)).T)))]
-    return place, force(solved.analysis.resolver.at(np.array([place.time]), "forces"))[0]
-
-
-def _of(solved: Solved) -> Forces:
-    assert solved.forces is not None
-    return solved.forces
-
-
-def _extreme(solved: Solved, signal: Callable[[Forces], Floats], kind: Kind, degrees: bool) -> Place:
-    """An extreme of what the forces give: refined between the positions of a whole cycle, else that of a position."""
-    values = signal(_of(solved))
-    index = int(np.nanargmax(values) if kind == "max" else np.nanargmin(values))
-    found = solved.analysis.extreme(signal, kind, of="forces") if solved.grid is not None else None
-    if found is None:
-        where = input_text(solved.motion, index, degrees=degrees)
-        return Place(float(values[index]), where, float(solved.motion.time[index]))
-    there = solved.analysis.resolver.at(np.array([found.time]), "motion")
-    return Place(found.value, input_text(there, 0, degrees=degrees), found.time)
+        rows = [
+            int((np.nanargmax if kind == "max" else np.nanargmin)(signal(forces))) for signal, kind in wanted
+        ]
+        values = [float(signal(forces)[row]) for (signal, _), row in zip(wanted, rows, strict=True)]
+    else:
+        found = [solved.analysis.extreme(signal, kind, of="forces") for signal, kind in wanted]
+        known = [each for each in found if each is not None]
+        forces = solved.analysis.resolver.at(np.array([each.time for each in known]), "forces")
+        rows, values = list(range(len(known))), [each.value for each in known]
+    assert isinstance(forces, Forces)
+    return [
+        Place(value, input_text(forces.motion, row, degrees=degrees), forces, row)
+        for value, row in zip(values, rows, strict=True)
+    ]
 
 
 def checks(solved: Solved, say: Say) -> list[str]:
@@ -165,7 +165,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))
             continue
         effort = partial(Forces.driver_effort, name=key)
-        high, low = (_extreme(solved, effort, kind, degrees) for kind in ("max", "min"))
+        high, low = _places(solved, [(effort, "max"), (effort, "min")], degrees)
         said = say("solve.effort_range", name=name, high=number(high.value), low=number(low.value), unit=unit,
                    high_at=say("solve.at", place=high.input), low_at=say("solve.at", place=low.input))  # fmt: skip
         if solved.grid is not None and solved.motion.positions.closed:

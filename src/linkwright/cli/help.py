@@ -82,6 +82,5 @@ def version(session: Session) -> None:
 
 
 def _section(title: str, body: str) -> str:
-    from textwrap import indent
-
-    return f"{title}:\n{indent(body, '  ')}\n"
+    lines = "\n".join(f"  {line}" if line else "" for line in body.split("\n"))
+    return f"{title}:\n{lines}\n"

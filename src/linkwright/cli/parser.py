@@ -12,6 +12,8 @@ from linkwright.words import Say
 class CommandParser(argparse.ArgumentParser):
     """The declared options of a command and its help; ``reading`` takes the words apart."""
 
+    _columns = 80
+
     def __init__(self, prog: str, say: Say, *, description: str = "", epilog: str = "") -> None:
         super().__init__(
             prog=prog,
@@ -19,7 +21,7 @@ class CommandParser(argparse.ArgumentParser):
             epilog=epilog,
             add_help=False,
             allow_abbrev=False,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
+            formatter_class=self._formatter,
         )
         self.say = say
         self._positionals.title = say("cli.arguments")
@@ -29,12 +31,18 @@ class CommandParser(argparse.ArgumentParser):
         """The options; raises UsageError for what is wrong with them."""
         return read(self, arguments)
 
+    def _formatter(self, prog: str) -> argparse.HelpFormatter:
+        return argparse.RawDescriptionHelpFormatter(prog, width=self._columns - 2)
+
     def format_usage(self) -> str:
         """The line of usage, headed in the user's language."""
         return self._headed(super().format_usage())
 
     def format_help(self) -> str:
-        """The help, headed in the user's language."""
+        """The help, headed in the user's language, as wide as the terminal."""
+        from shutil import get_terminal_size
+
+        self._columns = get_terminal_size().columns
         return self._headed(super().format_help())
 
     def _headed(self, text: str) -> str:

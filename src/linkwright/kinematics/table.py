@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkwright.errors import LinkwrightError
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def columns(motion: Motion) -> dict[str, Floats]:
     """Time, inputs, links, guides and points of a motion, by column names such as ``jaw.angle [rad]``."""
     found: dict[str, Floats] = {"time [s]": motion.time}
-    motion.evaluate_together(name for link in motion.mechanism.links for name in vector_names("e", link))
+    motion.evaluate_together(directions(motion))
     for name, q in motion.inputs.items():
         found[f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"] = q
     for name in motion.mechanism.links:
@@ -43,6 +43,11 @@ def columns(motion: Motion) -> dict[str, Floats]:
             found[f"{name}.{kind}.x [{unit}]"] = values[:, 0]
             found[f"{name}.{kind}.y [{unit}]"] = values[:, 1]
     return found
+
+
+def directions(motion: Motion) -> Iterator[str]:
+    """Names of the outputs that the columns of links take their angles from."""
+    return (name for link in motion.mechanism.links for name in vector_names("e", link))
 
 
 def input_column(motion: Motion) -> str | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from math import lcm
 from typing import TYPE_CHECKING
 
@@ -42,6 +41,8 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
 
 def _count(turns: Floats) -> int | None:
     """After how many times all of these turns (of one time each) are whole."""
+    from fractions import Fraction
+
     count = 1
     for turn in turns:
         part = Fraction(float(turn)).limit_denominator(MOST)

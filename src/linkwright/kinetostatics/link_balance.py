@@ -28,8 +28,8 @@ def balance_residual(forces: Forces) -> Floats:
         for c in p
     )
     worst = np.zeros(forces.steps)
-    forces.motion.evaluate_together(_motion_outputs(forces))
-    forces.fetch(tuple(name for link in mechanism.links for name in _load_outputs(link)))
+    forces.motion.evaluate_together(motion_outputs(forces))
+    forces.fetch(load_outputs(forces))
     for link in mechanism.links:
         force, moment = _joints(forces, link)
         for driven in (_drivers(forces, link), _loads(forces, link), _inertia(forces, link)):
@@ -42,7 +42,7 @@ def balance_residual(forces: Forces) -> Floats:
 Pair = tuple[Floats, Floats]
 
 
-def _motion_outputs(forces: Forces) -> Iterator[str]:
+def motion_outputs(forces: Forces) -> Iterator[str]:
     """Names of what the balance takes from the motion."""
     mechanism = forces.mechanism
     keys = [canonical(mechanism, *seat) for joint in mechanism.joints.values() for seat in joint.seats]
@@ -50,6 +50,11 @@ def _motion_outputs(forces: Forces) -> Iterator[str]:
     for link in mechanism.links:
         for prefix in ("p",) if forces.static else ("p", "a"):
             yield from vector_names(prefix, f"{link}.@centre")
+
+
+def load_outputs(forces: Forces) -> tuple[str, ...]:
+    """Names of what the balance takes from the loads."""
+    return tuple(name for link in forces.mechanism.links for name in _load_outputs(link))
 
 
 def _load_outputs(link: str) -> tuple[str, str, str]:

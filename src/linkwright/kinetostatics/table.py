@@ -7,14 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.table import directions
+from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
 
+_RESULTANTS = ("shake.x", "shake.y", "shake_moment", "power", "driver_power")
+
 
 def columns(forces: Forces) -> dict[str, Floats]:
     """Motion columns, then efforts, reactions on every link, couples, shaking force, residuals."""
-    found = dict(forces.motion.columns())
+    motion = forces.motion
+    motion.evaluate_together((*directions(motion), *motion_outputs(forces)))
+    forces.fetch((*_RESULTANTS, *load_outputs(forces)))
+    found = dict(motion.columns())
     for name in forces.mechanism.drivers:
         unit = "N·m" if forces.motion.positions.rotary[name] else "N"
         found[f"{name}.effort [{unit}]"] = forces.driver_effort(name)
