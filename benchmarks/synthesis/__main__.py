@@ -12,9 +12,27 @@ import numpy as np
 
 import linkwright as lw
 from benchmarks.synthesis.cases import NINE, Case, hidden, published
-from benchmarks.synthesis.others import OTHERS, Best, Enough
+from benchmarks.synthesis.others import OTHERS, Best, Enough, facts
 
 GOAL = 1e-3
+
+
+class Clock:
+    """Seconds of each stretch: of the processor, and on the wall."""
+
+    def __init__(self) -> None:
+        self.processor: list[float] = []
+        self.wall: list[float] = []
+
+    def __enter__(self) -> None:
+        self.began = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.processor.append(time.process_time() - self.began[0])
+        self.wall.append(time.perf_counter() - self.began[1])
+
+    def __str__(self) -> str:
+        return f"median {np.median(self.processor):.3f} CPU s, {np.median(self.wall):.3f} s on the wall"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -47,57 +65,65 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _published(case: Case, seeds: int) -> str:
-    errors, seconds, found = [], [], None
+    errors, clock, found = [], Clock(), None
     for seed in range(seeds):
-        begin = time.process_time()
-        found = lw.path_generation(case.points, seed=seed, **case.demands)
-        seconds.append(time.process_time() - begin)
+        with clock:
+            found = lw.path_generation(case.points, seed=seed, **case.demands)
         errors.append(found.best.error)
     assert found is not None
     best, reached = found.best, sum(error <= case.best * (1 + 1e-6) for error in errors)
     return (
         f"{case.name}: best {min(errors):.8g}, worst {max(errors):.8g}; published {case.best:.8g} reached by "
-        f"{reached} of {seeds} seeds; median {np.median(seconds):.2f} CPU s; μ "
-        f"{math.degrees(best.transmission_angle):.1f}°; "
+        f"{reached} of {seeds} seeds; {clock}; {_angles([best.transmission_angle])}; "
         f"defects {', '.join(best.defects) or 'none'}"
     )
 
 
 def _hidden(count: int) -> str:
-    _ours(hidden(0))
-    times = [_ours(hidden(seed)) for seed in range(count)]
-    reached = sum(error <= GOAL for error, _ in times)
-    seconds, worst = [each for _, each in times], max(error for error, _ in times)
+    lw.path_generation(hidden(0).points, **hidden(0).demands)
+    errors, angles, defects, clock = [], [], 0, Clock()
+    for seed in range(count):
+        case = hidden(seed)
+        with clock:
+            best = lw.path_generation(case.points, **case.demands).best
+        size = np.sqrt(np.mean(np.abs(case.points - case.points.mean()) ** 2))
+        errors.append(math.sqrt(best.error / len(case.points)) / float(size))
+        angles.append(best.transmission_angle)
+        defects += bool(best.defects)
+    reached = sum(error <= GOAL for error in errors)
     return (
-        f"hidden four-bars, 36 timed points: {reached} of {count} within 0.1 %, worst error {worst:.2g}, "
-        f"median {np.median(seconds):.3f} CPU s, slowest {max(seconds):.3f} CPU s"
+        f"hidden four-bars, 36 timed points: {reached} of {count} within 0.1 %, worst error {max(errors):.2g}; "
+        f"{clock}, slowest {max(clock.processor):.3f} CPU s; {_angles(angles)}; {defects} with defects"
     )
 
 
-def _ours(case: Case) -> tuple[float, float]:
-    """Error relative to the path's size, and seconds."""
-    begin = time.process_time()
-    best = lw.path_generation(case.points, **case.demands).best
-    seconds = time.process_time() - begin
-    size = np.sqrt(np.mean(np.abs(case.points - case.points.mean()) ** 2))
-    return math.sqrt(best.error / len(case.points)) / float(size), seconds
+def _angles(angles: Sequence[float]) -> str:
+    degrees = np.degrees(angles)
+    if len(degrees) == 1:
+        return f"μ {degrees[0]:.1f}°"
+    return f"μ {degrees.min():.1f}° to {degrees.max():.1f}°, median {np.median(degrees):.1f}°"
 
 
 def _other(name: str, count: int, limit: float) -> str:
-    seconds, errors = [], []
+    errors, reached, angles, defects, clock = [], [], [], 0, Clock()
     for seed in range(count):
-        best = Best(GOAL, limit)
+        case, best = hidden(seed), Best(GOAL, limit)
         try:
-            OTHERS[name](hidden(seed), best, seed)
+            with clock:
+                OTHERS[name](case, best, seed)
         except Enough:
-            seconds.append(best.seconds)
             errors.append(best.error)
+            reached.append(best.seconds)
         except ImportError as error:
             return f"{name}: {error}"
-    reached = sum(math.isfinite(each) for each in seconds)
+        known = facts(case, best)
+        if known is not None:
+            angles.append(float(known.transmission[0]))
+            defects += not known.sound[0]
+    within = sum(math.isfinite(each) for each in reached)
     return (
-        f"{name}: {reached} of {count} within 0.1 % in {limit:g} s each, median "
-        f"{np.median(seconds):.2f} s; worst error {max(errors):.2g}"
+        f"{name}: {within} of {count} within 0.1 % in {limit:g} s each, median {np.median(reached):.2f} CPU s to "
+        f"there ({clock}); worst error {max(errors):.2g}; {_angles(angles)}; {defects} with defects"
     )
 
 
@@ -134,12 +160,11 @@ def _nine(count: int, kind: str) -> str:
     from linkwright.synthesis.nine_points.query import nine_points
 
     complete = found = lost = 0
-    seconds = []
+    clock = Clock()
     for seed in range(count):
         points, dyads = NINE[kind](seed)
-        begin = time.process_time()
-        result = nine_points(points)
-        seconds.append(time.process_time() - begin)
+        with clock:
+            result = nine_points(points)
         complete += result.complete
         lost += result.lost
         wanted = class_keys(np.concatenate([dyads / result.scale, np.zeros(8)])[None])
@@ -147,7 +172,7 @@ def _nine(count: int, kind: str) -> str:
         found += bool(len(real)) and bool(np.abs(class_keys(real) - wanted).min() < 1e-6)
     return (
         f"nine points, {kind}: the hidden four-bar found in {found} of {count}, all 1442 classes in {complete}, "
-        f"{lost} paths lost at first, median {np.median(seconds):.2f} CPU s, slowest {max(seconds):.2f} CPU s"
+        f"{lost} paths lost at first; {clock}, slowest {max(clock.processor):.2f} CPU s"
     )
 
 

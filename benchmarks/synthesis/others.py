@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.synthesis.cases import Case
+from linkwright.synthesis.assessment import Assessment, assess_four_bars
+from linkwright.synthesis.build import coupler_unit
 
 Floats = NDArray[np.float64]
 #: a b c d u v x0 y0 rotation phase, in units of the path's size about its centre.
@@ -29,15 +31,16 @@ class Best:
     limit: float
     error: float = np.inf
     seconds: float = np.inf
+    design: tuple[Floats, float] | None = None
 
     def __post_init__(self) -> None:
         self.begin = time.process_time()
 
-    def __call__(self, error: float) -> None:
-        """Notes an error; raises Enough at the goal or the limit."""
+    def __call__(self, error: float, numbers: Floats, side: float) -> None:
+        """Notes the error of a design (its ten numbers and the side of B); raises Enough at the goal or the limit."""
         now = time.process_time() - self.begin
         if error < self.error:
-            self.error = error
+            self.error, self.design = error, (numbers.copy(), side)
             if error <= self.goal:
                 self.seconds = now
         if self.error <= self.goal or now > self.limit:
@@ -54,7 +57,7 @@ def differential_evolution(case: Case, best: Best, seed: int) -> None:
 
         def cost(x: Floats, side: float = side) -> Floats:
             error = model.error(x.T, side)
-            best(float(error.min()))
+            best(float(error.min()), x[:, error.argmin()], side)
             return error
 
         differential_evolution(
@@ -76,7 +79,7 @@ def many_starts(case: Case, best: Best, seed: int) -> None:
         def residual(x: Floats, side: float = side) -> Floats:
             off = model.path(x[None], side)[0] - model.target
             bad = float(model.excess(x[None])[0])
-            best(float(np.sqrt(np.mean(np.abs(off) ** 2))) if bad <= 0 else np.inf)
+            best(float(np.sqrt(np.mean(np.abs(off) ** 2))) if bad <= 0 else np.inf, x, side)
             return np.concatenate([off.real, off.imag, [3 * bad]])
 
         least_squares(residual, start, bounds=(LOW, HIGH), max_nfev=60)
@@ -104,11 +107,11 @@ def pylinkage(case: Case, best: Best, seed: int) -> None:
         values = np.asarray(x, float)[None]
         bad = float(model.excess(values)[0])
         if bad > 0:
-            best(np.inf)
+            best(np.inf, values[0], 1.0)
             return -5.0 - bad
         off = model.path(values, 1.0)[0] - model.target
         error = float(np.sqrt(np.mean(np.abs(off) ** 2)))
-        best(error)
+        best(error, values[0], 1.0)
         return -error
 
     while True:
@@ -137,6 +140,14 @@ class _Model:
         unit = reach * (t + 1j * side * root) / (2 * square * b)
         return np.asarray((pin + (u + 1j * v) * unit) * np.exp(1j * turn) + x0 + 1j * y0)
 
+    def facts(self, x: Floats, side: float) -> Assessment:
+        """Type, defects and transmission angle of a design (10,) at the target's crank angles."""
+        a, b, c, d, _, _, _, _, _, phase = x
+        pin = a * np.exp(1j * (self.angles + phase))[None]
+        one = np.ones(1, complex)
+        joint = pin + b * coupler_unit(pin[0], float(b), float(c), complex(d), side)
+        return assess_four_bars(0 * one, pin, joint, d * one)
+
     def excess(self, x: Floats) -> Floats:
         """How far the crank is from turning fully."""
         a, b, c, d = x[:, :4].T
@@ -146,6 +157,11 @@ class _Model:
         off = np.sqrt(np.mean(np.abs(self.path(x, side) - self.target) ** 2, 1))
         bad = self.excess(x)
         return np.where(bad > 0, 5 + bad, off)
+
+
+def facts(case: Case, best: Best) -> Assessment | None:
+    """Facts about the best design of an optimiser; None where it found none whose crank turns."""
+    return None if best.design is None else _Model(case).facts(*best.design)
 
 
 OTHERS: dict[str, Callable[[Case, Best, int], None]] = {

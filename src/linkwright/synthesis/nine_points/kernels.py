@@ -210,7 +210,7 @@ def proceed(lane: int, good: int, first: float, limits: Reals, state: Reals) -> 
 def carry(count: int, rows: Reals, q0: Reals, dq: Reals, arrived: Reals, limits: Reals, room: Reals) -> None:
     """Paths of the rows (count, 16 complex) carried along; ``arrived``: ARRIVED or LOST of each.
 
-    ``limits``: tolerance, smallest and largest step, most steps.
+    ``limits``: tolerance, smallest and largest step, most steps, size of the second correction that rounding excuses.
     """
     tolerance = limits[0]
     u, moved, state, sizes = room, room + WIDE * 16, room + WIDE * 32, room + WIDE * 34
@@ -225,7 +225,7 @@ def carry(count: int, rows: Reals, q0: Reals, dq: Reals, arrived: Reals, limits:
         attempt(u, state, state + 8, q0, dq, work, sizes, moved)
         for lane in range(8):
             first, second = sqrt(sizes[lane]), sqrt(sizes[8 + lane])
-            good = first < 8.0 * tolerance and second < 1e-5 and second < max(1e-7, 0.1 * first)
+            good = first < 8.0 * tolerance and second < 1e-5 and second < max(limits[4], 0.1 * first)
             keep[lane] = 1.0 if good else 0.0
         kept = load(keep, 0)
         for c in range(16):

@@ -1,8 +1,8 @@
 """All classes of four-bars through nine given points: from the start set to the points.
 
 What lost paths leave open is sought again: by the conjugate solutions (real points: the set is closed under
-conjugation), with smaller steps, and along other ways: to the points turned about the first one, from where the
-solutions are turned back.
+conjugation), with smaller steps from all three cognates (where one of them goes far, another need not), and along
+other ways: to the points turned about the first one, from where the solutions are turned back.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from linkwright.synthesis.nine_points.classes import (
     conjugate,
     filled,
     new_classes,
+    relatives,
     turned,
 )
 from linkwright.synthesis.nine_points.start import start_set
@@ -28,6 +29,8 @@ Whole = NDArray[np.int64]
 
 #: Other ways that are tried at most; with more classes missing the points are special, and other ways miss them too.
 TURNS, SPECIAL = 8, 100
+#: Second corrections that are taken for rounding where a lost path is followed again.
+COARSE = 3e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,10 +73,10 @@ def _completed(
     """The classes with those of lost and crossed paths, and how many further passes it took."""
     q0, u0 = start_set()
     found = filled(found, conjugate(found))
-    again = u0[_doubtful(solutions, arrived)]
+    again = np.concatenate(relatives(u0[_doubtful(solutions, arrived)], q0)[:3])
     extra = 0
     if len(found) < CLASSES:
-        ends = track(again, q0, q, tolerance=0.1 * TOLERANCE, most=10 * MOST_STEPS)
+        ends = track(again, q0, q, tolerance=0.1 * TOLERANCE, most=10 * MOST_STEPS, rounding=COARSE)
         found, extra = filled(found, ends.solutions[ends.arrived]), 1
     for turn in range(1, TURNS + 1):
         if len(found) == CLASSES or CLASSES - len(found) > SPECIAL:

@@ -34,6 +34,7 @@ Whole = NDArray[np.int64]
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181
 TOLERANCE, SMALLEST_STEP, LARGEST_STEP, MOST_STEPS = 1e-3, 1e-12, 0.2, 3000
+ROUNDING = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +46,17 @@ class Ends:
 
 
 def track(
-    start: Complexes, q0: Complexes, q1: Complexes, *, tolerance: float = TOLERANCE, most: int = MOST_STEPS
-) -> Ends:
-    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1."""
+    start: Complexes, q0: Complexes, q1: Complexes, *,
+    tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
+) -> Ends:  # fmt: skip
+    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1.
+
+    A second correction below ``rounding`` is taken for the rounding of ill-conditioned solutions.
+    """
     done, arrived = start.copy(), np.zeros(len(start), bool)
 
     def carry(first: int, last: int) -> None:
-        paths = _Paths(start[first:last], q0, q1, tolerance, most)
+        paths = _Paths(start[first:last], q0, q1, tolerance, most, rounding)
         ends = paths.run_compiled() if available() else paths.run()
         done[first:last], arrived[first:last] = ends.solutions, ends.arrived
 
@@ -79,9 +84,11 @@ def residual(u: Complexes, q: Complexes) -> Floats:
 class _Paths:
     """One chunk of paths; arrays have the paths last."""
 
-    def __init__(self, start: Complexes, q0: Complexes, q1: Complexes, tolerance: float, most: int) -> None:
+    def __init__(
+        self, start: Complexes, q0: Complexes, q1: Complexes, tolerance: float, most: int, rounding: float
+    ) -> None:
         self.q0, self.dq, self.q1 = q0[:, :, None], (q1 - q0)[:, :, None], q1[:, :, None]
-        self.tolerance, self.most = tolerance, most
+        self.tolerance, self.most, self.rounding = tolerance, most, rounding
         self.done = start.T.copy()
         self.arrived = np.zeros(len(start), bool)
 
@@ -92,7 +99,7 @@ class _Paths:
 
         rows, arrived, room = self.done.T.copy(), np.zeros(len(self.arrived)), np.zeros(ROOM)
         along = [_in_lanes(each, LANES) for each in (self.q0, self.dq)]
-        limits = np.array([self.tolerance, SMALLEST_STEP, LARGEST_STEP, self.most])
+        limits = np.array([self.tolerance, SMALLEST_STEP, LARGEST_STEP, self.most, self.rounding])
         places = [each.ctypes.data for each in (rows, *along, arrived, limits)]
         kernels()("carry", len(rows), *places, room.ctypes.data)
         self.done, self.arrived = rows.T.copy(), arrived > 0.5
@@ -138,7 +145,7 @@ class _Paths:
         v = v + du
         du = linear_step(v, q, None)
         second = relative_size(du, v)
-        floor = np.maximum(1e-7, 0.1 * first)
+        floor = np.maximum(self.rounding, 0.1 * first)
         good = (first < 8.0 * self.tolerance) & (second < 1e-5) & (second < floor)
         return good, np.where(np.isfinite(first), first, 1e9), v + du
 
