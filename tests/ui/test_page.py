@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -127,6 +128,43 @@ def test_design_numbers_equal_those_of_the_command_line(opened: Opened, tmp_path
     assert numbers["least:m:coupler+jaw"] == pytest.approx(smallest, rel=1e-9)
     swing = next(value for (metric, _), value in rows.items() if metric == "swing_angle")
     assert numbers["range:angle:jaw"] == pytest.approx(swing, rel=1e-9)
+
+
+def test_curves_and_paths_have_the_corners_that_they_need(opened: Opened, tmp_path: Path) -> None:
+    """Every position lies within a seventh of a pixel of what is drawn, though most are no corners of it."""
+    _, path = made(tmp_path, "jaw_crusher_sixbar", steps=360)
+    opened.open(path)
+    opened.run("s => { s.shown.paths.add('B'); s.touched(); }")
+    opened.drag("B", 6.0, 3.0)
+    drawn = opened.tab.evaluate(
+        "() => [...document.querySelectorAll('.curve.now, .lw-trace')].map(p => p.getAttribute('d'))"
+    )
+    rows = opened.run(
+        "s => s.curves.value.map(id => ({x: [...s.model.axis.x].map(Math.abs), y: [...s.model.row(id)]}))"
+        ".concat([...s.shown.paths].map(key => ({x: [...s.model.main.row(`p:${key}.x`)],"
+        " y: [...s.model.main.row(`p:${key}.y`)]})))"
+    )
+    texts = {text for text in drawn if text}
+    assert len(rows) > 5
+    for number, row in enumerate(rows):
+        place = np.array([row["x"], row["y"]]).T
+        # Curves are drawn in 3600 units of a picture 260 pixels wide, paths in pixels.
+        near = 2.0 if number < len(rows) - 2 else 0.14
+        assert any(_follows(place, text, near) for text in texts)
+
+
+def _follows(place: np.ndarray, text: str, near: float) -> bool:
+    """Whether a path is the curve through places (n, 2), turned to the screen and scaled, with fewer corners."""
+    corners = np.array([each.split() for each in re.split("[MLZ]", text) if each], dtype=float)
+    size = np.ptp(corners, axis=0)
+    if len(corners) > 0.6 * len(place) or not size.all() or (size.max() > 2000) != (near > 1):
+        return False
+    share = (place - place.min(axis=0)) / np.ptp(place, axis=0) * [1, -1] + [0, 1]
+    wanted = corners.min(axis=0) + share * size
+    a, b = corners[:-1, None, :], corners[1:, None, :]
+    along = np.clip(((wanted - a) * (b - a)).sum(axis=-1) / ((b - a) ** 2).sum(axis=-1).clip(1e-9), 0.0, 1.0)
+    off = np.linalg.norm(a + along[..., None] * (b - a) - wanted, axis=-1).min(axis=0)
+    return bool(off.max() < near)
 
 
 def test_a_limit_is_a_wall(opened: Opened, tmp_path: Path) -> None:

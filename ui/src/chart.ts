@@ -1,21 +1,15 @@
 // Curves over the input, and hodographs, as SVG paths.
-import { element } from "./strokes";
+import { element, put, thinned, write } from "./strokes";
 import { digits } from "./words";
 
 // Units of the picture are tenths of a pixel, so that paths are written in whole numbers.
 const W = 3600, H = 1320, LEFT = 500, RIGHT = 80, TOP = 80, BOTTOM = 200;
+// How far a curve may leave its places, in these units.
+const FLAT = 0.8;
 
 export interface Curve {
   style: string;
   values: ArrayLike<number>;
-}
-
-function put(of: SVGElement, name: string, value: string): void {
-  if (of.getAttribute(name) !== value) of.setAttribute(name, value);
-}
-
-function write(of: SVGElement, text: string): void {
-  if (of.textContent !== text) of.textContent = text;
 }
 
 /** One diagram: curves over x, a scale of its own, a line at the position that is shown. */
@@ -26,7 +20,8 @@ export class Chart {
   private low = 0;
   private high = 1;
   private x: ArrayLike<number> = [0, 1];
-  // Abscissas as text, and each curve with the scale it was drawn to: what stays is not written again.
+  // Abscissas, also as text, and each curve with the scale it was drawn to: what stays is not written again.
+  private places = new Float64Array();
   private across: string[] = [];
   private readonly written = new Map<number, { values: ArrayLike<number>; low: number; high: number }>();
 
@@ -52,7 +47,8 @@ export class Chart {
   set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string]): void {
     if (this.x !== x) {
       this.x = x;
-      this.across = Array.from(x, (each) => `${Math.round(this.u(each))} `);
+      this.places = Float64Array.from(x, (each) => this.u(each));
+      this.across = Array.from(this.places, (each) => `${Math.round(each)} `);
       this.written.clear();
     }
     let [low, high] = [Infinity, -Infinity];
@@ -120,17 +116,25 @@ export class Chart {
     return TOP + ((this.high - y) / (this.high - this.low)) * (H - TOP - BOTTOM);
   }
 
+  /** Runs without gaps, each with as few corners as it takes. */
   private data(values: ArrayLike<number>): string {
-    let d = "", down = false;
-    for (let i = 0; i < values.length; i++) {
-      const y = values[i];
-      if (!(y === y)) {
-        down = false;
-        continue;
-      }
-      d += (down ? "L" : "M") + this.across[i] + Math.round(this.v(y));
-      down = true;
+    const n = values.length;
+    let d = "";
+    for (let begin = 0; begin < n; ) {
+      while (begin < n && !(values[begin] === values[begin])) begin++;
+      let end = begin;
+      while (end < n && values[end] === values[end]) end++;
+      d += this.run(values, begin, end);
+      begin = end;
     }
+    return d;
+  }
+
+  private run(values: ArrayLike<number>, begin: number, end: number): string {
+    const heights = new Float64Array(end - begin), { high } = this, scale = (H - TOP - BOTTOM) / (high - this.low);
+    for (let i = begin; i < end; i++) heights[i - begin] = TOP + (high - values[i]) * scale;
+    let d = "";
+    for (const i of thinned(this.places.subarray(begin, end), heights, FLAT)) d += `${i ? "L" : "M"}${this.across[begin + i]}${Math.round(heights[i])}`;
     return d;
   }
 }

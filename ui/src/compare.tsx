@@ -1,6 +1,6 @@
 // Design numbers of several machines beside each other.
-import type { Page } from "./app";
 import type { Figure } from "./data";
+import type { Page } from "./living";
 import type { Session } from "./session";
 import { quantity } from "./words";
 

@@ -1,7 +1,7 @@
 // The open file of the studio: its text with all its steps, what is found in it, the machine that it makes.
 import { signal } from "@preact/signals";
-import { save, type Page } from "./app";
 import { bytes, type ModelData } from "./data";
+import { save, type Page } from "./living";
 import { code, type Values } from "./model";
 import type { Action, Picture } from "./paper";
 import { Session } from "./session";

@@ -1,7 +1,8 @@
 // The living page by itself.
 import { render } from "preact";
-import { App, keys, Page } from "./app";
+import { App, keys } from "./app";
 import type { PageData } from "./data";
+import { Page } from "./living";
 import { code } from "./model";
 import { Session } from "./session";
 

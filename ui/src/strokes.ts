@@ -36,6 +36,38 @@ export function arrow(shaft: SVGElement, head: SVGElement, from: Vec, to: Vec): 
   head.setAttribute("d", line([to, away(to, u, -size, -0.38 * size), away(to, u, -size, 0.38 * size)], true));
 }
 
+export function put(of: Element, name: string, value: string): void {
+  if (of.getAttribute(name) !== value) of.setAttribute(name, value);
+}
+
+export function write(of: Element, text: string): void {
+  if (of.textContent !== text) of.textContent = text;
+}
+
+/**
+ * Numbers of the corners that a polyline needs so that no other place is farther off than the tolerance: from a corner
+ * on, the directions in which all places since then are near enough become fewer, until there is none.
+ */
+export function thinned(x: ArrayLike<number>, y: ArrayLike<number>, tolerance: number): number[] {
+  const last = x.length - 1, kept = last < 0 ? [] : [0];
+  let [first, low, high, reached] = [NaN, -Infinity, Infinity, 0];
+  for (let i = 1, a = 0; i <= last; i++) {
+    let dx = x[i] - x[a], dy = y[i] - y[a], d = Math.hypot(dx, dy), off = Math.atan2(dy, dx) - first;
+    off -= TURN * Math.round(off / TURN);
+    if (off < low || off > high || d < reached) {
+      kept.push((a = i - 1));
+      [dx, dy] = [x[i] - x[a], y[i] - y[a]];
+      [d, off, first, low, high, reached] = [Math.hypot(dx, dy), NaN, NaN, -Infinity, Infinity, 0];
+    }
+    if (d <= tolerance) continue;
+    if (!(off === off)) [first, off] = [Math.atan2(dy, dx), 0];
+    const half = Math.asin(tolerance / d);
+    [low, high, reached] = [Math.max(low, off - half), Math.min(high, off + half), d];
+  }
+  if (last > 0) kept.push(last);
+  return kept;
+}
+
 export function hull(cloud: Vec[]): Vec[] {
   const rows = [...cloud].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const half = (ordered: Vec[]) => {

@@ -1,10 +1,11 @@
 // The studio: the living page with its model's text beside it, and tools that draw a mechanism from nothing.
 import { render } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { Card, keys, Page, Transport } from "./app";
+import { Card, keys, Transport } from "./app";
 import type { PageData } from "./data";
 import { Comparison } from "./compare";
 import { Desk, WAIT } from "./desk";
+import { Page } from "./living";
 import { Optimise } from "./optimise";
 import { Paper, type Tool } from "./paper";
 import { quantity } from "./words";

@@ -3,7 +3,7 @@ import type { Glyph } from "./data";
 import type { Model, Values } from "./model";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, round, strand, TALL, tenth, TOOTH, toothed, unit, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
@@ -12,6 +12,8 @@ const PUSH = 52, GAP = 8;
 const COLOURS = 4;
 // Fewer ghosts than these are drawn as strongly as paths.
 const FEW = 12;
+// How far a path may leave its places, in pixels.
+const NEAR = 0.08;
 
 export interface Shown {
   paths: Set<string>;
@@ -360,9 +362,9 @@ export class View {
     wanted.forEach((key, k) => {
       this.paths[k] ??= element("path", {}, this.layers.paths);
       this.paths[k].setAttribute("class", `lw-trace trace-${k % COLOURS}`);
-      const points: Vec[] = [];
-      for (let i = 0; i < this.model.n; i++) points.push(this.at(key, i));
-      this.paths[k].setAttribute("d", line(points, this.model.data.positions.closed));
+      const [xs, ys] = ["x", "y"].map((axis) => this.model.main.row(`p:${key}.${axis}`));
+      const corners = thinned(xs, ys, NEAR / this.scale).map((i) => this.paper(xs[i], ys[i]));
+      this.paths[k].setAttribute("d", line(corners, this.model.data.positions.closed));
     });
   }
 
