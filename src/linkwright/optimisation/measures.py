@@ -222,31 +222,33 @@ class Measures:
 
     # gradients ---------------------------------------------------------------------------------------
     def gradient(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
-        """Gradient (k,) of a quantity of one design (columns of one value) by the addresses ``by``."""
+        """Gradients (designs, k) of a quantity by the addresses ``by``, from columns (designs,)."""
+        count = len(next(iter(columns.values())))
         expression, names = self.expressions[text]
         if expression is None:
             return self._slope(names[""], columns, by)
-        found = {**self._found(columns, 1), **self._held(columns, 1), **self.paths.values(columns)}
+        found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
         values = {name: found[number] for name, number in names.items()}
-        total = np.zeros(len(by))
+        total = np.zeros((count, len(by)))
         for name, number in names.items():
             with np.errstate(all="ignore"):
                 rate = np.asarray(expression.diff(name).evaluate(values, array_functions()))
-            total = total + float(rate.ravel()[0]) * self._slope(number, columns, by)
+            total = total + np.broadcast_to(rate, count)[:, None] * self._slope(number, columns, by)
         return total
 
     def _slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
+        count = len(next(iter(columns.values())))
         if name in self._dimensions:
-            return np.array([1.0 if address == name else 0.0 for address in by])
+            return np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
         if name in self.paths:
             return self.paths.slope(name, columns, by)
         assert self.cycle is not None
         own = tuple(address for address in by if address in self.cycle.dimensions)
-        slope = np.zeros(len(by))
+        slope = np.zeros((count, len(by)))
         if own:
             with np.errstate(all="ignore"):
                 _, found = self.cycle.gradient({name: 1.0}, columns, own, backend=self.backend)
-            slope[[by.index(address) for address in own]] = found[0]
+            slope[:, [by.index(address) for address in own]] = found
         return slope
 
 

@@ -64,9 +64,9 @@ class PathErrors:
             return {name: part.values(columns, None) for name, part in self.parts.items()}
 
     def slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
-        """Gradient (k,) of one design by the addresses ``by``."""
-        part, slope = self.parts[name], np.zeros(len(by))
+        """Gradients (designs, k) by the addresses ``by``."""
+        part = self.parts[name]
         _, found = part.many(columns, None)
-        for address, rate in zip(part.names, found[0], strict=True):
-            slope[by.index(address)] = rate
+        slope = np.zeros((len(found), len(by)))
+        slope[:, [by.index(address) for address in part.names]] = found
         return slope

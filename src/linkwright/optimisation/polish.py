@@ -1,8 +1,9 @@
-"""The local search: sequential quadratic programming with exact gradients (Kraft 1988)."""
+"""The local search: sequential quadratic programming with exact gradients (Kraft 1988), several designs at once."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,13 @@ from numpy.typing import NDArray
 
 from linkwright.optimisation.evolution import taken
 from linkwright.optimisation.task import Judged, Task
+from linkwright.optimisation.together import together
 
 Floats = NDArray[np.float64]
 STEPS = 30
+#: A place of the cube, and whether gradients are wanted there beside values; by text what was found.
+Question = tuple[Floats, bool]
+Ask = Callable[[Question], dict[str, Floats]]
 
 
 class Polish:
@@ -25,7 +30,6 @@ class Polish:
         )
         self.names = tuple(each.address for each in task.problem.variables)
         self.span = np.where(task.high > task.low, task.high - task.low, 1.0)
-        self._at, self._known = b"", dict[str, float]()
 
     def polished(self, judged: Judged, rows: Sequence[int], lead: Sequence[int]) -> Judged:
         """The designs of some rows after it, where they are feasible and better, or miss less.
@@ -34,9 +38,10 @@ class Polish:
         """
         if not self.free.any() or self.task.problem.robust or not rows:
             return taken(judged, np.array(rows, dtype=np.intp))
-        moved = np.array(
-            [self._one(judged.x[r], judged.goals[r], k) for r, k in zip(rows, lead, strict=True)]
-        )
+        searches = [
+            partial(self._one, judged.x[r], judged.goals[r], k) for r, k in zip(rows, lead, strict=True)
+        ]
+        moved = np.array(together(searches, self._answers))
         after, before = self.task.judge(moved), taken(judged, np.array(rows, dtype=np.intp))
         feasible, was = after.total == 0, before.total == 0
         own, chief = np.arange(len(rows)), np.array([k if k >= 0 else ~k for k in lead])
@@ -50,10 +55,11 @@ class Polish:
         )  # fmt: skip
         return taken(both, pick.astype(np.intp))
 
-    def _one(self, x: Floats, goals: Floats, lead: int) -> Floats:
+    def _one(self, x: Floats, goals: Floats, lead: int, ask: Ask) -> Floats:
         """One objective made least, the others at most what they were (free: ``lead`` < 0), the demands kept."""
         from scipy.optimize import minimize
 
+        at = _Place(ask)
         sizes = np.where(np.isfinite(goals) & (goals != 0), np.abs(goals), 1.0)
         own = lead if lead >= 0 else ~lead
         chief, scale = self.task.problem.goals[own].text, self.task.problem.goals[own].sign / sizes[own]
@@ -74,20 +80,20 @@ class Polish:
             return z
 
         def value(y: Floats) -> float:
-            found = scale * self._values(whole(y))[chief]
+            found = scale * at.values(whole(y))[chief]
             return float(found) if np.isfinite(found) else 1e6
 
         def slope(y: Floats) -> Floats:
-            return np.asarray(np.nan_to_num(scale * self._slopes(whole(y), chief)[self.free]))
+            return np.asarray(np.nan_to_num(scale * at.slopes(whole(y))[chief][self.free]))
 
         def rooms(y: Floats) -> Floats:
-            values = self._values(whole(y))
+            values = at.values(whole(y))
             found = np.array([weight * values[text] + offset for text, weight, offset in limits])
             return np.asarray(np.where(np.isfinite(found), found, -1e3))
 
         def room_slopes(y: Floats) -> Floats:
-            z = whole(y)
-            return np.asarray(np.nan_to_num([w * self._slopes(z, text)[self.free] for text, w, _ in limits]))
+            slopes = at.slopes(whole(y))
+            return np.asarray(np.nan_to_num([w * slopes[text][self.free] for text, w, _ in limits]))
 
         keep: Any = [{"type": "ineq", "fun": rooms, "jac": room_slopes}] if limits else []
         try:
@@ -99,25 +105,30 @@ class Polish:
             return x
         return whole(np.asarray(done.x)) if np.isfinite(done.x).all() else x
 
-    def _values(self, x: Floats) -> dict[str, float]:
-        """Values of a place, kept for the last one."""
-        if x.tobytes() != self._at:
-            found = self.task.measures(self.task.columns_of(self.task.place(x[None])))
-            self._at, self._known = x.tobytes(), {text: float(each[0]) for text, each in found.items()}
-            self._rates: dict[str, Floats] = {}
-        return self._known
+    def _answers(self, asked: list[Question]) -> list[dict[str, Floats]]:
+        """Values by text, or gradients by the cube's coordinates, of places, all that go side by side at once."""
+        found: list[dict[str, Floats]] = [{} for _ in asked]
+        for sloped, answers in ((False, self._values), (True, self._slopes)):
+            rows = [k for k, (_, slope) in enumerate(asked) if slope is sloped]
+            if rows:
+                for text, each in answers(np.array([asked[k][0] for k in rows])).items():
+                    for k, one in zip(rows, each, strict=True):
+                        found[k][text] = one
+        return found
 
-    def _slopes(self, x: Floats, text: str) -> Floats:
-        """Gradient by the cube's coordinates, exact where it can be had."""
-        self._values(x)
-        if text not in self._rates:
-            measures = self.task.measures
-            if measures.side_by_side:
-                columns = self.task.columns_of(self.task.place(x[None]))
-                self._rates[text] = measures.gradient(text, columns, self.names) * self.span
-            else:
-                self._rates = self._by_differences(x)
-        return self._rates[text]
+    def _values(self, x: Floats) -> dict[str, Floats]:
+        return self.task.measures(self.task.columns_of(self.task.place(x)))
+
+    def _slopes(self, x: Floats) -> dict[str, Floats]:
+        """Gradients (places, k), exact where they can be had."""
+        measures = self.task.measures
+        if not measures.side_by_side:
+            parts = [self._by_differences(each) for each in x]
+            return {text: np.array([part[text] for part in parts]) for text in measures.expressions}
+        columns = self.task.columns_of(self.task.place(x))
+        return {
+            text: measures.gradient(text, columns, self.names) * self.span for text in measures.expressions
+        }
 
     def _by_differences(self, x: Floats) -> dict[str, Floats]:
         """Central differences, where no exact gradient is had."""
@@ -126,3 +137,26 @@ class Polish:
         found = self.task.measures(self.task.columns_of(self.task.place(rows)))
         width = np.maximum(np.diagonal(rows[:k] - rows[k:]), 1e-12)
         return {text: (each[:k] - each[k:]) / width for text, each in found.items()}
+
+
+class _Place:
+    """What is known of the last place that a search asked for."""
+
+    def __init__(self, ask: Ask) -> None:
+        self.ask, self._known = ask, dict[tuple[bytes, bool], dict[str, Floats]]()
+
+    def values(self, x: Floats) -> dict[str, Floats]:
+        """Values by text."""
+        return self._at(x, False)
+
+    def slopes(self, x: Floats) -> dict[str, Floats]:
+        """Gradients (k,) by text."""
+        return self._at(x, True)
+
+    def _at(self, x: Floats, sloped: bool) -> dict[str, Floats]:
+        if not any(known == x.tobytes() for known, _ in self._known):
+            self._known.clear()
+        key = x.tobytes(), sloped
+        if key not in self._known:
+            self._known[key] = self.ask((x, sloped))
+        return self._known[key]

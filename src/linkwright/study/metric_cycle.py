@@ -210,6 +210,17 @@ class MetricCycle:
                 sure &= results[f"doubt:{output}"] == 0.0
         return _Seen(results, found, self.gauss.pieces, sure)
 
+    def _seen_again(self, table: Floats, backend: Backend) -> _Seen:
+        """The same, kept for the last designs: several gradients are often wanted of them."""
+        key, last = (table.tobytes(), backend), self._last.get("seen")
+        if last is None or last[0] != key:
+            last = self._last["seen"] = key, self._seen(table, backend)
+        return last[1]
+
+    @cached_property
+    def _last(self) -> dict[str, tuple[tuple[bytes, Backend], _Seen]]:
+        return {}
+
     @cached_property
     def _positions(self) -> dict[str, Floats]:
         return self.gauss.positions
@@ -273,7 +284,7 @@ class MetricCycle:
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
-            seen = self._seen(self._table(self._forwards, part), backend)
+            seen = self._seen_again(self._table(self._forwards, part), backend)
             fields: dict[str, Floats] = {}
             for summary in self._summaries:
                 fields |= seen.weights(summary)
