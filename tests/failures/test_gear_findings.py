@@ -245,3 +245,14 @@ def test_a_distance_that_no_longer_fits_is_noticed(
         assert {each.kind for each in lw.solve_motion(changed, steps=4, failures="mark").outcomes} == {
             "misfit"
         }
+
+
+def test_no_derivative_by_a_distance_that_wheels_fix() -> None:
+    five_bar = lw.load("gallery:geared_fivebar")
+    for address in ("frame.O2.x", "mesh.radii.0"):
+        with pytest.raises(
+            lw.LinkwrightError, match=rf"{address} cannot change alone: .*external pair needs"
+        ):
+            lw.sensitivity(five_bar, of=["driver.effort"], by=[address], steps=12)
+    found = lw.sensitivity(five_bar, of=["driver.effort"], by=["mesh.phase", "bar_1.length"], steps=12)
+    assert found.slope("driver.effort", "mesh.phase").shape == (12,)

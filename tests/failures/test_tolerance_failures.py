@@ -48,11 +48,22 @@ def test_the_named_mechanism_must_be_there() -> None:
         parts.loads(HEAD.replace("gallery:crank_rocker", "nowhere.yaml") + "of: [B.x max]\n", "t.yaml")
 
 
+FIVE_BAR = HEAD.replace("crank_rocker", "geared_fivebar") + "of: [crank_2.angular_velocity max]\n"
+
+
 @pytest.mark.parametrize(
-    "text",
-    ["dimensions: {carrier.A.x: 0.05 mm}", "clearances: {A: {clearance: 0.02 mm, on: carrier}}"],
+    "text", ["dimensions: {frame.O2.x: 0.05 mm}", "clearances: {O2: {clearance: 0.02 mm, on: frame}}"]
 )
-def test_wheels_of_given_size_leave_their_centre_distance_no_tolerance(text: str) -> None:
+def test_wheels_of_given_radii_leave_their_centre_distance_no_tolerance(text: str) -> None:
+    with pytest.raises(lw.ModelError, match=r"external pair needs 0\.2 m as soon as this changes"):
+        parts.loads(f"{FIVE_BAR}{text}\n", "t.yaml").solve()
+
+
+def test_teeth_of_a_module_take_a_tolerance_within_their_clearance() -> None:
+    """ω₂ = -ω₁ (30 : 30 : 30 teeth, carrier driven) whatever the distance; half a millimetre and more is refused."""
     head = HEAD.replace("crank_rocker", "gear_differential") + "of: [sun_2.angular_velocity max]\n"
+    found = parts.loads(f"{head}dimensions: {{carrier.A.x: 0.05 mm}}\n", "t.yaml").solve()
+    (name,) = found.summaries
+    assert found.derivatives.gradient(name) == pytest.approx([0.0], abs=1e-12)
     with pytest.raises(lw.ModelError, match=r"external pair needs 0\.06 m as soon as this changes"):
-        parts.loads(f"{head}{text}\n", "t.yaml").solve()
+        parts.loads(f"{head}dimensions: {{carrier.A.x: 0.6 mm}}\n", "t.yaml").solve()

@@ -144,3 +144,67 @@ loads: {{work: {{kind: torque, on: b, magnitude: 8 N·m}}}}
     assert np.abs(forces.reaction("O", on="a") - on_b).max() < 1e-9
     ratio = a / b if run == "open" else -a / b
     assert forces.input_torque == pytest.approx(np.full(12, -moment * ratio), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["external_gear_pair", "internal_gear_pair"])
+def test_teeth_off_their_distance_keep_the_ratio_and_press_under_the_working_angle(name: str) -> None:
+    """cos α_w = d₀ cos α / d (ISO 21771); F_t = M / r_w at the working pitch circles, F_r = F_t tan α_w."""
+    pair = lw.load(f"gallery:{name}")
+    nominal = pair.frame.points["Q"][0]
+    for off in (-2e-4, 3e-4):
+        moved = pair.with_dimensions({"frame.Q.x": nominal + off})
+        plain, forces = (lw.solve_forces(lw.solve_motion(each, at=[0.0])) for each in (pair, moved))
+        link = "wheel" if "external" in name else "ring"
+        for each in ("angle", "angular_velocity"):
+            was, found = (getattr(f.motion.link(link), each) for f in (plain, forces))
+            assert found == pytest.approx(was, rel=1e-14)
+        working = np.arccos(nominal * np.cos(ALPHA) / (nominal + off))
+        tangential = 1000.0 * nominal / (nominal + off)  # of the same couple
+        expected = (-tangential * np.tan(working), -tangential)
+        assert forces.reaction("mesh", on="pinion")[0] == pytest.approx(expected, rel=1e-12)
+        assert forces.input_torque == pytest.approx(plain.input_torque, rel=1e-12)
+        lines = {line.symbol: line.value for line in lw.worked(forces).equations}
+        assert lines["F_mesh,1x"] == pytest.approx(expected[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("off", [6e-4, -6e-4])
+def test_teeth_further_off_are_refused(off: float) -> None:
+    pair = lw.load("gallery:external_gear_pair")
+    with pytest.raises(lw.LinkwrightError, match=r"external pair needs 0\.06 m"):
+        lw.solve_motion(pair.with_dimensions({"frame.Q.x": 0.06 + off}), steps=4)
+
+
+def test_machines_of_one_shape_keep_their_own_teeth() -> None:
+    """Racks of 20 teeth of 6 mm, 30 of 4 mm, 60 of 2 mm, and of 20 of 4 mm, one after the other."""
+    text = """
+format: 1
+name: rack
+frame: {points: {O: [0 m, 0 m], Q: [0 m, LOW m]}}
+links:
+  pinion: {points: {O: [0 m, 0 m], P: [0.02 m, 0 m]}, mass: 1 kg}
+  rack: {points: {R: [0 m, 0 m]}, mass: 1 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: Q, direction: 0 deg, block: rack, at: R}
+  mesh: {kind: rack, pinion: pinion, rack: rack, through: R, teeth: TEETH, module: MODULE mm}
+driver: {turn: pinion, about: O, speed: 1 rad/s}
+"""
+    for teeth, module in ((30, 4.0), (20, 6.0), (60, 2.0), (26, 4.0)):
+        radius = 0.5e-3 * teeth * module
+        own = text.replace("LOW", f"{-radius}").replace("TEETH", str(teeth)).replace("MODULE", str(module))
+        motion = lw.solve_motion(lw.loads(own), steps=4)
+        assert motion.joint("guide").velocity == pytest.approx(radius, rel=1e-14)
+
+
+def test_a_rack_of_a_module_may_be_off_its_distance_and_one_of_a_radius_may_not() -> None:
+    """An involute pinion rolls on its own pitch circle wherever the rack is: same ratio, same pressure angle."""
+    press = lw.load("gallery:rack_and_rocker")
+    moved = press.with_dimensions({"slide.offset": press.dimensions()["slide.offset"] + 5e-4})
+    plain, found = (lw.solve_forces(lw.solve_motion(each, steps=6)) for each in (press, moved))
+    assert found.motion.joint("slide").velocity == pytest.approx(
+        plain.motion.joint("slide").velocity, rel=1e-12
+    )
+    pinion = lw.load("gallery:pinion_between_racks")
+    address = next(name for name in pinion.dimensions() if name.endswith(".offset"))
+    off = pinion.with_dimensions({address: pinion.dimensions()[address] + 1e-4})
+    with pytest.raises(lw.LinkwrightError, match="from the pitch line, but its radius"):
+        lw.solve_motion(off, steps=4)

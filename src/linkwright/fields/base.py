@@ -84,6 +84,7 @@ class Quantity(Field):
     dimension: str
     minimum: float | None = field(default=None, kw_only=True)
     above: float | None = field(default=None, kw_only=True)
+    below: float | None = field(default=None, kw_only=True)
     nonzero: bool = field(default=False, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
@@ -106,11 +107,15 @@ class Quantity(Field):
             return False
         if self.above is not None and value <= max(self.above, units.SMALLEST):
             return False
+        if self.below is not None and value >= self.below:
+            return False
         return not (self.nonzero and value == 0)
 
     def _fault(self, value: float) -> str:
         if value == 0:
             return Sentence("model.zero")
+        if self.below is not None and value >= self.below:
+            return Sentence("model.too_large")
         return Sentence(
             "model.negative" if value < 0 and not (self.minimum or self.above) else "model.too_small"
         )
@@ -125,6 +130,9 @@ class Quantity(Field):
                 if self.above
                 else Sentence("model.length_zero"),
             )
+        if self.below is not None:
+            low, high = (units.format(each, self.dimension) for each in (self.minimum or 0.0, self.below))
+            return Sentence("model.from_to_below", noun=noun, low=low, high=high)
         if self.minimum is not None:
             return Sentence(
                 "model.or_more",

@@ -5,11 +5,12 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import atan2, dist, pi
+from math import acos, atan2, dist, pi
+from math import cos as cos_of
 from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt, tan
+from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, sqrt, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
 
-#: The pressure angle of standard teeth.
-STANDARD = pi / 9
+#: The pressure angle of standard teeth, and the clearance at their bottom in modules (ISO 53): by so much the centres
+#: of involute wheels may be off, as tolerances and sweeps have it, before teeth touch the bottom or let go.
+STANDARD, CLEARANCE = pi / 9, 0.25
 
 
 @JOINTS.register("gear")
@@ -65,7 +67,9 @@ class GearPair(WheelPair):
             "module": Quantity(
                 "length", above=0, doc="module; with teeth it is checked against the centre distance"
             ),
-            "pressure_angle": Quantity("angle", minimum=0, doc="pressure angle in mesh (default 20 deg)"),
+            "pressure_angle": Quantity(
+                "angle", minimum=0, below=0.5 * pi, doc="pressure angle in mesh (default 20 deg)"
+            ),
         }
 
     @classmethod
@@ -97,12 +101,17 @@ class GearPair(WheelPair):
         if apart is not None:
             entry.say("radii" if self.radii else "module", apart, Sentence("joints.fit_distance"), "range")
 
-    def _apart(self, distance: float) -> Sentence | None:
-        """What is wrong where the sizes ask for another distance of the centres."""
+    @property
+    def asked(self) -> float:
+        """The distance of the centres that the sizes ask for, m; 0 where they take any."""
         size = 1.0 if self.radii else 0.5 * (self.module or 0.0)
         a, b = self.radii or self.teeth or (0.0, 0.0)
-        wanted = size * abs(a - self.sense * b)
-        if not wanted or abs(wanted - distance) <= FITS * distance:
+        return size * abs(a - self.sense * b)
+
+    def _apart(self, distance: float, slack: float = 0.0) -> Sentence | None:
+        """What is wrong where the sizes ask for another distance of the centres, by more than the slack, m."""
+        wanted = self.asked
+        if not wanted or abs(wanted - distance) <= max(FITS * distance, slack):
             return None
         return Sentence(
             "joints.distance_misfit",
@@ -114,17 +123,42 @@ class GearPair(WheelPair):
         )
 
     def misfit(self, mechanism: Mechanism) -> Sentence | None:
-        return self._apart(abs(self.line(mechanism)))
+        distance = abs(self.line(mechanism))
+        base = self.asked * cos_of(self.pressure_angle) if self.involute else 0.0
+        return self._apart(distance, CLEARANCE * (self.module or 0.0) if distance >= base else 0.0)
+
+    @property
+    def involute(self) -> bool:
+        """Whether the teeth are known so well that their working pressure angle follows from the distance."""
+        return self.radii is None and self.teeth is not None and self.module is not None
+
+    def _asked(self, dimensions: Dimensions) -> Scalar:
+        """Traced, with the sign of the mesh."""
+        key = "radii" if self.radii else "teeth"
+        first, second = (dimensions(f"{self.name}.{key}.{k}") for k in (0, 1))
+        wanted = first - self.sense * second
+        return wanted if self.radii else 0.5 * dimensions(f"{self.name}.module") * wanted
 
     def fits(self, dimensions: Dimensions) -> Mask:
         """Radii, or teeth and module, ask for their distance of the centres; a ratio or teeth alone take any."""
-        if self.radii is None and (self.teeth is None or self.module is None):
+        if self.radii is None and not self.involute:
             return True
-        key, size = ("radii", 1.0) if self.radii else ("teeth", 0.5 * (self.module or 0.0))
-        first, second = (dimensions(f"{self.name}.{key}.{k}") for k in (0, 1))
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
-        wanted, line = size * (first - self.sense * second), b - a
-        return absolute(wanted * wanted - line.square) <= 2.0 * FITS * line.square
+        wanted, line = self._asked(dimensions), b - a
+        if not self.involute:
+            return absolute(wanted * wanted - line.square) <= 2.0 * FITS * line.square
+        base = wanted * cos(dimensions(f"{self.name}.pressure_angle"))
+        off = absolute(absolute(wanted) - sqrt(line.square))
+        near = off <= CLEARANCE * dimensions(f"{self.name}.module")
+        return dimensions.trace.logic("and", near, base * base <= line.square * (1.0 + 2.0 * FITS))
+
+    def _slope(self, dimensions: Dimensions, square: Scalar) -> Scalar:
+        """tan of the pressure angle in mesh, at the square of the distance."""
+        angle = dimensions(f"{self.name}.pressure_angle")
+        if not self.involute or (isinstance(angle, float) and angle == 0.0):
+            return tan(angle)
+        base = self._asked(dimensions) * cos(angle)
+        return sqrt(maximum(square * reciprocal(base * base) - 1.0, 0.0))
 
     def written(self) -> dict[str, Any]:
         found = super().written()
@@ -137,12 +171,18 @@ class GearPair(WheelPair):
         return found
 
     def dimensions(self) -> Mapping[str, float]:
-        return {**super().dimensions(), f"{self.name}.pressure_angle": self.pressure_angle}
+        own = {f"{self.name}.pressure_angle": self.pressure_angle}
+        return {
+            **super().dimensions(),
+            **own,
+            **({f"{self.name}.module": self.module} if self.module else {}),
+        }
 
     def with_dimensions(self, value: Callable[[str], float]) -> GearPair:
         other = super().with_dimensions(value)
         assert isinstance(other, GearPair)
-        return replace(other, pressure_angle=value(f"{self.name}.pressure_angle"))
+        module = value(f"{self.name}.module") if self.module else None
+        return replace(other, pressure_angle=value(f"{self.name}.pressure_angle"), module=module)
 
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         points, i = mechanism.link(self.carrier).points, self.transmission
@@ -199,7 +239,10 @@ class GearPair(WheelPair):
     def contact(self, mechanism: Mechanism) -> Contact:
         reach, other = self.arms(mechanism)
         angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
-        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * tan_of(self.pressure_angle))
+        alpha = self.pressure_angle
+        if self.involute:
+            alpha = acos(min(1.0, self.asked * cos_of(alpha) / abs(self.line(mechanism))))
+        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * tan_of(alpha))
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
@@ -208,7 +251,7 @@ class GearPair(WheelPair):
         i = self.traced_ratio(dimensions)
         part = d * reciprocal(i - 1.0)
         phase = dimensions(f"{self.name}.phase")
-        slope = tan(dimensions(f"{self.name}.pressure_angle"))
+        slope = self._slope(dimensions, line.square)
         unit = line * reciprocal(d)
         return GearCut(
             connection, self.carrier, (part * i, -part, -d), part * phase, a, b, unit, slope, self.sense

@@ -9,7 +9,7 @@ from math import pi
 from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.engine.trace import Scalar, absolute, tan
+from linkwright.engine.trace import Mask, Scalar, absolute, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
@@ -25,7 +25,7 @@ from linkwright.joints.base import (
     States,
     carried_steadily,
 )
-from linkwright.joints.gear import STANDARD
+from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.marks import Amount, Mark, RackWay, Wheel
 from linkwright.joints.toothed import FITS, length
@@ -94,7 +94,9 @@ class RackPair(HigherPair):
                 "angle",
                 doc="angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)",
             ),
-            "pressure_angle": Quantity("angle", minimum=0, doc="pressure angle (default 20 deg)"),
+            "pressure_angle": Quantity(
+                "angle", minimum=0, below=0.5 * pi, doc="pressure angle (default 20 deg)"
+            ),
         }
 
     @classmethod
@@ -128,26 +130,44 @@ class RackPair(HigherPair):
                 Sentence("joints.give_guide"),
             )
             return replace(self, direction=self.direction or 0.0)
-        if not way.parallel:
-            report(
-                "direction",
-                Sentence("joints.guide_askew", guide=way.guides[-1][0], rack=self.rack),
-                Sentence("joints.guide_along"),
-            )
+        wrong = self._misplaced(way)
+        if wrong is not None:
+            key, problem = wrong
+            report(key, problem, Sentence("joints.guide_along" if key == "direction" else "joints.fit_rack"))
         off = way.gap.imag
-        if abs(abs(off) - self.radius) > FITS * self.radius:
-            key = "module" if self.module is not None else "radius"
-            report(
-                key,
-                Sentence(
-                    "joints.rack_misfit",
-                    centre=way.centre,
-                    distance=length(abs(off)),
-                    radius=length(self.radius),
-                ),
-                Sentence("joints.fit_rack"),
-            )
         return replace(self, direction=way.direction, centre=way.centre, side=1 if off > 0 else -1)
+
+    def _misplaced(self, way: _Way, slack: float = 0.0) -> tuple[str, Sentence] | None:
+        """What keeps the pinion off the pitch line by more than the slack, m, and the key that says it."""
+        if not way.parallel:
+            guide = way.guides[-1][0]
+            return "direction", Sentence("joints.guide_askew", guide=guide, rack=self.rack)
+        distance = abs(way.gap.imag)
+        if abs(distance - self.radius) <= max(FITS * self.radius, slack):
+            return None
+        apart, radius = length(distance), length(self.radius)
+        key = "module" if self.module is not None else "radius"
+        return key, Sentence("joints.rack_misfit", centre=way.centre, distance=apart, radius=radius)
+
+    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+        way = self._way(mechanism)
+        wrong = None if way is None else self._misplaced(way, CLEARANCE * (self.module or 0.0))
+        return None if wrong is None else wrong[1]
+
+    def fits(self, dimensions: Dimensions) -> Mask:
+        """A pinion of a module may be off its place by the clearance of its teeth, any other not at all."""
+        off, askew = _Search(self, dimensions.mechanism).traced(dimensions)
+        radius = self._radius(dimensions)
+        slack = FITS * radius if self.module is None else CLEARANCE * dimensions(f"{self.name}.module")
+        near: Mask = absolute(self.side * off - radius) <= slack
+        for each in askew:
+            near = dimensions.trace.logic("and", near, absolute(each) < FITS)
+        return near
+
+    def _radius(self, dimensions: Dimensions) -> Scalar:
+        if self.module is None:
+            return dimensions(f"{self.name}.radius")
+        return 0.5 * dimensions(f"{self.name}.teeth") * dimensions(f"{self.name}.module")
 
     def drawn(self, drawing: Drawing) -> Joint:
         if self.phase is not None:
@@ -175,7 +195,9 @@ class RackPair(HigherPair):
         return found
 
     def dimensions(self) -> Mapping[str, float]:
-        size = {"radius": self.radius} if self.module is None else {"module": self.module}
+        size = {"radius": self.radius}
+        if self.module is not None and self.teeth is not None:
+            size = {"module": self.module, "teeth": self.teeth}
         values = {
             **size,
             "direction": self.direction,
@@ -186,8 +208,8 @@ class RackPair(HigherPair):
 
     def with_dimensions(self, value: Callable[[str], float]) -> RackPair:
         new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
-        if self.teeth is not None and "module" in new:
-            new["radius"] = 0.5 * self.teeth * new["module"]
+        if "module" in new:
+            new["radius"] = 0.5 * new["teeth"] * new["module"]
         return replace(self, **new)  # type: ignore[arg-type]
 
     # motion -----------------------------------------------------------------------------------
@@ -212,7 +234,7 @@ class RackPair(HigherPair):
         if self.module is None:
             size = Amount(self.radius, (f"{self.name}.radius",))
         else:
-            size = Amount(self.radius, (f"{self.name}.module",), factor=0.5 * (self.teeth or 0.0))
+            size = Amount(self.radius, (f"{self.name}.module", f"{self.name}.teeth"), factor=0.5)
         pinion = Wheel(self.pinion, self.pinion, self.centre, self.radius, size, True, teeth)
         turn = Amount(self.direction, (f"{self.name}.direction",))
         return RackWay(pinion, self.rack, self.through, turn, self.side < 0)
@@ -230,17 +252,12 @@ class RackPair(HigherPair):
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> RackCut:
         name = self.name
-        radius = (
-            dimensions(f"{name}.radius")
-            if self.module is None
-            else 0.5 * (self.teeth or 0.0) * dimensions(f"{name}.module")
-        )
         return RackCut(
             connection,
             dimensions.point(self.pinion, self.centre),
             dimensions.point(self.rack, self.through),
             dimensions.unit(f"{name}.direction"),
-            radius * self.side,
+            self._radius(dimensions) * self.side,
             dimensions(f"{name}.phase"),
             tan(dimensions(f"{name}.pressure_angle")),
             self.side,
@@ -289,18 +306,44 @@ class _Search:
         self.guides = list(mechanism.guides.values())
 
     def found(self) -> _Way | None:
+        found = self._route()
+        return None if found is None else self._measured(*found)
+
+    def _route(self) -> tuple[str, str, tuple[SlidingJoint, ...]] | None:
+        """The pinion's carrier and pin, and the guides that lead to it from the rack."""
         carriers = self._carriers()
         routes: list[tuple[str, tuple[SlidingJoint, ...]]] = [(self.pair.rack, ())]
         seen = {self.pair.rack}
         for link, route in routes:
             if link in carriers and route:
-                return self._measured(link, carriers[link], route)
+                return link, carriers[link], route
             for joint in self.guides:
                 for here, there in (joint.ties, joint.ties[::-1]):
                     if here == link and there not in seen:
                         seen.add(there)
                         routes.append((there, (*route, joint)))
         return None
+
+    def traced(self, dimensions: Dimensions) -> tuple[Scalar, list[Scalar]]:
+        """How far left of the pitch line the pinion's centre is, m; the sines of the guides' angles to it."""
+        found = self._route()
+        assert found is not None
+        carrier, centre, route = found
+        link, axes = self.pair.rack, dimensions.unit(f"{self.pair.name}.direction").conjugate
+        here, gap, askew = dimensions.point(link, self.pair.through), Vec(0.0, 0.0), []
+        for joint in route:
+            outward = joint.guide == link
+            on_guide, on_block = joint.slide_direction(dimensions), dimensions.block_direction(joint)
+            start, end = (joint.through, joint.at) if outward else (joint.at, joint.through)
+            n = axes.turn(on_guide if outward else on_block)
+            offset = dimensions(f"{joint.name}.offset")
+            gap = gap + axes.turn(dimensions.point(link, start) - here)
+            gap = gap + n.perp * (offset if outward else -offset)
+            askew.append(n.y)
+            axes = n.turn((on_block if outward else on_guide).conjugate)
+            link = joint.block if outward else joint.guide
+            here = dimensions.point(link, end)
+        return (gap + axes.turn(dimensions.point(carrier, centre) - here)).y, askew
 
     def _carriers(self) -> dict[str, str]:
         """Links on which the pinion is pinned, with the pin."""

@@ -22,7 +22,7 @@ from linkwright.study.known_loads import known_loads
 from linkwright.study.objective import of_metrics
 from linkwright.study.slopes import Slopes
 from linkwright.study.traced import Traced
-from linkwright.study.vary import checked_addresses
+from linkwright.study.vary import checked_addresses, refuse_misfits
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -165,7 +165,8 @@ def sensitivity(
         expressions) are included by the chain rule.
 
     Raises:
-        LinkwrightError: unknown names (nearest ones offered); friction, for which there is no derivative.
+        LinkwrightError: unknown names (nearest ones offered); friction, for which there is no derivative; dimensions
+            that wheels of given size fix, as the distance of their centres.
         PositionError: the mechanism does not pass its cycle.
 
     Where the size of a vector is zero its derivative is taken as zero.
@@ -175,6 +176,7 @@ def sensitivity(
     if not dimensions:
         raise RequestError(Sentence("study.nothing_to_differentiate"))
     _refuse_input(dimensions)
+    refuse_misfits(mechanism, dimensions)
     asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
     if not asked:
         raise RequestError(Sentence("study.no_outputs"))

@@ -7,14 +7,19 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.errors import RequestError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+
+
+#: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
+SMALL = 1e-4
 
 
 def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[str, ...]:
@@ -66,6 +71,31 @@ def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
         )
     for extreme in (column.min(), column.max()):
         mechanism.with_dimensions({address: float(extreme)})
+
+
+def misfits(mechanism: Mechanism, address: str, change: float) -> list[Sentence]:
+    """What no longer fits of pairs of wheels when a dimension changes alone, SI."""
+    try:
+        changed = mechanism.with_dimensions({address: mechanism.dimension(address) + change})
+    except LinkwrightError:
+        return []
+    found = (joint.misfit(changed) for joint in changed.joints.values())
+    return [why for why in found if why is not None]
+
+
+def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
+    """Refuses dimensions that pairs of wheels fix, so that nothing can be said of a change of one of them alone.
+
+    Raises:
+        RequestError: with what would no longer fit.
+    """
+    if not any(joint.higher for joint in mechanism.joints.values()):
+        return
+    size = mechanism_size(mechanism)
+    for address in addresses:
+        wrong = misfits(mechanism, address, SMALL * max(abs(mechanism.dimension(address)), size))
+        if wrong:
+            raise RequestError(Sentence("study.fixed_by_wheels", address=address, why=wrong[0]))
 
 
 def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: Mapping[str, Floats]) -> None:

@@ -19,6 +19,7 @@ from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Name
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.registry import nearest
 from linkwright.study.ranges import dimension_of
+from linkwright.study.vary import misfits
 
 if TYPE_CHECKING:
     from linkwright.tolerance.result import Spread
@@ -189,12 +190,7 @@ class ToleranceStudy(OfMechanism):
 
     def _wheel_findings(self, key: str, address: str, change: float) -> list[Finding]:
         """Pairs of wheels that no longer fit when a dimension changes."""
-        try:
-            changed = self.mechanism.with_dimensions({address: self.mechanism.dimension(address) + change})
-        except LinkwrightError:
-            return []
-        found = (joint.misfit(changed) for joint in changed.joints.values())
-        return [fault("tolerance.wheels", key, why=why) for why in found if why is not None]
+        return [fault("tolerance.wheels", key, why=why) for why in misfits(self.mechanism, address, change)]
 
     def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
         joint = self.mechanism.pins.get(pin)

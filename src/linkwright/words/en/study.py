@@ -117,6 +117,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "it; choose another one",
     "objective_idle": "{names} has no influence on what is asked; leave it out",
     "place_without_slope": "{name!r} is a place, which has no derivative here; ask for its extreme",
+    "fixed_by_wheels": "{address} cannot change alone: {why}; give the pair by its teeth, or by its ratio, alone, or "
+    "let a parameter change all that belongs together",
     "moves_input": "{address} moves the positions of the input; derivatives are taken at fixed input, so "
     "leave it out",
     "no_llvmlite": "llvmlite cannot be loaded: install it, or use the numpy back end",

@@ -99,6 +99,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
+    "fixed_by_wheels": "{address} 不能单独改变：{why}；请只用齿数或只用传动比给定该副，"
+    "或用一个参数同时改变相关的各尺寸",
     "moves_input": "{address} 会移动输入的位置；导数在固定的输入处求得，请去掉它",
     "no_llvmlite": "无法载入 llvmlite：请安装，或使用 numpy 后端",
     "not_in_study": "“{name}”不在此研究中",
