@@ -21,6 +21,7 @@ from linkwright.worked.terms import (
     Term,
     cosine,
     direction,
+    minus,
     number,
     root,
     sine,
@@ -344,8 +345,7 @@ class Places:
         target = next((part for part in reversed(mine) if is_unknown(part)), None)
         row.give(step, target)
         if target is None:
-            left, right = row.sum(book.turn, lambda guide: book.slide(guide).s).put(known), ZERO
-            step.relate(left, right)
+            step.relate(ZERO, row.sum(book.turn, lambda guide: book.slide(guide).s).put(known))
             return {}
         found = row.solved_for(target, book.turn, lambda guide: book.slide(guide).s).put(known)
         name = parts[id(target)]
@@ -362,15 +362,15 @@ class Places:
         book, cut = self.book, closure.cut
         if closure.across is None:
             (a, b) = (self._reach(group, end, cut.joint, cut.joint).put(known) for end in (cut.a, cut.b))
-            step.relate(a.x, b.x)
-            step.relate(a.y, b.y)
+            step.relate(ZERO, minus(a.x, b.x))
+            step.relate(ZERO, minus(a.y, b.y))
             return
         joint = book.mechanism.guides[cut.joint]
         a, b = (
             self._reach(group, end, name, name) for end, name in ((cut.a, joint.through), (cut.b, joint.at))
         )
         offset = symbol(f"h_{cut.joint}", f"h_{{{tex(cut.joint)}}}", joint.offset) if joint.offset else ZERO
-        step.relate(closure.across.along.cross(b - a).put(known), offset)
+        step.relate(ZERO, minus(closure.across.along.cross(b - a).put(known), offset))
 
     def _reach(self, group: Group, end: str, solved: str, tip: str) -> Pair:
         """The end of a chain: from a point solved before along the chain to the point ``tip`` of its last link."""

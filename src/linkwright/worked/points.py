@@ -9,7 +9,7 @@ from linkwright.worked.chains import attach, turned
 from linkwright.worked.higher_pairs import pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
-from linkwright.worked.symbols import Book, Slide, Spot
+from linkwright.worked.symbols import Book, Slide, Spot, tex
 from linkwright.worked.terms import TWO, Pair, Term, number, symbol
 
 
@@ -93,7 +93,7 @@ def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
             off = symbol(f"h_{cut.joint}", f"h_{cut.joint}", joint.offset) if joint.offset else number(0.0)
             rows = (("n", slide.along.cross(-gap) - off),)  # type: ignore[assignment]
         for c, row in rows:
-            zero = symbol(f"Δ{c}_{cut.joint}", rf"\Delta {c}_{{{cut.joint}}}", 0.0)
+            zero = symbol(f"Δ{c}_{cut.joint}", rf"\Delta {c}_{{{tex(cut.joint)}}}", 0.0)
             step.find(zero, row, "m")
     places.check_pairs(step, pair_closures(book, group, ()))
 

@@ -163,6 +163,14 @@ def total(terms: list[Term]) -> Term:
     return found
 
 
+def minus(a: Term, b: Term) -> Term:
+    """The difference without parentheses."""
+    args, signs = (b.args, b.signs) if b.op == "sum" else ((b,), (1,))
+    for each, sign in zip(args, signs, strict=True):
+        a = a - each if sign > 0 else a + each
+    return a
+
+
 @dataclass(frozen=True)
 class Pair:
     """A vector of terms."""
