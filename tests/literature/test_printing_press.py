@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.laws.traced import LiftCurve
 
@@ -109,3 +110,37 @@ def test_forces_are_in_balance_and_the_flywheel_is_known(press: lw.Mechanism) ->
     assert work == pytest.approx(1500 * (bed.max() - bed.min()), rel=2e-2)
     running = lw.steady_running(forces, fluctuation=0.05)
     assert running.flywheel == pytest.approx(running.exact_flywheel, rel=0.1)
+
+
+def test_the_rack_rests_where_the_table_rests() -> None:
+    """The compensating lift has four reversals; its dwell of 40 equal lifts is one rest, with neither motion nor
+    reversals, however few digits the table has."""
+    press = lw.load("gallery:printing_press")
+    cam = press.joints["compensating_cam"]
+    assert isinstance(cam, CamJoint)
+    angles, lifts = (np.array(each) for each in (cam.angles, cam.lifts))
+    resting = angles[lifts == np.median(lifts[lifts > 0.0432])]
+    assert len(resting) > 30
+    value, rate, second = cam.lift.curves(np.linspace(resting[0], resting[-1], 400)[:-1])
+    assert np.ptp(value) < 1e-16
+    assert not rate.any()
+    assert not second.any()
+    motion = lw.solve_motion(press, steps=180)
+    limits = lw.limit_positions(motion, "rack_guide")
+    assert [each.kind for each in limits] == ["min", "max", "min", "max"]
+    dead = [row.subject for row in lw.metrics(motion) if row.metric == "dead_point"]
+    assert dead.count("lower_rack") == 4
+
+
+@pytest.mark.parametrize("digits", [3, 5, 8])
+def test_a_table_of_few_digits_rests_wherever_it_begins(digits: int) -> None:
+    """Rise, dwell and fall from the cycloidal law, rounded; the table may begin anywhere in the turn."""
+    angles = np.radians(np.arange(0.0, 360.0, 5.0) + 1.0)
+    rise = np.clip(angles / 2.0, 0.0, 1.0) - np.clip((angles - 4.0) / 2.0, 0.0, 1.0)
+    lifts = np.round(rise - np.sin(2 * np.pi * rise) / (2 * np.pi), digits)
+    for shift in range(0, len(angles), 9):
+        rolled = np.roll(lifts, shift)
+        curve = LiftCurve.through(angles.tolist(), rolled.tolist())
+        assert curve.curves(angles)[0] == pytest.approx(rolled, abs=1e-13)
+        still = np.roll((angles > 2.1) & (angles < 3.8), shift)
+        assert not curve.curves(angles[still] + 0.01)[1].any()

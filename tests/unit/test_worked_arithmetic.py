@@ -13,15 +13,9 @@ from tests.unit.worked_reading import is_printed_zero, last_digit, reckon
 import linkwright as lw
 from linkwright.worked.page import Relation
 
-#: Worked solutions of cams are refused with a sentence.
-GALLERY = tuple(name for name in lw.gallery_names() if name != "printing_press")
+GALLERY = tuple(lw.gallery_names())
 #: Columns that a worked solution does not print: times, checks, totals.
 BESIDE = ("time", "residual", "shaking")
-
-
-def test_a_worked_solution_with_a_cam_is_refused_with_a_sentence() -> None:
-    with pytest.raises(lw.LinkwrightError, match="lift of a cam is no sum"):
-        lw.worked(forces_of(lw.load("gallery:printing_press")))
 
 
 def forces_of(mechanism: lw.Mechanism, steps: int = 5) -> lw.Forces:

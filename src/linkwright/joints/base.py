@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, Group, TreeJoint
+    from linkwright.worked.wheels import OwnForm, Wheels
 
 Poses = Mapping[str, "Pose"]
 States = Mapping[str, "State"]
@@ -311,6 +312,11 @@ class Joint(ABC):
     def contact(self, mechanism: Mechanism) -> Contact:
         """How the force of a higher pair acts, for worked solutions."""
         raise self.lacks("contact")
+
+    def work(self, wheels: Wheels) -> OwnForm | None:
+        """Its own formulas in worked solutions, of a pair that determines its group alone; None where :meth:`sums`
+        and :meth:`contact` say all."""
+        return None
 
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]

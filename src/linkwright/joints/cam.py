@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from linkwright.laws.traced import LiftCurve
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group
+    from linkwright.worked.wheels import OwnForm, Wheels
 
 TOUCH = ("roller", "knife", "flat")
 Points = tuple[float, ...]
@@ -119,7 +120,10 @@ class CamJoint(HigherPair):
             ),
             "program": ProgramField(_lift, "angle", doc="segments over one turn of the cam"),
             "angles": Quantities("angle", doc="angles of a table of the lift, increasing within a turn"),
-            "lifts": Quantities("length", doc="lifts of the table; between them a periodic spline"),
+            "lifts": Quantities(
+                "length",
+                doc="lifts of the table, between them a periodic spline; four equal ones or more are a rest",
+            ),
         }
 
     @classmethod
@@ -265,6 +269,9 @@ class CamJoint(HigherPair):
 
     def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         raise LackingError(Sentence("joints.cam_sums"))
+
+    def work(self, wheels: Wheels) -> OwnForm:
+        return wheels.cam(self)
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

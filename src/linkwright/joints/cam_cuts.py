@@ -30,7 +30,7 @@ class Geometry:
     """How a follower is held, as numbers: ``along`` its way in the carrier's and ``own`` in its own axes (rad; of a
     pivot: to the cam's centre, to ``at``), ``start`` d (m) or ψ₀ (rad), ``scale`` m per unit of the coordinate;
     ``reach`` positive where follower and base circle meet; ``aside``: of ``at`` to the left of the way through the
-    cam's centre (m)."""
+    cam's centre, ``ahead``: where it is along the way when a guide's displacement is 0 (m)."""
 
     along: float
     own: float
@@ -38,6 +38,7 @@ class Geometry:
     scale: float
     reach: float
     aside: float = 0.0
+    ahead: float = 0.0
 
     @classmethod
     def of(cls, joint: CamJoint, mechanism: Mechanism) -> Geometry:
@@ -75,13 +76,12 @@ class Geometry:
         ends = (guide.through, guide.at) if outward else (guide.at, guide.through)
         held = complex(*mechanism.link(joint.carrier).points[ends[0]]) - centre
         reached = at - complex(*mechanism.link(joint.follower).points[ends[1]])
-        side = (held * cmath.exp(-1j * along) + reached * cmath.exp(-1j * own)).imag + guide.offset * (
-            1 if outward else -1
-        )
+        seen = held * cmath.exp(-1j * along) + reached * cmath.exp(-1j * own)
+        side = seen.imag + guide.offset * (1 if outward else -1)
         if joint.touch == "flat":
-            return cls(along, own, radius, 1.0, radius, side)
+            return cls(along, own, radius, 1.0, radius, side, seen.real)
         square = radius**2 - side**2
-        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side)
+        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, seen.real)
 
 
 def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -37,6 +38,8 @@ CONSTANT = 1e-10
 BLURRED = 1e-10
 #: Where a group cannot be computed at its change point, the mean from this share of a step on both sides is taken.
 BESIDE = 1e-4
+#: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
+LEAST_WAY = 1e-7
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,8 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     Exact to rounding in the input, independent of the steps, as long as at most two reversals lie between two
     neighbouring positions. In a closed cycle the way from the last position to the first counts as well; the
     ends of an open one are no limits, nor is a rate that touches zero without changing its sign. Of a rest
-    over several positions between opposite motions the middle is given.
+    over several positions between opposite motions the middle is given. A way there and back of less than a ten
+    millionth of the output's travel (a rest from a table of numbers with few digits) counts as none.
 
     Args:
         motion: positions along the drivers' laws, such as a cycle.
@@ -366,7 +370,20 @@ class _Search:
             LimitPosition(float(q), float(t), float(v), "max" if up else "min", int(i))
             for q, t, v, up, i in zip(inputs, time, values, grows, index, strict=True)
         ]
-        return tuple(sorted(limits, key=lambda each: direction * each.time))
+        limits.sort(key=lambda each: direction * each.time)
+        return self._without_ripple(limits) if len(limits) > 2 else tuple(limits)
+
+    def _without_ripple(self, found: list[LimitPosition]) -> tuple[LimitPosition, ...]:
+        """Without the pairs of reversals between which the output goes next to nowhere."""
+        least = LEAST_WAY * float(np.ptp([each.value for each in found]))
+        while len(found) > 2:
+            ring = found if self.period is None else [*found, found[0]]
+            ways = [abs(b.value - a.value) for a, b in pairwise(ring)]
+            if min(ways) >= least:
+                break
+            k = ways.index(min(ways))
+            del found[k], found[k % len(found)]
+        return tuple(found)
 
     def _values(self, before: Indices, time: Floats) -> Floats:
         """The output at these times; angles continuous from the positions before them."""

@@ -70,6 +70,11 @@ class MotionLaw(ABC):
         """
 
     @property
+    def formula(self) -> str:
+        """s(u) as LaTeX, for reports; empty where it has several pieces."""
+        return ""
+
+    @property
     def breaks(self) -> tuple[float, ...]:
         """Places inside at which a derivative up to the jerk may jump."""
         return ()

@@ -18,6 +18,7 @@ class DoubleHarmonic(MotionLaw):
 
     key: ClassVar[str] = "double_harmonic"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 3"
+    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}-\frac{1-\cos\left(2\,\pi\,u\right)}{8}"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         c, s = np.cos(pi * u), np.sin(pi * u)

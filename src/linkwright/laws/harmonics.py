@@ -25,6 +25,12 @@ def sines(u: Any, shares: Sequence[tuple[int, float]]) -> tuple[Any, Any, Any, A
     return s, v, a, j
 
 
+def two_sines(first: str, third: str) -> str:
+    """The formula of a law with sines of the orders 1 and 3, their shares as LaTeX."""
+    sine = r"\frac{{\sin\left({0}\,\pi\,u\right)}}{{{0}\,\pi}}"
+    return rf"u-{first}\,{sine.format(2)}-{third}\,{sine.format(6)}"
+
+
 @MOTION_LAWS.register("cycloidal")
 @dataclass(frozen=True)
 class Cycloidal(MotionLaw):
@@ -32,6 +38,7 @@ class Cycloidal(MotionLaw):
 
     key: ClassVar[str] = "cycloidal"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2; VDI 2143-1"
+    formula = r"u-\frac{\sin\left(2\,\pi\,u\right)}{2\,\pi}"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return sines(u, ((1, 1.0),))
@@ -49,6 +56,11 @@ class InclinedSine(MotionLaw):
     source: ClassVar[str] = "VDI 2143-1"
     velocity: float = 0.0
 
+    @property
+    def formula(self) -> str:
+        share = rf"{1 - self.velocity:.6g}\," if self.velocity else ""
+        return rf"u-{share}\frac{{\sin\left(2\,\pi\,u\right)}}{{2\,\pi}}"
+
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return sines(u, ((1, 1.0 - self.velocity),))
 
@@ -59,6 +71,7 @@ class Gutman(MotionLaw):
     """s = u - (15/16) sin(2πu)/(2π) - (1/16) sin(6πu)/(6π): first and third order."""
 
     key: ClassVar[str] = "gutman"
+    formula = two_sines(r"\frac{15}{16}", r"\frac{1}{16}")
     source: ClassVar[str] = (
         "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
     )
@@ -73,6 +86,7 @@ class Freudenstein(MotionLaw):
     """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, the least acceleration."""
 
     key: ClassVar[str] = "freudenstein"
+    formula = two_sines(r"\frac{27}{28}", r"\frac{1}{28}")
     source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:

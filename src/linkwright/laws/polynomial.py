@@ -51,6 +51,19 @@ class Polynomial(MotionLaw):
     def coefficients(self) -> Coefficients:
         """c_k, k from 0."""
 
+    @property
+    def formula(self) -> str:
+        found = ""
+        for k, factor in enumerate(self.coefficients):
+            if abs(factor) > 1e-12:
+                base, e, power = f"{abs(factor):.6g}".partition("e")
+                size = rf"{base}\cdot 10^{{{int(power)}}}" if e else "" if base == "1" and k else base
+                joint = "-" if factor < 0 else "+" if found else ""
+                found += (
+                    f"{joint}{size}" + ("" if not k else r"\,u" if size else "u") + (f"^{k}" if k > 1 else "")
+                )
+        return found
+
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return powers(u, self.coefficients)
 

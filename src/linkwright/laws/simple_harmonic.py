@@ -18,6 +18,7 @@ class SimpleHarmonic(MotionLaw):
 
     key: ClassVar[str] = "simple_harmonic"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2"
+    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         c, s = np.cos(pi * u), np.sin(pi * u)

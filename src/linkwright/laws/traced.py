@@ -14,13 +14,17 @@ from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
+
+    from scipy.interpolate import PPoly
 
     from linkwright.engine.trace import Scalar
 
 #: Order of the polynomials; how near they come to lift and acceleration, as shares of the largest.
 _ORDER, _FINE, _BENT = 9, 1e-13, 1e-9
 _MOST = 240
+#: Equal lifts in a row that make a rest of a table.
+RESTING = 4
 
 
 @dataclass(frozen=True)
@@ -58,18 +62,24 @@ class LiftCurve:
 
     @classmethod
     def through(cls, angles: Sequence[float], lifts: Sequence[float]) -> LiftCurve:
-        """The periodic spline of order 5 through points of a turn, the angles increasing within it."""
-        from scipy.interpolate import PPoly, make_interp_spline
+        """The periodic spline of order 5 through points of a turn, the angles increasing within it.
 
-        x = np.array([*angles, angles[0] + TURN])
-        spline = PPoly.from_spline(
-            make_interp_spline(x, np.array([*lifts, lifts[0]]), k=5, bc_type="periodic")
-        )
+        Four equal lifts or more in a row are a rest: the lift does not change there at all, and the spline beside it
+        begins and ends without velocity and acceleration. (A spline through them would swing by what the table's
+        last digit leaves open, and every swing would count as a reversal.)
+        """
+        x, y = np.array([*angles, angles[0] + TURN]), np.array([*lifts, lifts[0]])
+        first = _start_of_rest(y)
+        if first is not None:
+            x = np.concatenate([x[first:-1], x[: first + 1] + TURN])
+            y = np.concatenate([y[first:-1], y[: first + 1]])
+        splines = list(_stretches(x, y, resting=first is not None))
         edges = np.array([0.0, *(each for each in angles if 0.0 < each < TURN), TURN])
         rows = []
         for a, b in itertools.pairwise(edges):
             half, middle = 0.5 * (b - a), 0.5 * (a + b)
             place = middle if middle >= x[0] else middle + TURN
+            spline = next(each for end, each in splines if place <= end)
             rows.append([spline(place, nu=k) * half**k / math.factorial(k) for k in range(6)])
         return cls(edges, np.array(rows, dtype=float))
 
@@ -129,6 +139,38 @@ class LiftCurve:
         first: list[Scalar] = [float(k) * row[k] for k in range(1, len(row))]
         second: list[Scalar] = [float(k) * first[k] for k in range(1, len(first))]
         return _horner(row, t), _horner(first, t) * slope, _horner(second, t) * (slope * slope)
+
+
+def _start_of_rest(lifts: Floats) -> int | None:
+    """Where a rest begins that begins within the turn; None where there is none, or nothing but rest."""
+    still = np.diff(lifts) == 0.0
+    runs = [k for k in range(len(still)) if still[k] and not still[k - 1] and np.take(
+        still, range(k, k + RESTING - 1), mode="wrap").all()]  # fmt: skip
+    return runs[0] if runs else None
+
+
+def _stretches(x: Floats, y: Floats, *, resting: bool) -> Iterator[tuple[float, PPoly]]:
+    """Splines one after the other, each with the place where it ends; the first a rest, where there is one."""
+    from scipy.interpolate import PPoly, make_interp_spline
+
+    if not resting:
+        yield float(x[-1]), PPoly.from_spline(make_interp_spline(x, y, k=5, bc_type="periodic"))
+        return
+    at_rest = [(1, 0.0), (2, 0.0)]
+    here = 0
+    while here < len(x) - 1:
+        end = here
+        while end < len(x) - 1 and y[end + 1] == y[here]:
+            end += 1
+        if end - here + 1 >= RESTING:
+            yield float(x[end]), PPoly([[y[here]]], [x[here], x[end]])
+            here = end
+            continue
+        end = next((k for k in range(here + 1, len(x) - 1) if (y[k : k + RESTING] == y[k]).all()
+                    and k + RESTING <= len(x)), len(x) - 1)  # fmt: skip
+        spline = make_interp_spline(x[here : end + 1], y[here : end + 1], k=5, bc_type=(at_rest, at_rest))
+        yield float(x[end]), PPoly.from_spline(spline)
+        here = end
 
 
 def _horner(row: Sequence[Scalar], t: Scalar) -> Scalar:

@@ -109,9 +109,10 @@ class Reactions:
             self.found.append(Found(cut, on, Known(force, closure.tip.place, NOWHERE)))
 
     def _wheels(self, step: Step, group: Group) -> None:
-        """Tooth forces and pulls of belts, from the moments on the wheels."""
+        """Tooth forces, pulls of belts and forces of cams, from what acts on wheels and followers."""
         book, wheels = self.book, Wheels(self.book)
-        step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
+        if wheels.alone(group) is None:
+            step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
         right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
         for cut, force in zip(group.cuts, wheels.multipliers(step, group, right), strict=True):
             self._press(step, cut, force)

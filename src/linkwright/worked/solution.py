@@ -171,7 +171,7 @@ class _Kinematics:
         if not moving:
             return [head, places]
         if wheels:
-            return [head, places, *self._wheel_rates(group, number)]
+            return [head, places, *self._wheel_rates(group, number), *self.wheels.shapes(group, number)]
         cuts = closures(self.book, group)
         first = Step(f"{number}.2", say("worked.velocities"), name)
         self.movers.driven_guides(first, group, second=False)

@@ -1,8 +1,9 @@
-"""Groups of wheels and racks alone: rotations and displacements from their pairs' rows, and the tooth forces."""
+"""Groups of higher pairs alone: rotations and displacements from their rows or own formulas, and their forces."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -14,16 +15,71 @@ from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import ZERO, Pair, Term, cosine, number, root, sine, symbol, total
 
+if TYPE_CHECKING:
+    from linkwright.joints.cam import CamJoint
+
+
+class OwnForm(Protocol):
+    """A pair with formulas of its own, which determines its group alone."""
+
+    @property
+    def title(self) -> str:
+        """Heading of what :meth:`shape` writes."""
+
+    def place(self, step: Step, places: Places) -> None:
+        """How it places its first link."""
+
+    def rate(self, step: Step, *, second: bool) -> None:
+        """Velocity or acceleration of the unknown."""
+
+    def effort(self, step: Step, right: Term) -> Term:
+        """What multiplies its row, from the known forces on the unknown."""
+
+    def contact(self, step: Step, force: Term) -> tuple[Pair, Pair, Term]:
+        """Force on its first link, where it acts, and its couple there."""
+
+    def shape(self, step: Step) -> None:
+        """What else is asked of it in this position."""
+
 
 class Wheels:
     """Writes the positions, rates and forces of such groups."""
 
     def __init__(self, book: Book) -> None:
         self.book = book
+        self._own: dict[str, OwnForm | None] = {}
+
+    def own(self, joint: str) -> OwnForm | None:
+        """A pair's own formulas, where it has some."""
+        if joint not in self._own:
+            self._own[joint] = self.book.mechanism.joints[joint].work(self)
+        return self._own[joint]
+
+    def alone(self, group: Group) -> OwnForm | None:
+        """Those of the only pair of a group."""
+        return self.own(group.cuts[0].joint) if len(group.cuts) == 1 else None
+
+    def cam(self, joint: CamJoint) -> OwnForm:
+        """A cam and its follower."""
+        from linkwright.worked.cams import cam_pair
+
+        return cam_pair(self.book, joint)
+
+    def shapes(self, group: Group, number: int) -> list[Step]:
+        """What else is asked of a pair of its own."""
+        own = self.alone(group)
+        if own is None:
+            return []
+        step = Step(f"{number}.4", own.title, group.name)
+        own.shape(step)
+        return [step]
 
     def positions(self, step: Step, places: Places, group: Group) -> None:
         """Rotations and displacements, as the pairs add them up."""
         book = self.book
+        if (own := self.alone(group)) is not None:
+            own.place(step, places)
+            return
         step.say(book.say("worked.wheels", joints=_names(group)))
         for joint in group.unknowns:
             if joint.slides:
@@ -44,6 +100,9 @@ class Wheels:
     def rates(self, step: Step, group: Group, *, second: bool) -> None:
         """Velocities or accelerations of the unknowns: every row is linear in them."""
         book = self.book
+        if (own := self.alone(group)) is not None:
+            own.rate(step, second=second)
+            return
         rows = pair_closures(book, group, ())
         rate = book.alpha if second else book.omega
         speed = self._second if second else self._speed
@@ -96,6 +155,8 @@ class Wheels:
     # forces -----------------------------------------------------------------------------------
     def multipliers(self, step: Step, group: Group, right: list[Term]) -> list[Term]:
         """The tangential force of every pair, from the moments on the unknowns."""
+        if (own := self.alone(group)) is not None:
+            return [own.effort(step, right[0])]
         rows = pair_closures(self.book, group, ())
         for row in rows:
             row.give(step, None)
@@ -118,6 +179,8 @@ class Wheels:
 
     def contact(self, step: Step, cut: Connection, force: Term) -> tuple[Pair, Pair, Term]:
         """Force on the pair's first link, where it acts, and its couple there, from the tangential force."""
+        if (own := self.own(cut.joint)) is not None:
+            return own.contact(step, force)
         book = self.book
         contact = book.mechanism.joints[cut.joint].contact(book.mechanism)
         along = self._along(step, cut, contact)

@@ -59,6 +59,6 @@ WORDS = {
     "cam_reach": "the follower does not reach the base circle",
     "cam_reach_remedy": "take a larger base circle, or bring follower and cam nearer",
     "cam_sums": "the lift of a cam is no sum of rotations and displacements, which is all that can be said "
-    "here: exports to MuJoCo and Modelica, worked solutions, and groups without closed form behind a cam, take "
-    "gears, racks and belts only",
+    "here: exports to MuJoCo and Modelica, worked solutions of a cam within a loop, and groups without closed form "
+    "behind a cam, take gears, racks and belts only",
 }

@@ -1,6 +1,28 @@
 """The worked solution of one position."""
 
 WORDS = {
+    "cam_angle": "Angle of {cam} in the program of {joint}, and the lift there:",
+    "cam_segment": "Segment {number}: {law}; u runs from 0 to 1.",
+    "cam_rest": "Segment {number}: dwell, the lift does not change.",
+    "cam_points": "Between the points of the table at {low}° and {high}° the lift is a polynomial of t from "
+    "-1 to 1:",
+    "cam_table_rest": "From {low}° to {high}° the table rests: the lift does not change.",
+    "cam_guided": "Height of {point} above the cam's centre, along {guide}: d + S. b: where {point} is along it when "
+    "the displacement is 0.",
+    "cam_swinging": "Angle of the arm to the line from {pivot} to the cam's centre: ψ0 + S.",
+    "cam_rates": "The lift of {joint} differentiated, with the angular velocity and acceleration of the cam against "
+    "its carrier:",
+    "cam_push": "V: what {joint} exerts along the follower's way; across it V tan α, by the direction of the normal.",
+    "cam_turn": "M: moment of {joint} about the follower's pivot; the contact force follows from the direction of "
+    "the normal.",
+    "cam_shape": "Cam {joint}: pressure angle and profile",
+    "cam_heading": "Direction of the follower's way in the cam's axes:",
+    "cam_arm_heading": "Directions of the arm and of the line of axes in the cam's axes, and the angle between them:",
+    "cam_components": "Normal of the pitch curve along the arm and across it:",
+    "cam_pressure": "Pressure angle, between the normal and the velocity of the follower:",
+    "cam_pitch": "Pitch curve in the cam's axes:",
+    "cam_profile": "Profile in the cam's axes:",
+    "cam_radius": "Radius of curvature (positive: convex):",
     "wheels": "The pairs {joints} add the rotations up, counted with their turns (i: ratio to each link, r: lever "
     "arm; β, c: from the drawing or the file):",
     "wheel_rates": "The rows of {joints}, differentiated:",

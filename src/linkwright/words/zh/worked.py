@@ -1,6 +1,24 @@
 """一个位置的解题过程。"""
 
 WORDS = {
+    "cam_angle": "{cam}在{joint}运动规律中的转角，以及该处的位移（升程）：",
+    "cam_segment": "第{number}段：{law}；u 由 0 到 1。",
+    "cam_rest": "第{number}段：休止，升程不变。",
+    "cam_points": "在表中 {low}° 与 {high}° 两点之间，升程是 t（-1 到 1）的多项式：",
+    "cam_table_rest": "{low}° 到 {high}° 为休止段：升程不变。",
+    "cam_guided": "{point}沿{guide}高出凸轮中心 d + S；b：位移为 0 时{point}沿导路的位置。",
+    "cam_swinging": "摆杆与{pivot}到凸轮中心连线的夹角：ψ0 + S。",
+    "cam_rates": "{joint}的升程求导，乘以凸轮相对其支承构件的角速度与角加速度：",
+    "cam_push": "V：{joint}沿从动件导路的作用力；垂直于导路的分力为 V tan α，由法线方向得出。",
+    "cam_turn": "M：{joint}对从动件支点的力矩；接触力由法线方向得出。",
+    "cam_shape": "凸轮{joint}：压力角与轮廓",
+    "cam_heading": "从动件移动方向在凸轮坐标系中的方位角：",
+    "cam_arm_heading": "摆杆与中心连线在凸轮坐标系中的方位角，以及二者的夹角：",
+    "cam_components": "理论轮廓法线沿摆杆与垂直于摆杆的分量：",
+    "cam_pressure": "压力角，即法线与从动件速度方向的夹角：",
+    "cam_pitch": "理论轮廓在凸轮坐标系中的坐标：",
+    "cam_profile": "实际轮廓在凸轮坐标系中的坐标：",
+    "cam_radius": "曲率半径（外凸为正）：",
     "wheels": "由 {joints} 将各转角（计入整圈数）叠加（i：对各构件的传动比，r：力臂；β、c：由图或文件给定）：",
     "wheel_rates": "{joints} 的方程求导：",
     "wheel_forces": "对轮心取矩得 T，即 {joints} 各自的切向力。S 沿连心线（方向角 γ）：轮齿为 T tan α，使两轮分离；"

@@ -1,0 +1,191 @@
+"""The lift of a cam in one position, from the law of its segment or from the polynomial between two points."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.words import has
+from linkwright.worked.page import Step
+from linkwright.worked.symbols import Book, tex
+from linkwright.worked.terms import ZERO, Term, number, symbol
+
+if TYPE_CHECKING:
+    from linkwright.joints.cam import CamJoint
+    from linkwright.laws.program import MotionProgram
+
+
+@dataclass(frozen=True)
+class Lift:
+    """θ (°), S (m, of an oscillating follower °), S' and S'' (over rad)."""
+
+    angle: Term
+    value: Term
+    first: Term
+    second: Term
+
+
+class LiftWriter:
+    """Symbols of a cam's lift, and the way to them; ``joint`` gives the only index where there are several cams."""
+
+    def __init__(self, book: Book, joint: CamJoint) -> None:
+        self.book = book
+        self.joint = joint
+        cams = [each for each in book.mechanism.joints.values() if type(each) is type(joint)]
+        self.sub = joint.name if len(cams) > 1 else ""
+        self.factor = math.degrees(1.0) if joint.side else 1.0
+        self.unit = "°" if joint.side else "m"
+
+    def named(self, plain: str, latex: str, value: float, *, degrees: bool = False) -> Term:
+        """A symbol of this cam."""
+        if self.sub:
+            plain = f"{plain},{self.sub}" if "_" in plain else f"{plain}_{self.sub}"
+            head, _, low = latex.partition("_")
+            low = low.strip("{}")
+            latex = f"{head}_{{{low + ',' if low else ''}{tex(self.sub)}}}"
+        return symbol(plain, latex, value, degrees=degrees)
+
+    @cached_property
+    def turned(self) -> float:
+        """θ, rad, 0 to a turn."""
+        joint, book = self.joint, self.book
+        seen = math.radians(book.angle_of(joint.cam) - book.angle_of(joint.carrier)) - joint.phase
+        return (joint.sense * seen) % (2 * math.pi)
+
+    @cached_property
+    def now(self) -> Lift:
+        """The symbols with their values; nothing for rates of a rest."""
+        value, first, second = (float(each[0]) for each in self.joint.lift.curves(np.array([self.turned])))
+        swings = bool(self.joint.side)
+        rest = self._law_at[1] is None if self.joint.program is not None else not self._row[1:].any()
+        return Lift(
+            self.named("θ", r"\theta", math.degrees(self.turned), degrees=True),
+            self.named("S", "S", self.factor * value, degrees=swings),
+            ZERO if rest else self.named("S'", "S'", first),
+            ZERO if rest else self.named("S''", "S''", second),
+        )
+
+    @cached_property
+    def _law_at(self) -> tuple[int, object]:
+        """Number of the program's segment, and its law; None for a rest."""
+        program = self.joint.program
+        assert program is not None
+        k = int(
+            np.clip(np.searchsorted(program.edges, self.turned, side="right") - 1, 0, len(program.edges) - 2)
+        )
+        return k, program.moved_by[k][0]
+
+    @cached_property
+    def _piece(self) -> int:
+        edges = self.joint.lift.edges
+        return int(np.clip(np.searchsorted(edges, self.turned, side="right") - 1, 0, len(edges) - 2))
+
+    @property
+    def _row(self) -> np.ndarray:
+        return np.asarray(self.joint.lift.coefficients[self._piece])
+
+    def write(self, step: Step) -> None:
+        """θ, then S, S' and S''."""
+        book, joint, theta = self.book, self.joint, self.now.angle
+        step.say(book.say("worked.cam_angle", cam=joint.cam, joint=joint.name))
+        formula = book.turn(joint.cam) - book.turn(joint.carrier)
+        formula = formula - book.degrees(joint.phase)
+        formula = formula if joint.sense > 0 else -formula
+        rounds = round((theta.amount - formula.value) / 360.0)
+        if rounds:
+            turns = number(360.0 * abs(rounds), degrees=True)
+            formula = formula + turns if rounds > 0 else formula - turns
+        step.find(theta, formula, "°")
+        if joint.program is not None:
+            self._of_law(step, joint.program)
+        else:
+            self._of_table(step)
+
+    def _of_law(self, step: Step, program: MotionProgram) -> None:
+        say, swings = self.book.say, bool(self.joint.side)
+        k, law = self._law_at
+        start = self.factor * float(program.lift_at_edges[k])
+        if law is None:
+            step.say(say("worked.cam_rest", number=k + 1))
+            step.give(self.now.value, self.unit)
+            return
+        law, scale = program.moved_by[k]
+        assert law is not None
+        word = f"report.law_{law.key}"
+        step.say(say("worked.cam_segment", number=k + 1, law=say(word) if has(word) else law.key))
+        low, width = float(program.edges[k]), float(program.edges[k + 1] - program.edges[k])
+        begin = step.give(self.named("θ_a", r"\theta_a", math.degrees(low), degrees=True), "°")
+        over = step.give(self.named("β", r"\beta", math.degrees(width), degrees=True), "°")
+        arc = step.give(self.named("β_r", r"\beta_r", width), "rad")
+        base = self.named("S_a", "S_a", start, degrees=swings)
+        rise = step.give(self.named("h", "h", self.factor * scale, degrees=swings), self.unit)
+        base = step.give(base, self.unit) if start else ZERO
+        u_is = (self.now.angle - begin) / over
+        u = step.find(self.named("u", "u", u_is.value), u_is, "")
+        if law.formula:
+            step.relate(symbol("s(u)", "s(u)", 0.0), symbol(_plain(law.formula), law.formula, 0.0))
+        s, v, a, _ = (float(each[0]) for each in law.curves(np.array([u.amount])))
+        names = (("s(u)", "s(u)"), ("s'(u)", "s'(u)"), ("s''(u)", "s''(u)"))
+        shape = [
+            step.give(self.named(*name, value), "") for name, value in zip(names, (s, v, a), strict=True)
+        ]
+        step.find(self.now.value, base + rise * shape[0], self.unit)
+        lift = self.named("h_r", "h_r", scale) if swings else rise
+        if swings:
+            step.give(lift, "rad")
+        step.find(self.now.first, lift * shape[1] / arc, "" if swings else "m/rad")
+        step.find(self.now.second, lift * shape[2] / arc.squared, "1/rad" if swings else "m/rad²")
+
+    def _of_table(self, step: Step) -> None:
+        say, lift = self.book.say, self.joint.lift
+        low, high = (float(lift.edges[self._piece + k]) for k in (0, 1))
+        row = [float(each) for each in self._row]
+        ends = {key: f"{math.degrees(value):.9g}" for key, value in (("low", low), ("high", high))}
+        if not any(row[1:]):
+            step.say(say("worked.cam_table_rest", **ends))
+            step.give(self.now.value, "m")
+            return
+        step.say(say("worked.cam_points", **ends))
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        centre = step.give(self.named("θ_m", r"\theta_m", math.degrees(middle), degrees=True), "°")
+        wide = step.give(self.named("δ", r"\delta", math.degrees(half), degrees=True), "°")
+        arc = step.give(self.named("δ_r", r"\delta_r", half), "rad")
+        factors = [step.give(self.named(f"c_{k}", f"c_{k}", 1e3 * each), "mm") for k, each in enumerate(row)]
+        t_is = (self.now.angle - centre) / wide
+        t = step.find(self.named("t", "t", t_is.value), t_is, "")
+        once = [number(float(k)) * each if k > 1 else each for k, each in enumerate(factors)][1:]
+        twice = [number(float(k * (k - 1))) * each for k, each in enumerate(factors)][2:]
+        thousand = number(1000.0)
+        step.find(self.now.value, _horner(factors, t) / thousand, "m")
+        step.find(self.now.first, _horner(once, t) / (thousand * arc), "m/rad")
+        step.find(self.now.second, _horner(twice, t) / (thousand * arc.squared), "m/rad²")
+
+
+def _plain(latex: str) -> str:
+    """A law's formula without LaTeX."""
+    text = re.sub(r"\\frac\{(.*?)\}\{(.*?)\}", r"(\1)/(\2)", latex)
+    text = re.sub(r"\((\d+)\)", r"\1", text)
+    text = re.sub(r"\^(\d)", lambda found: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(found[1])], text)
+    for old, new in (
+        (r"\left", ""),
+        (r"\right", ""),
+        (r"\pi", "π"),
+        (r"\,", ""),
+        (r"\cdot ", "·"),
+        ("\\", ""),
+    ):
+        text = text.replace(old, new)
+    return text
+
+
+def _horner(factors: list[Term], t: Term) -> Term:
+    """c₀ + t (c₁ + t (c₂ + …))."""
+    found = factors[-1]
+    for each in factors[-2::-1]:
+        found = each + t * found
+    return found
