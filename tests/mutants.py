@@ -57,7 +57,7 @@ def all_mutants(only: Sequence[str]) -> list[Mutant]:
 
 
 def equivalents() -> dict[str, str]:
-    """Reasons by key: pairs of lines, the key (path | before | after) and, indented, the reason."""
+    """Reasons by key (path | before | after, * for any after); in the file the indented reason follows its key."""
     known: dict[str, str] = {}
     lines = EQUIVALENT.read_text("utf-8").splitlines() if EQUIVALENT.exists() else []
     for line in lines:
@@ -76,8 +76,9 @@ def equivalents() -> dict[str, str]:
 def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float) -> Trial:
     source = (SOURCE / mutant.path).read_text("utf-8")
     key, place = mutant.key(source), f"{mutant.path}:{mutant.lines[0]}"
-    if key in known:
-        return Trial(key, mutant.kind, place, "equivalent", known[key], 0.0)
+    reason = known.get(key) or known.get(f"{key.rsplit(' | ', 1)[0]} | *")
+    if reason:
+        return Trial(key, mutant.kind, place, "equivalent", reason, 0.0)
     tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
     if not tests:
         return Trial(key, mutant.kind, place, "not run", "no test runs the line", 0.0)

@@ -34,6 +34,7 @@ LOADS = {
     "first way": f"{AT}, ramp: [100 N, 900 N], phase: {{of: guide, from: max, to: min, first: 60 mm}}",
     "whole share": f"{AT}, ramp: [100 N, 900 N], phase: {{of: guide, from: max, to: min, first: 1}}",
     "free ends": f"{AT}, magnitude: 800 N, phase: {{of: guide, from: min, to: max, free: [0.05, 30 mm]}}",
+    "free at its end": f"{AT}, magnitude: 800 N, phase: {{of: guide, from: min, to: max, free: [0, 30 mm]}}",
     "input": f"{AT}, magnitude: 800 N, phase: {{input: [150 deg, 30 deg]}}",
     "displacement": f"{AT}, magnitude: F0 + k*guide",
     "angle": f"{AT}, magnitude: F0*(1 + sin(rod)) + 100 N*cos(3*input)",
