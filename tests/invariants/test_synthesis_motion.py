@@ -8,6 +8,7 @@ import pytest
 import linkwright as lw
 from linkwright.synthesis.motion_generation.burmester import five_poses
 from linkwright.synthesis.motion_generation.families import cubic
+from linkwright.synthesis.motion_generation.mixed import counted_solutions
 
 
 def hidden_four_bars(
@@ -125,6 +126,48 @@ def test_mixed_poses_and_points_are_met() -> None:
             continue
         path = lw.solve_motion(each.mechanism(), steps=3600).point("P").position
         assert max(np.hypot(path[:, 0] - q.real, path[:, 1] - q.imag).min() for q in p) < 0.02
+
+
+@pytest.mark.parametrize(("poses", "count"), [(4, 30), (3, 201)])
+def test_every_four_bar_of_poses_and_points_is_found(poses: int, count: int) -> None:
+    """All of the published number (Brake et al. 2016: 60 and 402 with both orders), the hidden one among them."""
+    rng = np.random.default_rng(poses)
+    points = 10 - 2 * poses
+    theta = np.sort(rng.uniform(0, 6, poses + points))
+    a, b, c, d = 1.0, 2.6, 2.2, 2.9
+    pin = a * np.exp(1j * theta)
+    reach = np.abs(d - pin)
+    turn = (d - pin) / reach * np.exp(1j * np.arccos((reach**2 + b * b - c * c) / (2 * reach * b)))
+    p, phi = pin + (1.3 + 0.8j) * turn, np.angle(turn)
+    given = phi.copy()
+    given[rng.permutation(poses + points)[:points]] = np.nan
+    found = counted_solutions(p, given)
+    assert found is not None
+    solutions, reached, known = found
+    assert (reached, known) == (count, count)
+    off = []
+    for angles, pair, _ in solutions:
+        far = np.abs(pair.positions - pair.centre[:, None])
+        assert np.ptp(far, axis=1) == pytest.approx(0, abs=1e-8 * max(1.0, np.abs(far).max()))
+        assert np.exp(1j * angles)[~np.isnan(given)] == pytest.approx(np.exp(1j * given[~np.isnan(given)]))
+        off.append(
+            np.abs(np.exp(1j * angles) - np.exp(1j * phi)).max() + np.abs(np.sort(far[:, 0]) - [a, c]).max()
+        )
+    assert min(off) < 1e-7
+
+
+def test_poses_and_points_without_a_real_four_bar_have_a_nearest_one() -> None:
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        poses = np.column_stack([rng.normal(size=(6, 2)), rng.uniform(0, 6, 6)])
+        poses[[2, 4], 2] = np.nan
+        found = counted_solutions(poses[:, 0] + 1j * poses[:, 1], poses[:, 2])
+        assert found is not None and found[1] == 30
+        if not found[0]:
+            break
+    with pytest.raises(lw.SynthesisError, match="none of the 30 solutions") as caught:
+        lw.motion_generation(poses)
+    assert caught.value.nearest is not None and caught.value.nearest.best.error > 0
 
 
 def test_fixed_pivots_lie_on_the_demanded_line() -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.nine_point_trace import curve
+from tests.trace_starts import curve
 
 import linkwright as lw
 from linkwright.synthesis.nine_points import tracker

@@ -29,7 +29,7 @@ from linkwright.synthesis.motion_generation.families import (
     on_lines,
     usual_window,
 )
-from linkwright.synthesis.motion_generation.mixed import mixed_solutions
+from linkwright.synthesis.motion_generation.mixed import counted_solutions, mixed_solutions
 from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse
 
 Floats = NDArray[np.float64]
@@ -58,7 +58,8 @@ def motion_generation(
     Args:
         poses: (n, 3) x (m), y (m) and angle (rad) of the coupler, n ≥ 2. Five poses: all real Burmester dyads; two
             to four: dyads sampled from their families; six and more: dyads of least squares. An angle that is NaN is
-            free (mixed poses and points): least squares from many starts, so not provably all.
+            free (mixed poses and points): all four-bars where 2 × poses + points is 10 (also nine points and one
+            pose or none), else least squares from many starts, not provably all.
         within: lower left and upper right corner (m) in which pivots lie at the first pose (n ≤ 4); default: three
             times the extent of the poses.
         fixed_pivots, moving_pivots: pivots that dyads must have (n ≤ 3): places in the frame, moving ones at the
@@ -144,8 +145,14 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     """Poses some of whose angles are free."""
     if len(p) < 3:
         raise refuse("motion.mixed", poses=len(p))
+    every = counted_solutions(p, phi)
+    notes = (note("motion.mixed_note", free=int(np.isnan(phi).sum())),)
+    counts = {}
+    if every is not None:
+        counts = {"solutions": every[1], "real": len(every[0])}
+        notes = (note("motion.mixed_all", found=every[1], known=every[2], real=len(every[0])),)
     made: list[Candidate] = []
-    for angles, pair, squares in mixed_solutions(p, phi):
+    for angles, pair, squares in mixed_solutions(p, phi) if every is None or not every[0] else every[0]:
         for first, second in ((0, 1), (1, 0)):
             made += _pairs(
                 pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1
@@ -155,11 +162,15 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     if not chosen:
         raise refuse("motion.no_pairs")
     turns = np.where(np.isnan(phi), 0, np.exp(1j * np.nan_to_num(phi)))
-    result = Synthesis("motion", chosen, "deviation", np.stack([p, turns]), {"pairs": len(made)})
+    result = Synthesis(
+        "motion", chosen, "deviation", np.stack([p, turns]), counts | {"pairs": len(made)}, notes
+    )
+    if every is not None and not every[0]:
+        raise refuse("motion.mixed_none", result, found=every[1], error=f"{chosen[0].error:.4g}")
     if chosen[0].defects:
         flaws = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in chosen[0].defects))
         raise refuse("motion.no_movable", result, why=flaws)
-    return replace(result, notes=(note("motion.mixed_note", free=int(np.isnan(phi).sum())),))
+    return result
 
 
 def _all_dyads(

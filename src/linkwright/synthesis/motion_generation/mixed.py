@@ -1,6 +1,7 @@
-"""Poses and points mixed: two dyads of least squares, the free angles of the body among the unknowns.
+"""Poses and points mixed: all four-bars where they can be counted, else two dyads of least squares.
 
-Both pins keep their distances from their centres, |p_j + z e^{iφ_j} - C| = |p_0 + z e^{iφ_0} - C|, j = 1 … n - 1; the
+M poses and N points with 2 M + N = 10 leave finitely many: ``counted``, or nine points (``nine_points``). Else both
+pins keep their distances from their centres, |p_j + z e^{iφ_j} - C| = |p_0 + z e^{iφ_0} - C|, j = 1 … n - 1; the
 angles of points are free. Up to 4 + (number of free angles)/2 such conditions can be met exactly (nine points without
 any angle: Alt's problem). From many random starts at once, so what is found need not be all.
 Source: Tong, Myszka and Murray 2013, ASME DETC2013-12326 (mixed exact pose and point synthesis).
@@ -13,6 +14,9 @@ from numpy.typing import NDArray
 
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.motion_generation.burmester import Dyads
+from linkwright.synthesis.motion_generation.counted import KNOWN, Places, all_four_bars, real_ones
+from linkwright.synthesis.nine_points.classes import CLASSES, is_real, relatives
+from linkwright.synthesis.nine_points.query import nine_points
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -21,7 +25,57 @@ Whole = NDArray[np.int64]
 STARTS, LEFT, STEPS = 800, 120, 80
 
 
-def mixed_solutions(p: Complexes, phi: Floats) -> list[tuple[Floats, Dyads, float]]:
+#: Angles (n,) of the body, the two dyads and their sum of squares.
+Solution = tuple[Floats, Dyads, float]
+#: Solutions that reach farther, in units of the places' extent, are left out.
+FAR = 1e4
+
+
+def counted_solutions(p: Complexes, phi: Floats) -> tuple[list[Solution], int, int] | None:
+    """All real solutions, how many complex ones were found, and how many there are; None: they are not finitely many.
+
+    Pairs of dyads count once.
+    """
+    posed = np.flatnonzero(~np.isnan(phi))
+    first = int(posed[0]) if len(posed) else 0
+    order = np.concatenate(
+        [[first], np.setdiff1d(posed, [first]), np.setdiff1d(np.arange(len(p)), [*posed, first])]
+    )
+    order = order.astype(np.int64)
+    base = phi[first] if len(posed) else 0.0
+    d = p[order[1:]] - p[first]
+    scale = float(np.sqrt(np.mean(np.abs(d) ** 2)))
+    if len(p) == 9 and len(posed) < 2:
+        nine = nine_points(p[order])
+        u, scale = np.concatenate(relatives(nine.solutions[is_real(nine.solutions)], nine.q)[:3]), nine.scale
+        found, known, turns = 3 * len(nine.solutions), 3 * CLASSES, u[:, 8:]
+    elif len(posed) in KNOWN and 2 * len(posed) + len(p) - len(posed) == 10:
+        g = np.exp(1j * (phi[posed] - base))[posed != first] - 1
+        every = all_four_bars(Places(d / scale, d.conj() / scale, g))
+        u = real_ones(every)
+        found, known = len(every), KNOWN[len(posed)]
+        turns = np.concatenate([np.broadcast_to(g, (len(u), len(g))), u[:, 8:]], 1)
+    else:
+        return None
+    near = np.isfinite(u).all(1) & (np.abs(u[:, :8]).max(1) < FAR)
+    return (
+        [_solution(row, g, p, order, base, scale) for row, g in zip(u[near], turns[near], strict=True)],
+        found,
+        known,
+    )
+
+
+def _solution(u: Complexes, g: Complexes, p: Complexes, order: Whole, base: float, scale: float) -> Solution:
+    """A solution in the order of the places as they were given."""
+    angles = np.empty(len(p))
+    angles[order] = base + np.concatenate([[0.0], np.angle(1 + g)])
+    points = scale * u[[0, 4]] * np.exp(-1j * base)
+    positions = p + points[:, None] * np.exp(1j * angles)
+    middles = p[order[0]] + scale * (u[[0, 4]] + u[[2, 6]])
+    return angles, Dyads(positions[:, 0] - p[0], positions, middles, np.full(2, np.nan + 0j)), 0.0
+
+
+def mixed_solutions(p: Complexes, phi: Floats) -> list[Solution]:
     """Angles (n,) of the body, the two dyads and their sum of squares, for every different optimum, best first."""
     size = float(np.abs(p - p.mean()).max())
     x, f, _ = _optima((p - p[0]) / size, phi, np.random.default_rng(0))

@@ -154,6 +154,9 @@ linkwright synthesize press.yaml --json""",
     "motion.line": "{poses} poses do not fit pivots on a line; give three or four poses",
     "motion.mixed": "{poses} poses are too few where angles are free; give three or more",
     "motion.mixed_note": "{free} angles are free: solutions from many starts, not provably all",
+    "motion.mixed_all": "{found} of {known} solutions were found, {real} of them real",
+    "motion.mixed_none": "none of the {found} solutions of these poses and points is real; the nearest solution is "
+    "that of least squares, whose links' lengths differ by {error} m",
     "motion.no_dyads": "{real} real Burmester dyads fit the five poses, two are needed; the nearest "
     "solution is that of "
     "least squares, with the errors shown",

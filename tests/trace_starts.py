@@ -1,17 +1,19 @@
-"""``python -m tests.nine_point_trace``: are the 1442 classes of the start set all there are? (trace test)
+"""``python -m tests.trace_starts``: are the start sets of counted synthesis all there is? (trace test)
 
 A coupler curve is the zero set of F = Σ c_kl d^k e^l, k, l ≤ 3, in the isotropic coordinates of the plane (Roberts
-1875). The curves through the first point are therefore a variety K in the projective space of 15 coefficients, the
-image of the dyads (x, X, w, W, y, Y, v, V): irreducible, of dimension 8. A further point is a linear condition on c,
-and no c satisfies it at all points; so eight general points cut K in as many curves as eight general linear forms
-do: deg K. It is what the start set must have.
+1875). The curves of the four-bars that take M poses are a variety K in the projective space of the coefficients,
+the image of pairs of dyads (x, X, w, W), (y, Y, v, V) that take them: irreducible, of dimension N = 10 - 2 M (8 for
+M = 1).
+A further point is a linear condition on c, and no c satisfies it at all points; so N general points cut K in as many
+curves as N general linear forms do: deg K. It is what a start set must have: 1442 for nine points, of four-bars
+through one place and eight more points with their cognates; 30 and 201 for M = 4 and 3 poses.
 
-The start set is carried from its points to a general linear section of K, and from there to two parallel ones, where
-the last of the eight forms l(c) = t λ(c) has moved on. The sum of c/λ(c) over a complete section is linear in t; that
-of a part of it is not, because a general section's monodromy exchanges its points freely. So the second difference of
-the sum over all 1442 is zero where they are complete, and not zero where any are missing.
+A start set is carried from its points to a general linear section of K, and from there to two parallel ones, where
+the last of the forms l(c) = t λ(c) has moved on. The sum of c/λ(c) over a complete section is linear in t; that of a
+part of it is not, because a general section's monodromy exchanges its points freely. So the second difference of the
+sum over all is zero where they are complete, and not zero where any are missing.
 
-Nothing of the package's tracker is used, only the start set that it delivers. With probability one, up to rounding.
+Nothing of the package's trackers is used, only the start sets that it delivers. With probability one, up to rounding.
 Source: Sommese, Verschelde and Wampler 2002, SIAM J. Numer. Anal. 40; Leykin, Rodriguez and Sottile 2018, Arnold
 Math. J. 4 (trace test).
 """
@@ -20,11 +22,14 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.synthesis.motion_generation import counted
+from linkwright.synthesis.motion_generation.counted import KNOWN
 from linkwright.synthesis.nine_points.start import start_set
 
 Floats = NDArray[np.float64]
@@ -36,21 +41,68 @@ SECTIONS, ENOUGH, SAME = (0.0, 0.7 + 0.4j, -0.5 + 0.8j), 1e-7, 1e-6
 TOLERANCE, SMALLEST, LARGEST, MOST_STEPS, WAYS = 1e-3, 1e-12, 0.2, 2000, 8
 
 
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Four-bars that take M poses: their displacements d, partners e and coupler's turns g (M - 1,) after the first.
+
+    ``points`` (2, 15): where F is looked at; the start set's N points come first.
+    """
+
+    d: Complexes
+    e: Complexes
+    g: Complexes
+    points: Complexes
+    count: int
+
+    def poses(self, z: Complexes) -> tuple[Complexes, Complexes]:
+        """What both dyads miss of constant length at the poses (K, 2 M - 2), and its slopes by z (K, 2 M - 2, 8)."""
+        f = -self.g / (1 + self.g)
+        missed, slopes = [], []
+        for o in (0, 4):
+            x, xc, w, wc = (z[:, o + i, None] for i in range(4))
+            m, n = self.d + x * self.g, self.e + xc * f
+            slope = np.zeros((len(z), len(self.d), 8), z.dtype)
+            slope[:, :, o : o + 4] = np.stack([self.g * (n - wc), f * (m - w), -n, -m], 2)
+            missed.append(m * n - m * wc - n * w)
+            slopes.append(slope)
+        return np.concatenate(missed, 1), np.concatenate(slopes, 1)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Prints the residual with all classes, and the least and middle one with one class left out."""
-    parser = argparse.ArgumentParser(prog="python -m tests.nine_point_trace", description=__doc__)
+    """Prints for each start set the residual of all of it, and the least and middle one with one left out."""
+    parser = argparse.ArgumentParser(prog="python -m tests.trace_starts", description=__doc__)
     parser.add_argument("--seed", type=int, default=1)
-    begin, rng = time.process_time(), np.random.default_rng(parser.parse_args(arguments).seed)
-    points, z = _places(rng)
-    section = np.concatenate([np.eye(8), _general(rng, 8, 7)], 1)
-    chart = _general(rng, 15)
-    first = general_section(z, points, section, chart, rng)
-    sums = second_differences(first, points, section, chart)
+    rng = np.random.default_rng(parser.parse_args(arguments).seed)
+    return max(shown(name, *start, rng) for name, start in starts(rng))
+
+
+def starts(rng: np.random.Generator) -> Iterator[tuple[str, tuple[Family, Complexes]]]:
+    """Name, family and solutions z (K, 8) of every start set of the package."""
+    for poses in sorted(KNOWN, reverse=True):
+        places, u = counted.start_set(poses)
+        count = 10 - 2 * poses
+        points = np.concatenate(
+            [[places.d[poses - 1 :], places.e[poses - 1 :]], _general(rng, 2, 15 - count)], 1
+        )
+        given = places.d[: poses - 1], places.e[: poses - 1], places.g
+        yield f"{poses} poses, {count} points", (Family(*given, points, count), u[:, :8])
+    q, u = start_set()
+    none: Complexes = np.empty(0, complex)
+    yield "nine points", (Family(none, none, none, np.concatenate([q, _general(rng, 2, 7)], 1), 8), u[:, :8])
+
+
+def shown(name: str, family: Family, z: Complexes, rng: np.random.Generator) -> int:
+    """Prints the line of one start set; 0 where it is complete, else 1."""
+    begin = time.process_time()
+    section, chart = _section(family.count, rng), _general(rng, 15)
+    first = general_section(z, family, section, chart, rng)
+    sums = second_differences(first, family, section, chart)
     total, single = np.abs(sums.sum(0)).max(), np.sort(np.abs(sums).max(1))
     print(
-        f"{len(z)} classes of the start set: {len(first)} different curves on the general section\n"
-        f"trace residual with all of them {total:.1e}; with one left out {single[0]:.1e} at least, "
-        f"{np.median(single):.1e} in the middle; {time.process_time() - begin:.1f} CPU s"
+        f"{name}: {len(z)} in the start set, {len(first)} different curves on the general section; trace residual of "
+        f"all {total:.1e}, with one left out {single[0]:.1e} at least, {np.median(single):.1e} in the middle; "
+        f"{time.process_time() - begin:.1f} CPU s",
+        flush=True,
     )
     return 0 if len(first) == len(z) and total < ENOUGH < single[0] else 1
 
@@ -85,36 +137,37 @@ def curve(z: Complexes, points: Complexes) -> tuple[Complexes, Complexes]:
 
 
 def general_section(
-    z: Complexes, points: Complexes, section: Complexes, chart: Complexes, rng: np.random.Generator
+    z: Complexes, family: Family, section: Complexes, chart: Complexes, rng: np.random.Generator
 ) -> Complexes:
     """The solutions z of the points carried to the general section; lost ones sought along other ways."""
-    start: Complexes = np.eye(8, 15, dtype=complex)
-    ends, arrived = carried(z, points, start, section)
+    start: Complexes = np.eye(family.count, 15, dtype=complex)
+    ends, arrived = carried(z, family, start, section)
     found = ends[arrived]
     for _ in range(WAYS):
         if len(found) >= len(z):
             break
-        middle = np.concatenate([np.eye(8), _general(rng, 8, 7)], 1)
-        ends, arrived = carried(z, points, start, middle)
-        ends, arrived = carried(ends[arrived], points, middle, section)
-        known, more = coordinates(found, points, chart), coordinates(ends[arrived], points, chart)
+        middle = _section(family.count, rng)
+        ends, arrived = carried(z, family, start, middle)
+        ends, arrived = carried(ends[arrived], family, middle, section)
+        known, more = (
+            coordinates(found, family.points, chart),
+            coordinates(ends[arrived], family.points, chart),
+        )
         new = [np.abs(known - each).max(1).min() > SAME for each in more]
         found = np.concatenate([found, ends[arrived][np.array(new)]])
     return found
 
 
-def second_differences(
-    first: Complexes, points: Complexes, section: Complexes, chart: Complexes
-) -> Complexes:
+def second_differences(first: Complexes, family: Family, section: Complexes, chart: Complexes) -> Complexes:
     """Divided second difference over the parallel sections of each curve's coordinates, (N, 15)."""
-    places = [coordinates(first, points, chart)]
+    places = [coordinates(first, family.points, chart)]
     for t in SECTIONS[1:]:
         moved = section.copy()
-        moved[7] -= t * chart
-        ends, arrived = carried(first, points, section, moved)
+        moved[-1] -= t * chart
+        ends, arrived = carried(first, family, section, moved)
         if not arrived.all():
             raise ArithmeticError(f"{int((~arrived).sum())} paths were lost on the way to a parallel section")
-        places.append(coordinates(ends, points, chart))
+        places.append(coordinates(ends, family.points, chart))
     weights = [1 / np.prod([t - other for other in SECTIONS if other != t]) for t in SECTIONS]
     return np.asarray(sum(weight * place for weight, place in zip(weights, places, strict=True)))
 
@@ -125,8 +178,8 @@ def coordinates(z: Complexes, points: Complexes, chart: Complexes) -> Complexes:
     return np.asarray((f / (f @ chart)[:, None]).astype(complex))
 
 
-def carried(z: Complexes, points: Complexes, first: Complexes, last: Complexes) -> tuple[Complexes, Flags]:
-    """Solutions z (N, 8) of the section ``first`` (8, 15) carried along a straight way to ``last``; which arrived.
+def carried(z: Complexes, family: Family, first: Complexes, last: Complexes) -> tuple[Complexes, Flags]:
+    """Solutions z (N, 8) of the section ``first`` (N, 15) carried along a straight way to ``last``; which arrived.
 
     Runge and Kutta's fourth order, two Newton corrections, the step from the first one.
     """
@@ -135,10 +188,12 @@ def carried(z: Complexes, points: Complexes, first: Complexes, last: Complexes) 
     who, t, h = np.arange(len(z)), np.zeros(len(z)), np.full(len(z), 0.02)
 
     def step(at: Complexes, place: Floats, moving: bool) -> Complexes:
-        f, slopes = curve(at, points)
+        f, slopes = curve(at, family.points)
+        missed, by_z = family.poses(at)
         matrix = first @ slopes + place[:, None, None] * (change @ slopes)
         right = f @ change.T if moving else f @ first.T + place[:, None] * (f @ change.T)
-        return _solved(matrix, -right)
+        rest = 0 * missed if moving else missed
+        return _solved(np.concatenate([matrix, by_z], 1), -np.concatenate([right, rest], 1))
 
     with np.errstate(all="ignore"):
         for _ in range(MOST_STEPS):
@@ -181,10 +236,9 @@ def _size(correction: Complexes, z: Complexes) -> Floats:
     return np.asarray(np.where(np.isfinite(size), size, np.inf))
 
 
-def _places(rng: np.random.Generator) -> tuple[Complexes, Complexes]:
-    """The start set's eight points with seven general ones (2, 15), and its dyads (1442, 8)."""
-    q, u = start_set()
-    return np.concatenate([q, _general(rng, 2, 7)], 1), u[:, :8]
+def _section(count: int, rng: np.random.Generator) -> Complexes:
+    """General linear forms (count, 15), the first columns made the unit matrix."""
+    return np.concatenate([np.eye(count), _general(rng, count, 15 - count)], 1)
 
 
 def _general(rng: np.random.Generator, *shape: int) -> Complexes:
