@@ -296,6 +296,20 @@ def test_a_link_carries_the_dimensions(opened: Opened, tmp_path: Path) -> None:
     assert opened.values()["crank.length"] == start
 
 
+def test_certified_assemblies_are_said_and_changed_ones_are_not(opened: Opened, tmp_path: Path) -> None:
+    """A triad as it was solved is certified; after a change it is followed, with the margin of the step rule."""
+    mechanism, path = made(tmp_path, "triad")
+    assert all(each.certified for each in lw.solve_motion(mechanism, steps=STEPS).outcomes)
+    opened.open(path)
+    assert opened.tab.locator(".note").inner_text().startswith("The assembly is certified at every position")
+    keys = opened.run("s => s.data.points.filter(p => p.moved.length).map(p => p.key)")
+    opened.drag(keys[-1], 3.0, 2.0)
+    assert "not certified" in opened.tab.locator(".note").first.inner_text()
+    opened.tab.get_by_role("button", name="Undo").click()
+    opened.tab.locator(".note", has_text="is certified").wait_for()
+    agrees(opened, mechanism, forces=True, tolerance=1e-9)
+
+
 def test_both_languages(opened: Opened, tmp_path: Path) -> None:
     _, path = made(tmp_path, "crank_rocker", language="zh")
     opened.open(path)

@@ -270,6 +270,29 @@ def test_a_rack_meshes_with_a_pinion_as_large_as_it_is_drawn() -> None:
             drawn_with(*more, guide, {**mesh, **wrong})
 
 
+def test_a_machine_given_by_lengths_is_drawn_where_it_stands_and_drawn_on(tmp_path: Path) -> None:
+    """Points that no drawing gives are those of the solved machine; a link drawn from one takes its place along."""
+    text = lw.read_document("gallery:crank_rocker").text
+    mechanism = lw.loads(text)
+    with serving(tmp_path) as studio:
+        shown = asked(studio, "solve", {"text": text})[1]["picture"]
+        assert sorted(shown["placed"]) == ["A", "B"]
+        a, b = (np.array(shown["points"][name]) for name in "AB")
+        assert math.dist(a, b) == pytest.approx(mechanism.dimension("coupler.length"), rel=1e-12)
+        more = (
+            {"do": "point", "name": "C", "at": [b[0] + 1.0, b[1]]},
+            {"do": "link", "name": "bar1", "points": ["B", "C"], "places": {"B": b.tolist()}},
+            {"do": "link", "name": "slider1", "points": ["C"]},
+            {"do": "guide", "link": "slider1", "at": "C", "angle": 0},
+        )
+        for action in more:
+            text = asked(studio, "edit", {"text": text, "action": action})[1]["text"]
+        grown = lw.loads(text)
+        assert lw.structure(grown).mobility == 1
+        assert grown.dimension("bar1.C.x") == pytest.approx(1.0, abs=2e-4)
+        assert grown.dimension("coupler.length") == mechanism.dimension("coupler.length")
+
+
 WISH = {
     "vary": {"coupler.length": "3.2..4.2 m", "rocker.length": "2.5..3.5 m"},
     "maximize": "transmission_angle",

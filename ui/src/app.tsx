@@ -271,6 +271,8 @@ function notes(page: Page, session: Session): string[] {
   if (model.changed && held.length) found.push(page.say("not_found_again", { names: held.join(", ") }));
   if (model.locking) found.push(page.say("locking"));
   if (model.doubtful) found.push(page.say("doubtful"));
+  const { uncertain } = session.data;
+  if (uncertain !== null && !model.changed) found.push(uncertain ? page.say("uncertain", { count: String(uncertain), all: String(model.n) }) : page.say("certified"));
   if (model.iterated && model.changed) found.push(page.say("followed", { value: digits(model.margin ?? 0, 2) }));
   if (session.data.undrawn.length) found.push(page.say("undrawn", { names: session.data.undrawn.join(", ") }));
   if (session.data.module === null) found.push(page.say("text_kernel"));

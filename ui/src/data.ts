@@ -136,6 +136,8 @@ export interface ModelData {
   };
   fields: Record<string, string>;
   starts: Record<string, number | string>;
+  /** Positions of the original whose assembly is followed, but not certified; null: all have closed forms. */
+  uncertain: number | null;
   /** Loads whose course is that of the original. */
   held: string[];
   friction: FrictionTerm[];

@@ -88,7 +88,7 @@ function attach(page: Page, session: Session, view: View): void {
     event.preventDefault();
     page.play(false);
     handle.setPointerCapture(event.pointerId);
-    const [dx, dy] = [Number(handle.getAttribute("cx")) - event.pageX, Number(handle.getAttribute("cy")) - event.pageY];
+    const [dx, dy] = [Number(handle.getAttribute("cx")) - event.pageX / view.zoom, Number(handle.getAttribute("cy")) - event.pageY / view.zoom];
     dragged = { key: handle.dataset.key!, base: { ...session.model.values }, dx, dy };
     session.begin();
     handle.focus();
@@ -96,7 +96,7 @@ function attach(page: Page, session: Session, view: View): void {
   view.svg.addEventListener("pointermove", (event) => {
     if (!dragged) return;
     const { key, base, dx, dy } = dragged, { pageX, pageY } = event;
-    page.soon(() => move(key, base, pageX + dx, pageY + dy));
+    page.soon(() => move(key, base, pageX / view.zoom + dx, pageY / view.zoom + dy));
   });
   const stop = () => {
     if (!dragged) return;
@@ -112,7 +112,7 @@ function attach(page: Page, session: Session, view: View): void {
     if (!key || !way) return;
     event.preventDefault();
     page.play(false);
-    const far = event.shiftKey ? 10 : 1, handle = event.target as SVGElement;
+    const far = (event.shiftKey ? 10 : 1) / view.zoom, handle = event.target as SVGElement;
     session.begin();
     move(key, { ...session.model.values }, Number(handle.getAttribute("cx")) + far * way[0], Number(handle.getAttribute("cy")) + far * way[1]);
     session.end();

@@ -50,6 +50,7 @@ export class Model {
   private readonly arrays: Record<string, Float64Array> = {};
   private found: Values = {};
   private states: Values = {};
+  private drawn: Values = {};
   private determinants: Values = {};
 
   constructor(readonly data: ModelData, code: Code) {
@@ -73,6 +74,7 @@ export class Model {
       const start = data.starts[name];
       if (typeof start === "number") this.states[name] = start;
     }
+    this.drawn = this.states;
     this.values = { ...data.values };
     this.evaluate(this.values);
     this.keepStates();
@@ -206,8 +208,10 @@ export class Model {
 
   /** Chain coordinates at the first position for other dimensions, in steps small enough to keep the assembly. */
   private approach(values: Values): boolean {
-    const from = this.reachedAt ?? values;
-    let states = this.states, done = 0, share = 1;
+    const same = this.data.dimensions.every(({ address }) => values[address] === this.data.values[address]);
+    // The original's assembly is known, whatever came between.
+    const from = same ? values : (this.reachedAt ?? values);
+    let states = same ? this.drawn : this.states, done = 0, share = 1;
     while (done < 1) {
       const ahead = Math.min(done + share, 1);
       const next = this.corrected(mixed(from, values, ahead), states);

@@ -7,6 +7,8 @@ export interface Picture {
   links: Record<string, string[]>;
   driver: string | null;
   guided: string[];
+  /** Points that are where the solved machine has them, by its dimensions. */
+  placed?: string[];
 }
 
 export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";
@@ -182,7 +184,7 @@ export class Paper {
     this.svg.focus();
     this.svg.setPointerCapture(event.pointerId);
     switch (this.tool) {
-      case "select": this.dragged = near; return;
+      case "select": this.dragged = near && !this.picture.placed?.includes(near) ? near : null; return;
       case "fixed": {
         if (!near) this.add(this.fresh(false), this.world(at), true);
         return;
@@ -239,7 +241,8 @@ export class Paper {
       let k = 1;
       while (`${base}${k}` in this.picture.links) k++;
       this.picture.links[`${base}${k}`] = [...this.chosen];
-      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen }]);
+      const places = Object.fromEntries(this.chosen.filter((point) => this.picture.placed?.includes(point)).map((point) => [point, this.picture.points[point]]));
+      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen, places }]);
     }
     this.choose([]);
   }

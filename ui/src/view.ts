@@ -3,12 +3,14 @@ import type { Glyph } from "./data";
 import type { Model, Values } from "./model";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
+// Paper narrower than this has smaller symbols, at least this share of their size.
+const WIDE = 560, SMALLEST = 0.6;
 const COLOURS = 4;
 // Fewer ghosts than these are drawn as strongly as paths.
 const FEW = 12;
@@ -48,6 +50,7 @@ export class View {
   private shift: Vec = [0, 0];
   private width = 600;
   private height = 420;
+  zoom = 1;
   index = 0;
 
   constructor(readonly model: Model, host: HTMLElement, public shown: Shown) {
@@ -69,10 +72,14 @@ export class View {
     this.fit();
   }
 
+  /** On narrow paper symbols are drawn smaller: `zoom` pixels are one unit of the picture. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
-    [this.width, this.height] = [width, height];
-    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.zoom = Math.min(1, Math.max(SMALLEST, width / WIDE));
+    [this.width, this.height] = [width / this.zoom, height / this.zoom];
+    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
+    for (const handle of this.handles.values()) handle.setAttribute("r", String(13 / this.zoom));
+    this.layers.names.setAttribute("font-size", String(Math.round(14 / Math.sqrt(this.zoom))));
     this.fit();
     this.draw(this.index);
     this.drawGhosts();
@@ -151,16 +158,21 @@ export class View {
     this.layers.marks.classList.toggle("without-centres", !this.shown.centres);
   }
 
+  /** Names beside their points, above where that is free; one that finds no place is left out. */
   private writeNames(i: number): void {
     this.layers.names.classList.toggle("hidden", !this.shown.names);
     if (!this.shown.names) return;
-    const used: Vec[] = [];
+    const used: [number, number, number][] = [], size = 14 / Math.sqrt(this.zoom);
     for (const [key, label] of this.labels) {
-      let [x, y] = this.at(key, i);
-      [x, y] = [x + 9, y - 9];
-      while (used.some(([u, v]) => Math.abs(u - x) < 18 && Math.abs(v - y) < 12)) y -= 13;
-      used.push([x, y]);
-      label.setAttribute("transform", `translate(${tenth(x)} ${tenth(y)})`);
+      const [x, y] = this.at(key, i), wide = 0.52 * size * key.length + 3;
+      const free = [[9, -9], [9, size + 4], [-9 - wide, -9], [-9 - wide, size + 4], [9, -9 - size], [9, 2 * size + 4]].find(([dx, dy]) =>
+        x + dx > 0 && x + dx + wide < this.width && used.every(([left, top, right]) => x + dx > right || x + dx + wide < left || Math.abs(y + dy - top) > 0.85 * size),
+      );
+      put(label, "visibility", free ? "visible" : "hidden");
+      if (!free) continue;
+      const [u, v] = [x + free[0], y + free[1]];
+      used.push([u, v, u + wide]);
+      label.setAttribute("transform", `translate(${tenth(u)} ${tenth(v)})`);
     }
   }
 
@@ -378,7 +390,7 @@ export class View {
     const { canvas, width, height, ghostly } = this;
     canvas.hidden = !ghostly.length;
     if (!ghostly.length) return;
-    const dense = Math.min(devicePixelRatio || 1, 2);
+    const dense = Math.min(devicePixelRatio || 1, 2) * this.zoom;
     [canvas.width, canvas.height] = [Math.round(width * dense), Math.round(height * dense)];
     const pen = canvas.getContext("2d")!;
     pen.scale(dense, dense);

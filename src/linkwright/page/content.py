@@ -82,6 +82,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
+        "uncertain": _uncertain(motion),
         "held": programs.held,
         "friction": programs.friction(),
         "groups": _groups(programs),
@@ -104,6 +105,11 @@ def _said(motion: Motion, text: str) -> Plain:
 def _machine(motion: Motion) -> Machine:
     placed = placements(motion)
     return Machine(motion, placed, fitted(motion, placed))
+
+
+def _uncertain(motion: Motion) -> int | None:
+    """Positions whose assembly is followed but not certified; None where every group has a closed form."""
+    return None if motion.followed is None else int((~motion.followed.certified & motion.ok).sum())
 
 
 def _packed(row: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from linkwright import units
@@ -12,6 +13,7 @@ from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
 from linkwright.files.document import Document, content_end
 from linkwright.files.write import flow, scalar
+from linkwright.kinematics.motion import Motion
 from linkwright.words.sentence import Sentence
 
 Plain = dict[str, Any]
@@ -146,6 +148,34 @@ def picture(text: str) -> Plain:
             and isinstance(each := joint.get("at"), Scalar)
         ],
     }
+
+
+def completed(shown: Plain, motion: Motion) -> Plain:
+    """What can be drawn, with the points that no drawing gives where the solved machine has them (``placed``)."""
+    missing = {point for points in shown["links"].values() for point in points} - set(shown["points"])
+    if not missing:
+        return shown
+    places, there = {}, _as_drawn(motion)
+    for point in sorted(missing):
+        keys = [f"{link}.{point}" for link, points in shown["links"].items() if point in points]
+        known = next((key for key in (point, *keys) if key in there.point_names()), None)
+        if known is not None:
+            places[point] = [float(each) for each in there.point(known).position[0]]
+    return {**shown, "points": {**shown["points"], **places}, "placed": list(places)}
+
+
+def _as_drawn(motion: Motion) -> Motion:
+    """The machine in the position of its drawing, where that can be had; else from its first position on."""
+    from linkwright.kinematics.solve import solve_motion
+    from linkwright.mechanism.drawing import Drawing
+
+    drawing = Drawing(motion.mechanism)
+    names = motion.mechanism.drivers
+    at = {name: q for name in names if (q := drawing.driver(name)) is not None}
+    if at and len(at) == len(names):
+        with suppress(LinkwrightError):
+            return solve_motion(motion.mechanism, at=at)
+    return motion
 
 
 def fresh(stem: str, known: Iterable[str]) -> str:

@@ -63,6 +63,11 @@ def _point(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 def _link(draft: Draft, action: Mapping[str, Any]) -> None:
+    """A link through points; ``places`` (m) of those that no drawing gives, which become part of it."""
+    known = picture(draft.text)["points"]
+    for point, place in dict(action.get("places") or {}).items():
+        if point not in known:
+            _point(draft, {"name": point, "at": place})
     draft.put("links", action["name"], {"points": list(action["points"])})
 
 

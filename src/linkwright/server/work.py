@@ -13,7 +13,7 @@ from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.server.background import Background
-from linkwright.server.draft import picture
+from linkwright.server.draft import completed, picture
 from linkwright.server.edits import edited, with_values
 from linkwright.server.files import Files
 from linkwright.server.search import linkages
@@ -93,7 +93,9 @@ class Work:
 
                 found["mobility"] = structure(mechanism).mobility
                 found["optimize"] = dict(mechanism.optimize)
-                data, _ = page_data([(solve_motion(mechanism, steps=360), text)], language)
+                motion = solve_motion(mechanism, steps=360)
+                found["picture"] = completed(found["picture"], motion)
+                data, _ = page_data([(motion, text)], language)
                 found["model"] = data["models"][0]
         except LinkwrightError as error:
             found["sentence"] = error.say(language)

@@ -58,14 +58,16 @@ WORDS = {
     "take": "Take {name}",
     "sweep": "Paths while {name} varies by 20 % up and down",
     "tolerance": "Lengths off by up to ±",
-    "cloud": "{built} of {count} machines with such lengths can be built; {paths} is at most {off} off its place.",
+    "cloud": "{built} of {count} machines with such lengths can be built; {paths} is at most {off} off its "
+    "place.",
     "link": "Copy the link",
     "copied": "The link with the changed dimensions is in the clipboard.",
     "link_shown": "The link with the changed dimensions stands in the address line.",
     "download": "Download the model",
     "not_written": "The file gives these in another way, so they are not written into it: {names}.",
     "print": "Print",
-    "drawing": "Drawing of {name}: drag joints, or choose one with the tab key and move it with the arrow keys",
+    "drawing": "Drawing of {name}: drag joints, or choose one with the tab key and move it with the arrow "
+    "keys",
     "joint": "Joint {name}: {x}, {y}",
     "curve": "{name} over the input",
     "drag_help": "Drag a joint or a fixed point: the dimensions of its links follow; locked ones stay. Arrow "
@@ -78,7 +80,8 @@ WORDS = {
     "wall_still": "No dimension moves {name} in this direction.",
     "where": "{name} = {value}",
     "transmission_now": "transmission angle {value} ({name})",
-    "not_found_again": "Forces are shown for the original only: the course of {names} is not found again here.",
+    "not_found_again": "Forces are shown for the original only: the course of {names} is not found again "
+    "here.",
     "misfit": "the wheels of {names} do not fit the distance of their centres",
     "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
@@ -93,4 +96,7 @@ WORDS = {
     "machine": "Machine",
     "value_of": "Value of {name}",
     "unlike": "{name} has no such number.",
+    "certified": "The assembly is certified at every position: it is proved to be the drawn one.",
+    "uncertain": "At {count} of {all} positions the assembly is followed, but not certified: another one "
+    "lies so near that clearance could change it.",
 }

@@ -71,7 +71,8 @@ WORDS = {
     "drag_help": "拖动铰链或固定点：相关构件的尺寸随之改变，锁定的尺寸不变。方向键移动选中的铰链，"
     "按住 Shift 时移动十倍。空格键播放。",
     "wall": "极限（{where}）：{sentence}。",
-    "wall_change": "极限：在{where}附近，杆组 {signature}（{links}）到达变点，两种装配在此相遇，本页不作选择。",
+    "wall_change": "极限：在{where}附近，杆组 {signature}（{links}）到达变点，两种装配在此相遇，本页不作选择"
+    "。",
     "wall_length": "极限：{name}必须大于零。",
     "wall_locked": "能移动{name}的尺寸都已锁定。",
     "wall_still": "没有尺寸能使{name}朝这个方向移动。",
@@ -90,4 +91,7 @@ WORDS = {
     "machine": "机构",
     "value_of": "{name}的值",
     "unlike": "{name}没有这项指标。",
+    "certified": "每个位置的装配形式均已认证：证明为所画的装配。",
+    "uncertain": "{all} 个位置中有 {count} 个的装配形式是跟踪得到的，未经认证：另一装配形式很近，间隙可能使"
+    "其改变。",
 }
