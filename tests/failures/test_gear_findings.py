@@ -106,6 +106,34 @@ CASES = {
         GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20}",
         ("joints.m.radius", "nothing says how large", "module"),
     ),
+    "module without teeth": (
+        "  m: {kind: gear, links: [a, b], radii: [20 mm, 40 mm], module: 3 mm}",
+        ("joints.m.module", "without numbers of teeth", "leave the module out"),
+    ),
+    "another carrier": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], carrier: bar}",
+        ("joints.m.carrier", "'bar' does not carry the pins of both", "carried by frame"),
+    ),
+    "teeth that press along the line of centres": (
+        "  m: {kind: gear, links: [a, b], teeth: [20, 40], pressure_angle: 90 deg}",
+        ("joints.m.pressure_angle", "90 deg is too large", "from 0 deg to below 90 deg"),
+    ),
+    "rack of two sizes": (
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
+        ("joints.m.radius", "the size is given twice", "give radius"),
+    ),
+    "rack of half a tooth": (
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20.5, module: 2 mm}",
+        ("joints.m.teeth", "20.5 is no number of teeth", "whole number"),
+    ),
+    "pinion's centre without guide": (
+        GUIDE + "  m: {kind: rack, pinion: loose, rack: rack, through: T, radius: 20 mm, centre: X}",
+        ("joints.m.centre", "'X' is no pin to whose link a guide", "leave the centre out: it is O"),
+    ),
+    "belt of no size": (
+        "  m: {kind: belt, links: [a, b]}",
+        ("joints.m", "nothing says how large", "give radii"),
+    ),
     "ring of the same size": (
         "  m: {kind: gear, links: [a, b], teeth: [20, 20], mesh: internal}",
         ("joints.m", "cannot run in a ring of its own size"),

@@ -131,7 +131,9 @@ class Quantity(Field):
                 else Sentence("model.length_zero"),
             )
         if self.below is not None:
-            low, high = (units.format(each, self.dimension) for each in (self.minimum or 0.0, self.below))
+            unit = "deg" if self.dimension == "angle" else None
+            ends = (self.minimum or 0.0, self.below)
+            low, high = (units.format(each, self.dimension, unit) for each in ends)
             return Sentence("model.from_to_below", noun=noun, low=low, high=high)
         if self.minimum is not None:
             return Sentence(

@@ -76,6 +76,10 @@ class GearPair(WheelPair):
     def read(cls, entry: Entry) -> Joint | None:
         values = entry.values
         ratio = values.get("ratio")
+        if values.get("module") and not values.get("teeth") and (ratio or values.get("radii")):
+            remedy = Sentence("joints.teeth_or_no_module")
+            entry.say("module", Sentence("joints.module_without_teeth"), remedy, "choice")
+            return None
         if ratio is not None and not (values.get("teeth") or values.get("radii")):
             values["mesh"] = "internal" if ratio > 0 else "external"
         return super().read(entry)

@@ -28,7 +28,7 @@ from linkwright.joints.base import (
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.marks import Amount, Mark, RackWay, Wheel
-from linkwright.joints.toothed import FITS, length
+from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -110,8 +110,7 @@ class RackPair(HigherPair):
             wheel = {"wheel": pinion}
             entry.say("pinion", Sentence("joints.without_pin", **wheel), Sentence("joints.give_pin", **wheel))
             return None
-        if (values.get("radius") is None) == (values.get("module") is None or values.get("teeth") is None):
-            entry.say("radius", Sentence("joints.no_size"), Sentence("joints.give_rack_size"), "missing-key")
+        if not _sized(entry):
             return None
         direction = values.pop("direction", None)
         if isinstance(direction, tuple):
@@ -123,6 +122,11 @@ class RackPair(HigherPair):
 
     def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
         way = self._way(mechanism)
+        elsewhere = None if way is not None else replace(self, centre="")._way(mechanism)
+        if elsewhere is not None:
+            problem = Sentence("joints.centre_unguided", centre=self.centre, rack=self.rack)
+            report("centre", problem, Sentence("joints.take_centre", centre=elsewhere.centre))
+            return replace(self, direction=elsewhere.direction, centre=elsewhere.centre)
         if way is None:
             report(
                 "rack",
@@ -284,6 +288,22 @@ class RackPair(HigherPair):
 
     def _way(self, mechanism: Mechanism) -> _Way | None:
         return _Search(self, mechanism).found()
+
+
+def _sized(entry: Entry) -> bool:
+    """Whether the pinion has one size, by its radius or by whole teeth of a module."""
+    radius, teeth, module = (entry.values.get(key) for key in ("radius", "teeth", "module"))
+    remedy = Sentence("joints.give_rack_size")
+    if radius is not None and (teeth is not None or module is not None):
+        entry.say("radius", Sentence("joints.sizes_twice"), remedy, "choice")
+        return False
+    if radius is None and (teeth is None or module is None):
+        entry.say("radius", Sentence("joints.no_size"), remedy, "missing-key")
+        return False
+    if teeth is not None and not whole(teeth):
+        entry.say("teeth", Sentence("joints.no_teeth", value=teeth), Sentence("joints.whole_teeth"), "range")
+        return False
+    return True
 
 
 @dataclass(frozen=True)

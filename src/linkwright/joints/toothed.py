@@ -271,6 +271,11 @@ class WheelCut(Cut):
         return poses[self.carrier].point(self.centre_a)
 
 
+def whole(value: float) -> bool:
+    """Whether a number can be one of teeth."""
+    return value >= 1 and value == round(value)
+
+
 class Numbers(Field):
     """Two whole numbers above zero."""
 
@@ -280,7 +285,7 @@ class Numbers(Field):
             return None
         found = [reader.quantity(item, place.child(str(i)), "dimensionless") for i, item in enumerate(items)]
         for item, value in zip(items, found, strict=True):
-            if value is not None and (value < 1 or value != round(value)):
+            if value is not None and not whole(value):
                 reader.error(
                     item,
                     place,
@@ -293,8 +298,8 @@ class Numbers(Field):
         return None if a is None or b is None else (a, b)
 
     def shape(self) -> dict[str, Any]:
-        whole = {"type": ["integer", "string"], "minimum": 1}
-        return {"type": "array", "items": whole, "minItems": 2, "maxItems": 2}
+        one = {"type": ["integer", "string"], "minimum": 1}
+        return {"type": "array", "items": one, "minItems": 2, "maxItems": 2}
 
     def written(self, value: Any) -> Any:
         return [int(each) if each == round(each) else each for each in value]
@@ -304,7 +309,8 @@ def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     values = entry.values
     given = [key for key in keys if values.get(key) is not None]
     if not given:
-        entry.say("", Sentence("joints.no_size"), Sentence("joints.give_size", keys=keys), "missing-key")
+        remedy = Sentence("joints.give_size" if len(keys) > 1 else "joints.give_key", keys=keys)
+        entry.say("", Sentence("joints.no_size"), remedy, "missing-key")
         return False
     if "radii" in given and min(values["radii"]) <= 0:
         entry.say("radii", Sentence("joints.bad_radius"), Sentence("joints.positive_radius"), "range")
@@ -344,6 +350,12 @@ class _Centres:
             for link in pins[p]
             if link in pins[q] and link not in self.wheels and self.named in (None, link)
         ]
+        bearing = sorted({link for p in own[0] for q in own[1] for link in pins[p] if link in pins[q]})
+        bearing = [link for link in bearing if link not in self.wheels]
+        if not ways and self.named is not None and bearing:
+            problem = Sentence("joints.no_such_carrier", name=self.named, wheels=self.wheels)
+            self.entry.say("carrier", problem, Sentence("joints.carried_by", names=tuple(bearing)))
+            return None
         if not ways:
             self._say(
                 Sentence("joints.no_carrier", wheels=self.wheels),
