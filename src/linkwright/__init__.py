@@ -50,12 +50,12 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.forces import solve_forces as solve_forces
     from linkwright.laws.base import MotionLaw as MotionLaw
-    from linkwright.laws.choice import laws_for as laws_for
-    from linkwright.laws.choice import motion_law as motion_law
-    from linkwright.laws.found import FoundProgram as FoundProgram
-    from linkwright.laws.found import Window as Window
+    from linkwright.laws.fitting import laws_for as laws_for
+    from linkwright.laws.fitting import motion_law as motion_law
     from linkwright.laws.program import MotionProgram as MotionProgram
     from linkwright.laws.program import Segment as Segment
+    from linkwright.laws.smoothest import FoundProgram as FoundProgram
+    from linkwright.laws.smoothest import Window as Window
     from linkwright.machine import SteadyRunning as SteadyRunning
     from linkwright.machine import TorqueCurve as TorqueCurve
     from linkwright.machine import steady_running as steady_running
@@ -134,8 +134,8 @@ PUBLIC = {
     "linkwright.kinetostatics.balancing": ("Balancing", "balance"),
     "linkwright.kinetostatics.forces": ("Forces", "solve_forces"),
     "linkwright.laws.base": ("MotionLaw",),
-    "linkwright.laws.choice": ("laws_for", "motion_law"),
-    "linkwright.laws.found": ("FoundProgram", "Window"),
+    "linkwright.laws.fitting": ("laws_for", "motion_law"),
+    "linkwright.laws.smoothest": ("FoundProgram", "Window"),
     "linkwright.laws.program": ("MotionProgram", "Segment"),
     "linkwright.machine": ("SteadyRunning", "TorqueCurve", "steady_running"),
     "linkwright.mechanism.mechanism": ("Mechanism",),

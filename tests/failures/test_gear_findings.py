@@ -119,7 +119,8 @@ CASES = {
         ("joints.m.pressure_angle", "90 deg is too large", "from 0 deg to below 90 deg"),
     ),
     "rack of two sizes": (
-        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
+        GUIDE
+        + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
         ("joints.m.radius", "the size is given twice", "give radius"),
     ),
     "rack of half a tooth": (

@@ -14,7 +14,7 @@ import pytest
 import linkwright as lw
 from linkwright.errors import LinkwrightError
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
-from linkwright.laws.choice import laws_for, motion_law
+from linkwright.laws.fitting import laws_for, motion_law
 from linkwright.laws.harmonic_combination import HarmonicCombination
 from linkwright.laws.polynomial import Polynomial5, Polynomial7
 

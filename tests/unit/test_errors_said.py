@@ -27,7 +27,7 @@ def test_an_error_is_a_value_of_another_sentence() -> None:
 
 
 def test_lists_take_the_comma_of_the_language() -> None:
-    sentence = Sentence("passage.change", links=("a", "b"), where="30°")
+    sentence = Sentence("cycle.change", links=("a", "b"), where="30°")
     assert "(a, b)" in sentence and "（a、b）" in sentence.say("zh")
 
 

@@ -12,8 +12,8 @@ import pytest
 import linkwright as lw
 from linkwright.errors import ModelError
 from linkwright.files.model_file import dump
-from linkwright.laws.found import FoundProgram, Window
 from linkwright.laws.program import MotionProgram, Segment
+from linkwright.laws.smoothest import FoundProgram, Window
 
 MODEL = """
 format: 1

@@ -11,8 +11,8 @@ from linkwright.cams.follower import KINDS, MOTIONS, Follower
 from linkwright.errors import ModelError
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word
 from linkwright.fields.nodes import Node
-from linkwright.laws.found import ORDERS, FoundProgram, Window
 from linkwright.laws.program_fields import RATES, ProgramField
+from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Flag, Listed, Table, Whole
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.laws.found import FoundProgram
 from linkwright.laws.program import MotionProgram
+from linkwright.laws.smoothest import FoundProgram
 from linkwright.parts.base import Block, Row
 from linkwright.parts.display import number, shown
 from linkwright.parts.steps import put

@@ -6,10 +6,10 @@ import argparse
 import csv
 import io
 
-from linkwright.cli.beneath import closeness, largest
-from linkwright.cli.choice import leading, point_keys
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
+from linkwright.cli.solve_columns import leading, point_keys
+from linkwright.cli.solve_remarks import closeness, largest
 from linkwright.cli.solving import Solved, reaction_pairs
 from linkwright.words import Say
 

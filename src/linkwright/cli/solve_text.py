@@ -6,10 +6,10 @@ import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from linkwright.cli import beneath
-from linkwright.cli.choice import blocks, efforts, leading, point_keys
+from linkwright.cli import solve_remarks
 from linkwright.cli.columns import Column, fitting, pick, table
 from linkwright.cli.session import Session
+from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
 from linkwright.cli.solving import Solved
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
@@ -21,10 +21,10 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
     lines = [session.strong(solved.motion.mechanism.name), _structure_line(solved, say)]
     for paragraph in (
         *_table(solved, options, session),
-        beneath.extremes(solved, say, degrees=degrees),
-        beneath.checks(solved, say),
-        session.table(beneath.closeness(solved.motion, session.language), heads=0),
-        beneath.failures(solved, say, session.language, degrees=degrees),
+        solve_remarks.extremes(solved, say, degrees=degrees),
+        solve_remarks.checks(solved, say),
+        session.table(solve_remarks.closeness(solved.motion, session.language), heads=0),
+        solve_remarks.failures(solved, say, session.language, degrees=degrees),
         [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
         [session.finding(finding) for finding in solved.warnings],
     ):

@@ -460,7 +460,7 @@ def notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, .
     """What the user should know about change points and gaps between positions."""
     said = [_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
-        said.append(Sentence("passage.two_cycles"))
+        said.append(Sentence("cycle.two_cycles"))
     return tuple(dict.fromkeys(said))
 
 
@@ -471,4 +471,4 @@ def _note(p: Passage, positions: Positions) -> Sentence:
         if positions.rotary[name]
         else f"{round(p.at, 12) + 0.0:.6g} m"
     )
-    return Sentence(f"passage.{p.kind}", links=tuple(p.group.split("+")), where=where)
+    return Sentence(f"cycle.{p.kind}", links=tuple(p.group.split("+")), where=where)

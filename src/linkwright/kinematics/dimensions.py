@@ -1,11 +1,13 @@
-"""Dimensions of a mechanism as traced values: parameters of the program, or known zeros."""
+"""Dimensions of a mechanism and coordinates of its drivers as traced values: a program's parameters and inputs."""
 
 from __future__ import annotations
 
 from collections.abc import Set
+from dataclasses import dataclass
 from math import cos as cosine
 from math import sin as sine
 
+from linkwright.drivers.base import Driver
 from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.joints.lower import RigidJoint, SlidingJoint
@@ -123,3 +125,35 @@ def _varying(mechanism: Mechanism, free: Set[str]) -> set[str]:
 
 _PI = 3.141592653589793
 _QUARTERS = (Vec(1.0, 0.0), Vec(0.0, 1.0), Vec(-1.0, 0.0), Vec(0.0, -1.0))
+
+
+@dataclass(frozen=True)
+class DriverInput:
+    """A driver's coordinate in the program: ``turn`` (cosine, sine) or ``slide``, with its rates."""
+
+    turn: Vec | None
+    slide: Scalar | None
+    rate: Scalar
+    second: Scalar
+
+
+def driver_input(driver: Driver, dimensions: Dimensions) -> DriverInput:
+    """Inputs named ``cos:NAME``, ``sin:NAME`` or ``slide:NAME``, and ``rate:NAME``, ``second:NAME``.
+
+    A constant speed is a dimension of the design, its rate needs no input per position.
+    """
+    trace = dimensions.trace
+    if driver.law.constant_speed is not None:
+        rate: Scalar = trace.parameter(f"{driver.name}.speed")
+        second: Scalar = 0.0
+    else:
+        rate = trace.position(f"rate:{driver.name}")
+        second = trace.position(f"second:{driver.name}")
+    if dimensions.mechanism.joints[driver.joint].coordinate == "turn":
+        return DriverInput(turned(driver.name, trace), None, rate, second)
+    return DriverInput(None, trace.position(f"slide:{driver.name}"), rate, second)
+
+
+def turned(name: str, trace: Trace) -> Vec:
+    """Cosine and sine of a driver's angle."""
+    return Vec(trace.position(f"cos:{name}"), trace.position(f"sin:{name}"))

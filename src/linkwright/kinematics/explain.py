@@ -53,10 +53,10 @@ def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     if not wheels or not positions.cycle or mechanism.cycle is not None:
         return ()
     if positions.period is None:
-        said = Sentence("passage.never_back") if not_back(mechanism) else None
+        said = Sentence("cycle.never_back") if not_back(mechanism) else None
         return () if said is None else (said,)
     turns, driver = cycle_turns(mechanism, positions.period)
-    return () if turns == 1 else (Sentence("passage.turns", turns=turns, driver=driver),)
+    return () if turns == 1 else (Sentence("cycle.turns", turns=turns, driver=driver),)
 
 
 def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
@@ -71,7 +71,7 @@ def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
         groups = [tuple(group.links) for group in iterated(motion.structure)]
         said.append(
             Sentence(
-                "passage.followed",
+                "cycle.followed",
                 links=groups,
                 count=len(unsure),
                 where=_where(motion, near),
@@ -79,7 +79,7 @@ def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
             )
         )
     if way.returns is False:
-        said.append(Sentence("passage.not_back"))
+        said.append(Sentence("cycle.not_back"))
     return tuple(said)
 
 

@@ -15,8 +15,7 @@ from linkwright.joints.base import JOINTS, Cut
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
 from linkwright.kinematics.angles import Angles, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
-from linkwright.kinematics.dimensions import Dimensions
-from linkwright.kinematics.inputs import DriverInput
+from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure.group import Group, TreeJoint
 

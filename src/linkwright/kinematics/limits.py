@@ -23,7 +23,7 @@ from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
-from linkwright.kinematics.reached import reached_modes
+from linkwright.kinematics.solve import reached_modes
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered

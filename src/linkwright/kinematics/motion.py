@@ -15,7 +15,7 @@ from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import canonical, find_point, vector_names
 from linkwright.kinematics.outcome import Outcome
-from linkwright.kinematics.rows import Rows
+from linkwright.kinematics.outputs import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered

@@ -12,9 +12,8 @@ from linkwright.engine.linear import product
 from linkwright.engine.trace import Scalar
 from linkwright.joints.pose import Pose, State
 from linkwright.kinematics.closure import pair_of
-from linkwright.kinematics.dimensions import Dimensions
+from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.kinematics.groups import Placed
-from linkwright.kinematics.inputs import DriverInput
 from linkwright.structure.group import TreeJoint
 
 Rates = Mapping[TreeJoint, Scalar]

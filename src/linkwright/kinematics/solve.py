@@ -17,14 +17,16 @@ from linkwright.kinematics.change_points import (
     signs,
     signs_of_passages,
 )
-from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle
+from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle, time_span
 from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.outputs import Rows
 from linkwright.kinematics.passing import nothing_passed
-from linkwright.kinematics.reached import reached_modes
-from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
+
+#: Positions of the turn along which change points are looked for.
+LOOKS = 360
 
 
 def solve_motion(
@@ -152,3 +154,32 @@ class MotionRun:
             notes=notes(found, self.positions),
             barred=barred,
         )
+
+
+def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str, Floats], tuple[str, ...]]:
+    """Signs (n,) of the groups that pass change points on the way to each position, and what to say of it.
+
+    Empty if no change point is passed.
+
+    For mechanisms of dyads with one driver that turns at constant speed and passes the whole turn. The way
+    begins at the start of the cycle; after an odd number of change points in one turn the second turn has the
+    other sign.
+    """
+    drivers = list(solver.mechanism.drivers.values())
+    if len(drivers) != 1 or drivers[0].law.constant_speed is None or solver.motion.next_states:
+        return {}, ()
+    duration = drivers[0].law.natural_duration()
+    if duration is None:
+        return {}, ()
+    begin = time_span(solver.mechanism)[0]
+    turn = at_times(solver.mechanism, begin + duration * np.arange(LOOKS) / LOOKS, True, duration)
+    passing = passages(solver, turn, None)
+    if not passing or any(p.barred for p in passing):
+        return {}, ()
+    turns, share = np.divmod((positions.time - begin) / duration, 1.0)
+    found = signs(passing, solver.assembly.modes, share * LOOKS)
+    for name, row in found.items():
+        count = sum(p.group == name.removeprefix("mode:") and p.touches for p in passing)
+        if count % 2:
+            row[turns % 2 == 1] *= -1.0
+    return found, notes(passing, turn)

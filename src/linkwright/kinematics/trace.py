@@ -9,9 +9,8 @@ from linkwright.engine.trace import Mask, Scalar, Trace, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.angles import Angles
-from linkwright.kinematics.dimensions import Dimensions
+from linkwright.kinematics.dimensions import Dimensions, DriverInput, driver_input
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
-from linkwright.kinematics.inputs import DriverInput, driver_input
 from linkwright.kinematics.rates import RateTracer
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure

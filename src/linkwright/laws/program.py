@@ -243,7 +243,7 @@ class MotionProgram(Program):
             return _Piece(first, 0.0, 0.0, None)
         law = segment.law or USUAL_LAW
         if isinstance(law, str):
-            from linkwright.laws.choice import motion_law
+            from linkwright.laws.fitting import motion_law
 
             kind = MOTION_LAWS.get(law)
             if kind is not None and kind.meeting(Ends(), 1.0) is not None:

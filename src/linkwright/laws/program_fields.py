@@ -77,7 +77,7 @@ class LawField(Field):
 
     def _built(self, reader: Reader, node: Node, place: Place, values: dict[str, Any]) -> Any:
         from linkwright.laws.base import MOTION_LAWS, Ends
-        from linkwright.laws.choice import altered
+        from linkwright.laws.fitting import altered
 
         kind = MOTION_LAWS[values.pop("kind")]
         changes = [

@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.rows import Rows
+from linkwright.kinematics.outputs import Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces

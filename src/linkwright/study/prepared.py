@@ -20,8 +20,8 @@ from linkwright.kinematics.change_points import is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.outputs import Rows
 from linkwright.kinematics.passing import NEAR
-from linkwright.kinematics.rows import Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces

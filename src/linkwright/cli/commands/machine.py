@@ -82,8 +82,8 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
-    from linkwright.cli.beneath import closeness
     from linkwright.cli.machine_rows import of_running
+    from linkwright.cli.solve_remarks import closeness
     from linkwright.cli.source import read_model
     from linkwright.cli.tables import csv_of, refuse_output, write_table
     from linkwright.kinetostatics.forces import solve_forces

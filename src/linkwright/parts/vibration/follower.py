@@ -16,7 +16,7 @@ from linkwright.fields.base import Quantity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
-from linkwright.laws.choice import motion_law
+from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault

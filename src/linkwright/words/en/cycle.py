@@ -1,4 +1,4 @@
-"""Change points and gaps between positions."""
+"""What is noted along a cycle: turns, change points, gaps, assemblies that are followed."""
 
 WORDS = {
     "turns": "the cycle is {turns} turns of {driver!r}: only then are all wheels back",
