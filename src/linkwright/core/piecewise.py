@@ -8,7 +8,7 @@ smooth (Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -144,19 +144,31 @@ class Piecewise:
     # extremes ----------------------------------------------------------------------------
     def extreme(self, kind: str) -> Extreme:
         """The ``max`` or ``min``; at a jump the larger (smaller) of both sides counts."""
-        return self.extremes()[1 if kind == "max" else 0]
+        return extremes_of([(self, kind)])[0]
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """The smallest and the largest value."""
-        both = np.stack([-self.values.T, self.values.T])
-        piece, share, top, _ = largest(both, both.max(axis=1))
-        low = self.edges[piece]
-        places = low + 0.5 * (share + 1.0) * (self.edges[piece + 1] - low)
-        values = top * (-1.0, 1.0)
-        least, most = (
-            Extreme(float(places[k]), float(values[k]), bool(self.smooth[piece[k]])) for k in (0, 1)
-        )
+        least, most = extremes_of([(self, "min"), (self, "max")])
         return least, most
+
+
+def extremes_of(wanted: Sequence[tuple[Piecewise, str]]) -> list[Extreme]:
+    """The ``max`` or ``min`` of some functions, looked for together."""
+    count = max(len(each.values) for each, _ in wanted)
+    signs = [1.0 if kind == "max" else -1.0 for _, kind in wanted]
+    values, tops = np.empty((len(wanted), POINTS, count)), np.full((len(wanted), count), -np.inf)
+    for k, (each, _) in enumerate(wanted):
+        own = len(each.values)
+        values[k, :, :own] = signs[k] * each.values.T
+        values[k, :, own:] = values[k, :, :1]
+        tops[k, :own] = values[k, :, :own].max(axis=0)
+    piece, share, top, _ = largest(values, tops)
+    found = []
+    for k, (each, _) in enumerate(wanted):
+        low, high = each.edges[piece[k] : piece[k] + 2]
+        place = float(low + 0.5 * (share[k] + 1.0) * (high - low))
+        found.append(Extreme(place, signs[k] * float(top[k]), bool(each.smooth[piece[k]])))
+    return found
 
 
 class Integral:

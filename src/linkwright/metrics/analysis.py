@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, TypeAlias, overload
@@ -125,9 +125,9 @@ class Analysis:
 
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
-        for part in parts:
-            if not one(part).output.endswith(".angle"):
-                self._words[words_name(one(part).output)] = None
+        for output in {one(part).output: None for part in parts}:
+            if not output.endswith(".angle"):
+                self._words[words_name(output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -223,12 +223,15 @@ class Analysis:
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
         values = rows.reshape(len(names), -1, POINTS).swapaxes(1, 2)
         bound = grid.tolerance * np.abs(values).max(axis=(1, 2))
-        for kind, sign in (("max", 1.0), ("min", -1.0)):
-            piece, place, top, rough = largest(sign * values, (sign * values).max(axis=1))
-            time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
-            for k in np.flatnonzero(rough <= bound):
-                at = float(time[k])
-                found[names[k]][kind] = Extreme(sign * float(top[k]), at, self.resolver.input_at(at), True)
+        both = np.concatenate([values, -values])
+        piece, place, top, rough = largest(both, both.max(axis=1))
+        time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
+        for k in np.flatnonzero(rough <= np.tile(bound, 2)).tolist():
+            kind, sign = ("max", 1.0) if k < len(names) else ("min", -1.0)
+            at = float(time[k])
+            found[names[k % len(names)]][kind] = Extreme(
+                sign * float(top[k]), at, self.resolver.input_at(at), True
+            )
         return found
 
     def output(self, words: str) -> Output | None:
@@ -301,16 +304,25 @@ class Analysis:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
         return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
 
-    def extreme_between(
+    def extremes_between(
+        self, signal: Callable[[Motion], Floats], kind: Kind, spans: Sequence[tuple[float, float]]
+    ) -> list[Extreme | None]:
+        """The same between pairs of times, s, both among the candidates; None where resolving is not possible."""
+        if not self.resolver.possible:
+            return [None] * len(spans)
+        if spans and self.grid is not None and all(self.grid.start <= start < end for start, end in spans):
+            found = self.grid.extremes_between(self.grid.curve(signal, "motion"), kind, spans)
+            if all(each.smooth for each in found):
+                return [
+                    Extreme(each.value, each.place, self.resolver.input_at(each.place), True)
+                    for each in found
+                ]
+        return [self._extreme_between(signal, kind, *span) for span in spans]
+
+    def _extreme_between(
         self, signal: Callable[[Motion], Floats], kind: Kind, start: float, end: float
     ) -> Extreme | None:
-        """The same between two times, s, both among the candidates; None where resolving is not possible."""
-        if not self.resolver.possible:
-            return None
-        if self.grid is not None and self.grid.start <= start < end:
-            found = self.grid.extreme_between(self.grid.curve(signal, "motion"), kind, start, end)
-            if found.smooth:
-                return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
+        """The same between two times, from samples."""
         sign = 1.0 if kind == "max" else -1.0
         count = 361
         time = np.linspace(start, end, count)

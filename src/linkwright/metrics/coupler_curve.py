@@ -121,8 +121,8 @@ def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot
         (speed <= np.roll(speed, 1)) & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)
     ):
         t = float(analysis.motion.time[i])
-        low = analysis.extreme_between(
-            lambda m: np.hypot(*m.point(point).velocity.T), "min", t - step, t + step
+        (low,) = analysis.extremes_between(
+            lambda m: np.hypot(*m.point(point).velocity.T), "min", [(t - step, t + step)]
         )
         if low is not None and low.value <= STANDING * mean:
             x, y = analysis.resolver.motion(np.array([low.time])).point(point).position[0]

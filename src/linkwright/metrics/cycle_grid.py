@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,6 +15,7 @@ from linkwright.core.piecewise import (
     Extreme,
     Piecewise,
     edges_between,
+    extremes_of,
     increasing,
     nodes,
     tails,
@@ -92,13 +94,17 @@ class CycleGrid:
             return found
         return Piecewise(self.edges, pieces, self._function(signal, of), self.edges, tolerance)
 
-    def extreme_between(self, curve: Piecewise, kind: str, low: float, high: float) -> Extreme:
-        """The largest or smallest value of a curve between two times, the second perhaps in the next cycle."""
-        parts = [curve.part(low, min(high, self.end))]
-        if high > self.end:
-            parts.append(curve.part(self.start, high - (self.end - self.start)))
-        sign = 1.0 if kind == "max" else -1.0
-        return max((each.extreme(kind) for each in parts), key=lambda found: sign * found.value)
+    def extremes_between(
+        self, curve: Piecewise, kind: str, spans: Sequence[tuple[float, float]]
+    ) -> list[Extreme]:
+        """The largest or smallest values of a curve between pairs of times, the second perhaps in the next cycle."""
+        period = self.end - self.start
+        edges = np.append(curve.edges, curve.edges[1:] + period)
+        twice = Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
+        found = extremes_of([(twice.part(*span), kind) for span in spans])
+        return [
+            each if each.place <= self.end else replace(each, place=each.place - period) for each in found
+        ]
 
     def _function(self, signal: Callable[[Any], Floats], of: str) -> Callable[[Floats], Floats]:
         return lambda time: np.asarray(signal(self.resolver.at(time, of)), dtype=float)

@@ -11,7 +11,8 @@ from linkwright.kinematics.cycle import Floats
 ROUNDS = 6
 #: Of more points than this those inside a polygon are left out first; whose corners are the farthest that way.
 MANY = 400
-_DIRECTIONS = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False))
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+_DIRECTIONS = np.stack([np.cos(_AROUND), np.sin(_AROUND)])
 
 
 def cross(a: Floats, b: Floats) -> Floats:
@@ -21,23 +22,22 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 def convex_hull(points: Floats) -> Floats:
     """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chains)."""
-    given = points[:, 0] + 1j * points[:, 1]
-    ordered = np.sort(_outer(given) if len(given) > MANY else given)
+    some = _outer(points) if len(points) > MANY else points
+    ordered = np.sort(some[:, 0] + 1j * some[:, 1])
     ordered = ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
     corners = ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
     return np.stack([corners.real, corners.imag], axis=1)
 
 
-def _outer(points: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """The points that do not lie clearly inside the polygon of those farthest in some directions."""
-    along = np.outer(points.real, _DIRECTIONS.real) + np.outer(points.imag, _DIRECTIONS.imag)
-    ring = points[along.argmax(axis=0)]
-    side = np.roll(ring, -1) - ring
-    ring, side = ring[side != 0.0], side[side != 0.0]
-    normal = 1j * side / np.abs(side)
-    depth = np.outer(points.real, normal.real) + np.outer(points.imag, normal.imag)
-    edge = ring.real * normal.real + ring.imag * normal.imag + 1e-12 * np.abs(points).max()
-    return points if len(side) < 3 else points[~(depth > edge).all(axis=1)]
+def _outer(points: Floats) -> Floats:
+    """The points (m, 2) that do not lie clearly inside the polygon of those farthest in some directions."""
+    ring = points[(points @ _DIRECTIONS).argmax(axis=0)]
+    side = ring[[*range(1, len(ring)), 0]] - ring
+    length = np.hypot(side[:, 0], side[:, 1])
+    ring, side, length = ring[length > 0.0], side[length > 0.0], length[length > 0.0]
+    normal = np.stack([-side[:, 1], side[:, 0]]) / length
+    edge = (ring.T * normal).sum(axis=0) + 1e-12 * np.abs(points).max()
+    return points if len(side) < 3 else points[(points @ normal <= edge).any(axis=1)]
 
 
 def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +65,7 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
     return tuple(found)
 
 
+@lru_cache(1024)
 def one(text: str) -> Summary:
     """The one summary that a text ``output kind`` means."""
     output, _, kind = text.rpartition(" ")

@@ -65,9 +65,13 @@ class TransmissionAngleOfStroke(Metric):
         for group, output in _driven_dyads(analysis):
             limits = analysis.limits(output)
             signal = analysis.signal(f"transmission_angle {group.name}")
-            for first, last in zip(limits, [*limits[1:], *limits[:1]], strict=True):
-                end = last.time if last.time > first.time else last.time + period
-                found = analysis.extreme_between(signal, "min", first.time, end)
+            strokes = list(zip(limits, [*limits[1:], *limits[:1]], strict=True))
+            spans = [
+                (first.time, last.time if last.time > first.time else last.time + period)
+                for first, last in strokes
+            ]
+            lowest = analysis.extremes_between(signal, "min", spans)
+            for (first, last), found in zip(strokes, lowest, strict=True):
                 if found is not None:
                     subject = f"{group.name}: {output} {first.kind}→{last.kind}"
                     yield self.value(analysis, subject, found.value, **_where(found))
