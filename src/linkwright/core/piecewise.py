@@ -238,7 +238,7 @@ def _highest(values: Floats, tops: Floats) -> Peak:
     which, look = best // LOOKS, best % LOOKS
     series, top = near[rows, which], seen[rows, which, look]
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
-    place = _zeros(series @ _TO_SLOPE, low, high, PLACES[look])
+    place = _summits(series @ _TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
     place = np.where(found > top, place, PLACES[look])
     return order[rows, which], place, np.maximum(found, top), tails(series)
@@ -263,25 +263,20 @@ def _at(values: Floats, x: Floats) -> Floats:
     return np.asarray((share * values).sum(axis=-1) / share.sum(axis=-1))
 
 
-def _zeros(values: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
-    """Zeros (k,) of polynomials (k, POINTS) between places of the reference piece, by safeguarded Newton steps from
-    ``start``, which is given back where there is no change of sign."""
-    both = np.stack([values, values @ _TO_SLOPE])
-    first = _at(values, low)
-    crossing = np.sign(first) * np.sign(_at(values, high)) <= 0.0
-    x = start
+def _summits(slopes: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
+    """Where polynomials (k, POINTS) pass from above to below zero between places of the reference piece, by
+    safeguarded Newton steps from ``start``; the end of the stretch to which they point where they do not."""
+    both, x = np.stack([slopes, slopes @ _TO_SLOPE]), start
     for _ in range(60):
         value, slope = _at(both, x)
-        same = np.sign(value) == np.sign(first)
-        low, high = np.where(same, x, low), np.where(same, high, x)
+        rising = value > 0.0
+        low, high = np.where(rising, x, low), np.where(rising, high, x)
         with np.errstate(all="ignore"):
             newton = x - value / slope
-        new = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
-        moved = np.abs(new - x)[crossing].max(initial=0.0)
-        x = new
-        if moved <= 1e-9:
+        before, x = x, np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+        if np.abs(x - before).max(initial=0.0) <= 1e-9:
             break
-    return np.where(crossing, x, start)
+    return x
 
 
 def _halved(

@@ -181,7 +181,10 @@ def _require_load(mean: float, forces: Forces) -> None:
 
 
 def _exact(cycle: SteadyCycle, present: float, required: float, first: float) -> float:
-    """Flywheel with which the true fluctuation is the required one, by secant steps; zero where none is needed."""
+    """Flywheel with which the true fluctuation is the required one; zero where none is needed.
+
+    By steps that would be exact if the fluctuation were inverse to the inertia, then by secants through two of them.
+    """
 
     def reached(flywheel: float) -> float | None:
         try:
@@ -192,14 +195,18 @@ def _exact(cycle: SteadyCycle, present: float, required: float, first: float) ->
     alone = reached(0.0)
     if alone is not None and alone <= required:
         return 0.0
-    here = max(first, 0.1 * present)
+    here, before = max(first, 0.1 * present), None
     for _ in range(60):
         found = reached(here)
         if found is None:
-            here = 2.0 * here + present
+            here, before = 2.0 * here + present, None
             continue
-        following = (here + present) * found / required - present
+        step = (here + present) * (found / required - 1.0)
+        following = here + step
+        if before is not None and step != before[1]:
+            secant = here - step * (here - before[0]) / (step - before[1])
+            following = secant if abs(secant - following) < abs(step) else following
         if abs(following - here) <= 1e-12 * (here + present):
             return following
-        here = max(following, 1e-3 * here)
+        before, here = (here, step), max(following, 1e-3 * here)
     return here

@@ -90,6 +90,7 @@ class SteadyCycle:
         self._done, self._inertia = work(places), own(places)
         self._shares = weights / (work.edges[-1] - work.edges[0])
         self._least = Piecewise(work.edges, self._done.reshape(-1, POINTS)).extreme("min").value
+        self._known: dict[float, tuple[Extreme, Extreme]] = {}
 
     def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
         """The speed; raises LinkwrightError for a machine that would stop, or has no inertia somewhere."""
@@ -105,6 +106,11 @@ class SteadyCycle:
         return (high.value - low.value) / self.speed
 
     def _extremes(self, flywheel: float) -> tuple[Extreme, Extreme]:
+        if flywheel not in self._known:
+            self._known[flywheel] = self._found(flywheel)
+        return self._known[flywheel]
+
+    def _found(self, flywheel: float) -> tuple[Extreme, Extreme]:
         edges, energy = self.work.edges, self._energy(flywheel)
         speed = np.sqrt(2.0 * (energy + self._done) / (flywheel + self._inertia)).reshape(-1, POINTS)
         curve = Piecewise(edges, speed)
