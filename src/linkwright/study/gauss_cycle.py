@@ -32,8 +32,9 @@ from linkwright.study.loaded_cycle import AlongInput
 from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]
-#: Numbers of pieces of the whole turn to try, and the share of them that a stretch between two cuts has at least.
-PIECES, LEAST = (28, 56, 112), 0.25
+#: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
+#: has at least.
+PIECES, LEAST = (12, 28, 56, 112), 0.25
 #: The constant that is the input where the turn begins.
 FIRST = "first input"
 #: The output that is a node's share of the cycle's time.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,6 +37,7 @@ from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Places = NDArray[np.intp]
 
 #: Polynomials whose last orders are below this share of a signal's size meet it.
 SMOOTH = 2e-11
@@ -82,7 +83,7 @@ def metric_cycle(
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
         found = MetricCycle(traced, gauss, terms, analysis, loads)
-        if found.evaluate(nominal).certain.all():
+        if found.met(nominal).all():
             return found
     return None
 
@@ -151,7 +152,7 @@ class MetricCycle:
         analysis: Analysis,
         loads: AlongInput,
     ) -> None:
-        self.loads = loads
+        self.analysis, self.loads = analysis, loads
         self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
         self.parts = {text: one(text) for text in all_parts(terms)}
         places = {text: analysis.output(p.output) for text, p in self.parts.items() if p.kind in _PLACES}
@@ -177,9 +178,9 @@ class MetricCycle:
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
-            found, certain[first:end] = self._block(self._table(self._forwards, part), backend)
-            for name, column in found.items():
-                values[name][first:end] = column
+            rows, certain[first:end] = self._block(part, backend)
+            for name, row in zip(self._formulas.output_names, rows, strict=True):
+                values[name][first:end] = row
 
         spread_over(designs, BLOCK, cores() if threads is None else threads, work)
         return Found(values, certain)
@@ -189,14 +190,36 @@ class MetricCycle:
         """What the terms depend on."""
         return self._forwards.dimensions
 
-    def _block(self, table: Floats, backend: Backend) -> tuple[dict[str, Floats], Mask]:
-        seen = self._seen(table, backend)
+    def met(self, columns: Mapping[str, Floats]) -> Mask:
+        """Which designs are certain with these pieces, without finer ones."""
+        return self._found(columns, "auto")[1]
+
+    @cached_property
+    def finer(self) -> MetricCycle | None:
+        """The same with the next number of pieces."""
+        following = [pieces for pieces in PIECES if pieces > self.gauss.wanted]
+        if not following:
+            return None
+        gauss = replace(self.gauss, wanted=following[0])
+        return MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
+
+    def _block(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Mask]:
+        """Rows (terms, designs), and which are certain; designs that pass, but are not met, with finer pieces."""
+        rows, sure, left = self._found(columns, backend)
+        if len(left) and self.finer is not None:
+            again, certain = self.finer._block({a: c[left] for a, c in columns.items()}, backend)
+            rows[:, left], sure[left] = again, certain
+        return rows, sure
+
+    def _found(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Mask, Places]:
+        """The same with these pieces alone, and the numbers of those that pass, but are not met."""
+        seen = self._seen(self._table(self._forwards, columns), backend)
         parts = {text: seen.summary(part) for text, part in self.parts.items() if text not in self.limited}
         parts |= {text: seen.values[name] for text, name in self.limited.items()}
-        row = numpy_program(self._formulas).run((), parts, length=len(table))
+        rows = numpy_program(self._formulas).run((), parts, length=len(seen.certain))
         with np.errstate(invalid="ignore"):
-            sure = seen.certain & np.isfinite(row).all(axis=0)
-        return dict(zip(self._formulas.output_names, row, strict=True)), sure
+            sure = seen.certain & np.isfinite(rows).all(axis=0)
+        return rows, sure, np.flatnonzero(seen.passed & ~seen.certain)
 
     def _seen(self, table: Floats, backend: Backend) -> _Seen:
         ((_, known, run),) = self._forwards.blocks(
@@ -205,10 +228,12 @@ class MetricCycle:
         found = self._signals.reduced(known.table(self._signals.program.parameters), run)
         results = {name: np.asarray(column, dtype=float) for name, column in known.values.items()}
         with np.errstate(invalid="ignore"):
-            sure = found.bounds[VALID][1] == 1.0
+            passed = found.bounds[VALID][1] == 1.0
+            for _, _, rough in found.bounds.values():
+                passed &= np.isfinite(rough)
             for output in self.outputs:
-                sure &= results[f"doubt:{output}"] == 0.0
-        return _Seen(results, found, self.gauss.pieces, sure)
+                passed &= results[f"doubt:{output}"] == 0.0
+        return _Seen(results, found, self.gauss.pieces, passed)
 
     def _seen_again(self, table: Floats, backend: Backend) -> _Seen:
         """The same, kept for the last designs: several gradients are often wanted of them."""
@@ -293,6 +318,10 @@ class MetricCycle:
                 table, self._positions, fields, tables=self.loads.tables, threads=1, backend=backend
             )
             found[~seen.certain], slope[~seen.certain] = np.nan, np.nan
+            left = np.flatnonzero(seen.passed & ~seen.certain)
+            if len(left) and self.finer is not None:
+                rest = {a: c[left] for a, c in part.items()}
+                found[left], slope[left] = self.finer.gradient(weights, rest, by, backend=backend)
             values[first:end], slopes[first:end] = found, slope
 
         spread_over(designs, WEIGHED, cores() if threads is None else threads, work)
@@ -361,23 +390,24 @@ class MetricCycle:
 class _Seen:
     """What is found of the signals of some designs, and what is made of it.
 
-    ``certain``: of which designs all that was asked is met by polynomials.
+    ``passed``: which designs pass the cycle; ``certain``: of which of them all that was asked is met by polynomials.
     """
 
-    def __init__(self, values: Mapping[str, Floats], found: Reduced, pieces: int, certain: Mask) -> None:
-        self.values, self.found, self.pieces, self.certain = values, found, pieces, certain
+    def __init__(self, values: Mapping[str, Floats], found: Reduced, pieces: int, passed: Mask) -> None:
+        self.values, self.found, self.pieces = values, found, pieces
+        self.passed, self.certain = passed, passed.copy()
 
     def summary(self, part: Summary) -> Floats:
         """A summary, (designs,)."""
         if part.kind in ("mean", "rms"):
-            mean, square, rough, rougher = self.found.powers[part.output]
+            mean, square, rougher = self.found.powers[part.output]
             if part.kind == "mean":
-                self._met(rough, self._size(part.output))
+                self._met(self.found.bounds[part.output][2], self._size(part.output))
                 return mean
             self._met(rougher, self._size(part.output) ** 2)
             return np.sqrt(square)
         if part.kind == "excess":
-            self._met(self.found.powers[part.output][2], self._size(part.output))
+            self._met(self.found.bounds[part.output][2], self._size(part.output))
             return TURN * np.abs(sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind]))
         sides = [self._extreme(part.output, side)[2] for side in SIDES[part.kind]]
         if part.kind == "range":
@@ -406,7 +436,7 @@ class _Seen:
         return found
 
     def _size(self, output: str) -> Floats:
-        top, bottom = self.found.bounds[output]
+        top, bottom, _ = self.found.bounds[output]
         return np.maximum(top, -bottom)
 
     def _excess(self, output: str) -> Floats:

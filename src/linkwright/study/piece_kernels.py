@@ -2,8 +2,9 @@
 
 What ``piece_summaries`` finds with arrays: a signal is (POINTS, pieces) values. ``tables``: doubles that begin
 with the matrix to the last orders (POINTS, 3), then at UP_TO the one to integrals (POINTS, POINTS), at LEGENDRE that
-to the coefficients (POINTS, POINTS), at LOOKED that to the looks (LOOKS, POINTS), at PLACES the places of these
-(LOOKS), at FORWARD and BACKWARD the factors of Clenshaw's recurrence (POINTS each). ``jobs``: six whole numbers of
+from sums or differences of opposite values to the coefficients (POINTS, HALF), at LOOKED from sums and from
+differences to the sums and differences of opposite looks (POINTS each), at PLACES the places of these, at FORWARD and
+BACKWARD the factors of Clenshaw's recurrence (POINTS each). ``jobs``: six whole numbers of
 each: signal (-1: the integral of the lack of the job before), powers, excess, largest, smallest, number of its first
 extreme.
 """
@@ -25,73 +26,84 @@ from linkwright.engine.kernel import (
     load,
     lower,
     ramp,
+    root,
     spread,
     store,
     total,
 )
 
-POINTS, LOOKS = 16, 49
-LAST, UP_TO, LEGENDRE, LOOKED, PLACES = 0, 48, 304, 560, 1344
-FORWARD, BACKWARD = PLACES + LOOKS, PLACES + LOOKS + POINTS
+POINTS, HALF, HALF_LOOKS = 16, 8, 12
+LAST, UP_TO, LEGENDRE = 0, 48, 304
+LOOKED = LEGENDRE + POINTS * HALF
+PLACES = LOOKED + (HALF_LOOKS + 1) * POINTS
+FORWARD = PLACES + HALF_LOOKS + 1
+BACKWARD = FORWARD + POINTS
+#: Angle between two looks, which are cosines.
+GAP = 0.1308996938995747
 #: Numbers found by a job, and whole numbers that it is given.
 FOUND, GIVEN = 6, 6
 PARAMETERS = Block.PARAMETERS
 #: How much higher than its nodes, as share of the span of these, a smooth function may be in a piece: half of the gap
 #: between two nodes, squared, is 0.009 of it.
-SLACK = 0.03
+SLACK = 0.02
+#: How much higher it may be where it is not met, as multiple of the size of its last orders.
+REACH = 10.0
 HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15
-STEPS = 8
+STEPS = 4
 
 
-def bounds(row: Reals, pieces: int, tops: Reals, bottoms: Reals, found: Reals) -> None:
-    """The largest and the smallest value of every piece, and of all."""
-    most, fewest = spread(-HUGE), spread(HUGE)
+def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals) -> None:
+    """The largest and the smallest value of every piece and the size of its last orders, (3, pieces), and of all."""
+    most, fewest, rough, spoilt = spread(-HUGE), spread(HUGE), spread(0.0), spread(0.0)
     b = 0
     while b < pieces:
         at = min(b, pieces - LANES)
         top = load(row, at)
         bottom = load(row, at)
+        c0, c1, c2 = tables[0] * top, tables[1] * top, tables[2] * top
         for i in range(1, POINTS):
             value = load(row, i * pieces + at)
             top = higher(top, value)
             bottom = lower(bottom, value)
-        store(tops, at, top)
-        store(bottoms, at, bottom)
+            c0 = c0 + tables[3 * i] * value
+            c1 = c1 + tables[3 * i + 1] * value
+            c2 = c2 + tables[3 * i + 2] * value
+        last = higher(higher(c0, -c0), higher(higher(c1, -c1), higher(c2, -c2)))
+        store(seen, at, top)
+        store(seen, pieces + at, bottom)
+        store(seen, 2 * pieces + at, last)
         most = higher(most, top)
         fewest = lower(fewest, bottom)
+        rough = higher(rough, last)
+        spoilt = spoilt + 0.0 * c0
         b += LANES
     found[0] = -least(-most)
     found[1] = least(fewest)
+    found[2] = -least(-rough) + total(spoilt)
 
 
 def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals) -> None:
-    """Means of the signal and of its square, and the size of the last orders of both in the piece met worst."""
-    mean, square, rough, rougher = spread(0.0), spread(0.0), spread(0.0), spread(0.0)
+    """Means of the signal and of its square, and the size of the last orders of the square in the piece met worst."""
+    mean, square, rough = spread(0.0), spread(0.0), spread(0.0)
     b = 0
     while b < pieces:
         at = min(b, pieces - LANES)
         fresh = spread(1.0) if ramp(at) > b - 0.5 else spread(0.0)
-        a0, a1, a2 = spread(0.0), spread(0.0), spread(0.0)
-        b0, b1, b2 = spread(0.0), spread(0.0), spread(0.0)
+        c0, c1, c2 = spread(0.0), spread(0.0), spread(0.0)
         for i in range(POINTS):
             value = load(row, i * pieces + at)
             both = value * value
             weight = load(share, i * pieces + at) * fresh
             mean = mean + weight * value
             square = square + weight * both
-            a0 = a0 + tables[3 * i] * value
-            a1 = a1 + tables[3 * i + 1] * value
-            a2 = a2 + tables[3 * i + 2] * value
-            b0 = b0 + tables[3 * i] * both
-            b1 = b1 + tables[3 * i + 1] * both
-            b2 = b2 + tables[3 * i + 2] * both
-        rough = higher(rough, higher(higher(a0, -a0), higher(higher(a1, -a1), higher(a2, -a2))))
-        rougher = higher(rougher, higher(higher(b0, -b0), higher(higher(b1, -b1), higher(b2, -b2))))
+            c0 = c0 + tables[3 * i] * both
+            c1 = c1 + tables[3 * i + 1] * both
+            c2 = c2 + tables[3 * i + 2] * both
+        rough = higher(rough, higher(higher(c0, -c0), higher(higher(c1, -c1), higher(c2, -c2))))
         b += LANES
-    found[2] = total(mean)
-    found[3] = total(square)
-    found[4] = -least(-rough)
-    found[5] = -least(-rougher)
+    found[3] = total(mean)
+    found[4] = total(square)
+    found[5] = -least(-rough)
 
 
 def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, room: Reals) -> None:
@@ -126,15 +138,15 @@ def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, 
 
 
 def contenders(
-    row: Reals, pieces: int, tops: Reals, bottoms: Reals, sign: float, bar: float, owner: int, rows: Reals,
-    capacity: int, ids: Wholes, first: int,
+    row: Reals, pieces: int, seen: Reals, sign: float, bar: float, owner: int, rows: Reals, capacity: int,
+    ids: Wholes, first: int,
 ) -> int:  # fmt: skip
     """Puts the values of all pieces that may hold the largest of sign · signal behind each other; how many there are
     then."""
     at = first
     for p in range(pieces):
-        top = tops[p] if sign > 0.0 else -bottoms[p]
-        if top + SLACK * (tops[p] - bottoms[p]) < bar:
+        top = seen[p] if sign > 0.0 else -seen[pieces + p]
+        if top + SLACK * (seen[p] - seen[pieces + p]) + REACH * seen[2 * pieces + p] < bar:
             continue
         for i in range(POINTS):
             rows[i * capacity + at] = sign * row[i * pieces + p]
@@ -151,10 +163,9 @@ def reduced(
     """Signals of one design after another by the compiled program, then its jobs; the number of contenders for
     extremes. Ends early where these may not find room; ``ids[2 · capacity]``: designs done.
 
-    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 3) · pieces doubles.
+    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 4) · pieces doubles.
     """
-    tops = room + (2 * POINTS + 1) * pieces
-    bottoms = tops + pieces
+    seen = room + (2 * POINTS + 1) * pieces
     at = 0
     for d in range(designs):
         if at + extremes * pieces > capacity:
@@ -168,17 +179,17 @@ def reduced(
             row = room + 0
             if job[0] >= 0:
                 row = signals + POINTS * pieces * job[0]
-            bounds(row, pieces, tops, bottoms, result)
+            bounds(row, pieces, tables, seen, result)
             if job[1] > 0:
                 powers(row, share, pieces, tables, result)
             owner = d * extremes + job[5]
             if job[3] > 0:
-                at = contenders(row, pieces, tops, bottoms, 1.0, result[0], owner, rows, capacity, ids, at)
+                at = contenders(row, pieces, seen, 1.0, result[0], owner, rows, capacity, ids, at)
                 owner += 1
             if job[4] > 0:
-                at = contenders(row, pieces, tops, bottoms, -1.0, -result[1], owner, rows, capacity, ids, at)
+                at = contenders(row, pieces, seen, -1.0, -result[1], owner, rows, capacity, ids, at)
             if job[2] > 0:
-                integral(row, share, pieces, tables, result[2], room)
+                integral(row, share, pieces, tables, result[3], room)
     return at
 
 
@@ -209,30 +220,37 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
     orders, (3, capacity); the capacity is a multiple of LANES.
 
     From the highest look by Newton's steps between its neighbours, halvings where these leave the bracket. ``room``:
-    the coefficients of the polynomial, its slope and the slope of that, (3, POINTS) vectors.
+    sums and differences of values at nodes opposite to each other, coefficients of the polynomial, its slope and the
+    slope of that, (4, POINTS) vectors.
     """
-    slopes = room + POINTS * LANES
+    orders = room + POINTS * LANES
+    slopes = orders + POINTS * LANES
     bends = slopes + POINTS * LANES
     r = 0
     while r < count:
+        for i in range(HALF):
+            left, right = load(rows, i * capacity + r), load(rows, (POINTS - 1 - i) * capacity + r)
+            store(room, LANES * i, left + right)
+            store(room, LANES * (HALF + i), left - right)
         for k in range(POINTS):
             order = spread(0.0)
-            for i in range(POINTS):
-                order = order + tables[LEGENDRE + POINTS * k + i] * load(rows, i * capacity + r)
-            store(room, LANES * k, order)
-        derive(room, slopes)
+            for i in range(HALF):
+                order = order + tables[LEGENDRE + HALF * k + i] * load(room, LANES * (HALF * (k % 2) + i))
+            store(orders, LANES * k, order)
+        derive(orders, slopes)
         derive(slopes, bends)
-        best, place, low, high = spread(-HUGE), spread(-1.0), spread(-1.0), spread(1.0)
-        for j in range(LOOKS):
-            look = spread(0.0)
-            for i in range(POINTS):
-                look = look + tables[LOOKED + POINTS * j + i] * load(rows, i * capacity + r)
-            below, here = tables[PLACES + max(j - 1, 0)], tables[PLACES + j]
-            above = tables[PLACES + min(j + 1, LOOKS - 1)]
-            place = spread(here) if best < look else place
-            low = spread(below) if best < look else low
-            high = spread(above) if best < look else high
-            best = higher(best, look)
+        best, place = spread(-HUGE), spread(-1.0)
+        for j in range(HALF_LOOKS + 1):
+            even, odd = spread(0.0), spread(0.0)
+            for i in range(HALF):
+                even = even + tables[LOOKED + POINTS * j + i] * load(room, LANES * i)
+                odd = odd + tables[LOOKED + POINTS * j + HALF + i] * load(room, LANES * (HALF + i))
+            place = spread(tables[PLACES + j]) if best < even + odd else place
+            best = higher(best, even + odd)
+            place = spread(-tables[PLACES + j]) if best < even - odd else place
+            best = higher(best, even - odd)
+        gap = GAP * root(higher(spread(0.0), 1.0 - place * place)) + GAP * GAP
+        low, high = higher(spread(-1.0), place - gap), lower(spread(1.0), place + gap)
         rim = spread(0.0) if place * place > BELOW_ONE else spread(1.0)
         x = place
         moved, slope = spread(0.0), spread(0.0)
@@ -247,12 +265,12 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
             following = newton if inside > -TINY else middle
             moved = following - x
             x = following
-        top = series(room, x, tables)
+        top = series(orders, x, tables)
         doubt = rim * slope * moved
         place = x if top > best else place
         rough = higher(doubt, -doubt)
         for k in range(POINTS - 3, POINTS):
-            last = load(room, LANES * k)
+            last = load(orders, LANES * k)
             rough = higher(rough, higher(last, -last))
         store(found, r, place)
         store(found, capacity + r, higher(top, best))
@@ -260,7 +278,29 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
         r += LANES
 
 
+def gathered(count: int, ids: Wholes, looked: Reals, capacity: int, extremes: int, found: Reals) -> None:
+    """Of the contenders for every extreme the highest: its piece, place and value, and the size of the last orders of
+    all that may be higher, (4, extremes)."""
+    for e in range(extremes):
+        found[2 * extremes + e] = -HUGE
+        found[3 * extremes + e] = 0.0
+    for r in range(count):
+        owner = ids[2 * r]
+        value = looked[capacity + r]
+        if value <= found[2 * extremes + owner]:
+            continue
+        found[owner] = float(ids[2 * r + 1])
+        found[extremes + owner] = looked[r]
+        found[2 * extremes + owner] = value
+    for r in range(count):
+        owner = ids[2 * r]
+        rough = looked[2 * capacity + r]
+        if looked[capacity + r] + REACH * rough < found[2 * extremes + owner]:
+            continue
+        found[3 * extremes + owner] = max(found[3 * extremes + owner], rough)
+
+
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
-    return Kernels((bounds, powers, integral, contenders, reduced, derive, series, peaks))
+    return Kernels((bounds, powers, integral, contenders, reduced, derive, series, peaks, gathered))

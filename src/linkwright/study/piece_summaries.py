@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
@@ -42,11 +42,17 @@ SIDES: Mapping[str, tuple[str, ...]] = {
     "peak": ("max", "min"),
     "excess": ("gained", "lost"),
 }
+#: Kinds of summaries of a root that its square gives as exactly.
+_OF_SQUARES = ("max", "peak", "rms")
 #: From values times widths at the Gauss points to the integral from the piece's beginning up to each of them.
 UP_TO = weights_up_to(NODES) / WEIGHTS
 _SIGNS = {"max": 1.0, "min": -1.0, "gained": 1.0, "lost": -1.0}
 #: Designs whose signals are kept at the same time by arrays.
 BLOCK = 256
+#: Designs whose contenders for extremes are kept at the same time.
+CHUNK = 256
+#: Compiled, every second look is enough: all pieces that may hold an extreme are looked at.
+_LOOKS = 2
 #: Contenders for extremes that find room, for each extreme.
 _ROOM = 3
 
@@ -55,13 +61,13 @@ _ROOM = 3
 class Reduced:
     """What is found of signals, (designs,) each.
 
-    ``bounds``: the largest and the smallest value at the Gauss points; ``powers``: means of signal and square, and
-    the size of the last orders of both; ``peaks`` by output and side: the piece, the place in it, the value (negative
-    for smallest ones), and the size of the last orders.
+    ``bounds``: the largest and the smallest value at the Gauss points, and the size of the last orders in the piece
+    that is met worst; ``powers``: means of signal and square, and that size of the square; ``peaks`` by output and
+    side: the piece, the place in it, the value (negative for smallest ones), and the size of the last orders.
     """
 
-    bounds: Mapping[str, tuple[Floats, Floats]]
-    powers: Mapping[str, tuple[Floats, Floats, Floats, Floats]]
+    bounds: Mapping[str, tuple[Floats, Floats, Floats]]
+    powers: Mapping[str, tuple[Floats, Floats, Floats]]
     peaks: Mapping[tuple[str, str], Peak]
 
 
@@ -72,7 +78,7 @@ class PieceSummaries:
     def __init__(
         self, program: Program, summaries: Iterable[Summary], pieces: int, share: str, alone: Sequence[str]
     ) -> None:
-        self.program, self.pieces, self.share = program, pieces, share
+        self.pieces, self.share = pieces, share
         asked = list(summaries)
         self.excess = tuple(dict.fromkeys(each.output for each in asked if each.kind == "excess"))
         means = [each.output for each in asked if each.kind in ("mean", "rms")]
@@ -81,11 +87,31 @@ class PieceSummaries:
             dict.fromkeys((each.output, side) for each in asked for side in SIDES.get(each.kind, ()))
         )
         self.signals = tuple(dict.fromkeys([*(each.output for each in asked), *alone]))
+        plain = {each.output for each in asked if each.kind not in _OF_SQUARES}.union(alone, [share])
+        self.program, self.squared = _squared(program, plain)
 
     def reduced(self, table: Floats, run: Run) -> Reduced:
         """Of the designs with these parameters."""
         code = code_for(self.program, None, run, len(table))
-        return self._by_arrays(table, run) if code is None else self._compiled(code, table, run)
+        found = self._by_arrays(table, run) if code is None else self._compiled(code, table, run)
+        return self._rooted(found)
+
+    def _rooted(self, found: Reduced) -> Reduced:
+        """The same of roots where their squares were reduced; roughness stays a share of the size."""
+        bounds, powers, peaks = dict(found.bounds), dict(found.powers), dict(found.peaks)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            for name in self.squared:
+                top, bottom, rough = found.bounds[name]
+                size = np.sqrt(np.where(top > 0.0, top, 1.0))
+                bounds[name] = np.sqrt(top), np.sqrt(bottom), rough / size
+                if name in powers:
+                    powers[name] = np.full(len(top), np.nan), found.powers[name][0], rough
+                for side in ("max", "min"):
+                    if (name, side) in peaks:
+                        piece, place, value, last = found.peaks[name, side]
+                        root = np.sign(value) * np.sqrt(np.abs(value))
+                        peaks[name, side] = piece, place, root, last / size
+        return Reduced(bounds, powers, peaks)
 
     # by arrays --------------------------------------------------------------------------------------
     def _by_arrays(self, table: Floats, run: Run) -> Reduced:
@@ -102,7 +128,10 @@ class PieceSummaries:
         )
         names = self.program.output_names
         rows = {name: found[:, k].reshape(-1, POINTS, self.pieces) for k, name in enumerate(names)}
-        bounds = {name: (rows[name].max(axis=(1, 2)), rows[name].min(axis=(1, 2))) for name in self.signals}
+        bounds = {
+            name: (rows[name].max(axis=(1, 2)), rows[name].min(axis=(1, 2)), _roughest(rows[name]))
+            for name in self.signals
+        }
         powers = {name: _powers(rows[name], rows[self.share]) for name in self.powers}
         peaks = {}
         for name, side in self.sides:
@@ -110,7 +139,7 @@ class PieceSummaries:
             if side in SIDES["excess"]:
                 signal = _integral(signal, rows[self.share], powers[name][0])
             signal = _SIGNS[side] * signal
-            peaks[name, side] = largest(signal, signal.max(axis=1))
+            peaks[name, side] = _peak(signal)
         return Reduced(bounds, powers, peaks)
 
     # compiled ---------------------------------------------------------------------------------------
@@ -144,62 +173,89 @@ class PieceSummaries:
         jobs, names, owners = self._jobs
         numbers = np.zeros((len(table), len(jobs), piece_kernels.FOUND))
         peaks = np.empty((4, len(table), max(1, len(owners))))
-        done = 0
+        done, room = 0, _Room(self, len(owners), min(CHUNK, len(table)))
         while done < len(table):
-            done += self._chunk(code, table[done:], run, numbers[done:], peaks[:, done:])
+            part = slice(done, done + CHUNK)
+            done += self._chunk(code, table[part], run, numbers[part], peaks[:, part], room)
         found = {name: numbers[:, k] for k, name in enumerate(names) if name}
         return Reduced(
-            {name: (found[name][:, 0], found[name][:, 1]) for name in self.signals},
-            {name: tuple(found[name][:, 2:].T) for name in self.powers},
+            {name: (found[name][:, 0], found[name][:, 1], found[name][:, 2]) for name in self.signals},
+            {name: (found[name][:, 3], found[name][:, 4], found[name][:, 5]) for name in self.powers},
             {
                 owner: (peaks[0, :, k].astype(np.intp), peaks[1, :, k], peaks[2, :, k], peaks[3, :, k])
                 for k, owner in enumerate(owners)
             },
         )
 
-    def _chunk(self, code: CompiledProgram, table: Floats, run: Run, numbers: Floats, peaks: Floats) -> int:
+    def _chunk(
+        self, code: CompiledProgram, table: Floats, run: Run, numbers: Floats, peaks: Floats, room: _Room
+    ) -> int:
         """Some designs from the first on, as many as find room; how many."""
         jobs, _, owners = self._jobs
         kernels, tables = piece_kernels.kernels(), _tables()
-        extremes, size = len(owners), POINTS * self.pieces
-        capacity = -(-extremes * max(self.pieces, _ROOM * len(table)) // 8) * 8 + 8
-        signals = np.empty((len(self.program.outputs), size))
-        room = np.empty(size * 2 + 3 * self.pieces)
-        rows, ids = np.empty((POINTS, capacity)), np.empty(2 * capacity + 1, dtype=np.int64)
-        address, block = code.one_by_one(table, run.positions, signals, tables=run.tables)
-        share = signals[self.program.output_names.index(self.share)]
+        extremes, capacity, ids = len(owners), room.capacity, room.ids
+        address, block = code.one_by_one(table, run.positions, room.signals, tables=run.tables)
+        share = room.signals[self.program.output_names.index(self.share)]
         count = kernels(
-            "reduced", len(table), address, address_of(block), table.strides[0], address_of(signals),
+            "reduced", len(table), address, address_of(block), table.strides[0], address_of(room.signals),
             address_of(share), self.pieces, address_of(jobs), len(jobs), extremes, address_of(tables),
-            address_of(room), address_of(numbers), address_of(rows), capacity, address_of(ids),
+            address_of(room.work), address_of(numbers), address_of(room.rows), capacity, address_of(ids),
         )  # fmt: skip
         done = int(ids[2 * capacity])
         if count:
-            looked, polynomial = np.empty((3, capacity)), np.empty((3, POINTS, 8))
             kernels(
-                "peaks", count, address_of(rows), capacity, address_of(tables), address_of(polynomial),
-                address_of(looked),
+                "peaks", count, address_of(room.rows), capacity, address_of(tables), address_of(room.vectors),
+                address_of(room.looked),
             )  # fmt: skip
-            owner, piece = ids[: 2 * count].reshape(count, 2).T
-            best = np.full(done * extremes, -np.inf)
-            with np.errstate(invalid="ignore"):
-                np.maximum.at(best, owner, looked[1, :count])
-            chosen = np.empty(done * extremes, dtype=np.intp)
-            mine = np.flatnonzero(~(looked[1, :count] < best[owner]))
-            chosen[owner[mine]] = mine
-            peaks[0, :done] = piece[chosen].reshape(done, extremes)
-            peaks[1:, :done] = looked[:, chosen].reshape(3, done, extremes)
+            kernels(
+                "gathered", count, address_of(ids), address_of(room.looked), capacity, done * extremes,
+                address_of(room.best),
+            )  # fmt: skip
+            peaks[:, :done] = room.best[: 4 * done * extremes].reshape(4, done, extremes)
         return done
+
+
+class _Room:
+    """Arrays that the kernels write, for a number of designs at a time."""
+
+    def __init__(self, of: PieceSummaries, extremes: int, designs: int) -> None:
+        self.capacity = -(-extremes * max(of.pieces, _ROOM * designs) // 8) * 8 + 8
+        self.signals = np.empty((len(of.program.outputs), POINTS * of.pieces))
+        self.work = np.empty((2 * POINTS + 4) * of.pieces)
+        self.rows, self.looked = np.empty((POINTS, self.capacity)), np.empty((3, self.capacity))
+        self.ids = np.empty(2 * self.capacity + 1, dtype=np.int64)
+        self.vectors, self.best = np.empty((4, POINTS, 8)), np.empty(4 * designs * extremes)
 
 
 @cache
 def _tables() -> Floats:
     """The numbers that the kernels take."""
     orders = np.arange(POINTS)
+    half, left = POINTS // 2, TO_PLACES[:, : LOOKS // 2 + 1 : _LOOKS]
+    opposite = left[::-1][:half]
+    looked = np.stack([0.5 * (left[:half] + opposite), 0.5 * (left[:half] - opposite)]).reshape(POINTS, -1).T
     forward, backward = (2 * orders + 1) / (orders + 1), -(orders + 1) / (orders + 2)
-    parts = (TO_LAST, UP_TO, TO_LEGENDRE.T, TO_PLACES.T, PLACES, forward, backward)
-    assert LOOKS == piece_kernels.LOOKS and POINTS == piece_kernels.POINTS
+    parts = (
+        TO_LAST,
+        UP_TO,
+        TO_LEGENDRE[:half].T,
+        looked,
+        PLACES[: LOOKS // 2 + 1 : _LOOKS],
+        forward,
+        backward,
+    )
+    assert LOOKS == 2 * _LOOKS * piece_kernels.HALF_LOOKS + 1 and POINTS == piece_kernels.POINTS
     return np.concatenate([np.ascontiguousarray(part, dtype=float).ravel() for part in parts])
+
+
+def _squared(program: Program, plain: Collection[str]) -> tuple[Program, tuple[str, ...]]:
+    """The program with the squares of outputs that are roots, but for ``plain`` ones; which these are.
+
+    Squares cost nothing, and are smooth where roots of sums come near zero.
+    """
+    roots = [name for name, i in program.outputs if name not in plain and program.nodes[i].op == "sqrt"]
+    outputs = tuple((name, program.nodes[i].args[0] if name in roots else i) for name, i in program.outputs)
+    return Program(program.nodes, outputs).only(list(program.output_names)), tuple(roots)
 
 
 def _joined(parts: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
@@ -209,10 +265,18 @@ def _joined(parts: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
     }
 
 
-def _powers(signal: Floats, share: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def _powers(signal: Floats, share: Floats) -> tuple[Floats, Floats, Floats]:
     square = signal * signal
     mean, both = (np.einsum("dip,dip->d", share, each) for each in (signal, square))
-    return mean, both, _roughest(signal), _roughest(square)
+    return mean, both, _roughest(square)
+
+
+def _peak(signal: Floats) -> Peak:
+    """The largest values; their roughness is that of all pieces that may hold them."""
+    tops, last = signal.max(axis=1), np.abs(TO_LAST.T @ signal).max(axis=1)
+    piece, place, value, rough = largest(signal, tops)
+    near = tops + piece_kernels.REACH * last >= value[:, None]
+    return piece, place, value, np.maximum(rough, np.where(near, last, 0.0).max(axis=1))
 
 
 def _integral(signal: Floats, share: Floats, mean: Floats) -> Floats:
