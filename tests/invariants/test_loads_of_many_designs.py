@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.engine.cycle import CycleProgram
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
+from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.sweep_run import Manner, SweepRun
+from linkwright.study.traced import Traced
 
 MODEL = """
 format: 1
@@ -122,3 +126,23 @@ def test_prepared_machines_equal_single_designs(load: str) -> None:
         assert one.input_torque == pytest.approx(other.input_torque, rel=1e-11, abs=1e-9)
         assert one.load("process").moment == pytest.approx(other.load("process").moment, rel=1e-11, abs=1e-9)
         assert one.shaking_force == pytest.approx(other.shaking_force, rel=1e-11, abs=1e-9)
+
+
+def test_outputs_that_turn_more_than_twice_are_doubted() -> None:
+    """Points of a coupler plane, whose paths have two or more limits across: beside turns counted point by point."""
+    fourbar = lw.load("gallery:crank_rocker")
+    x, y = (each.ravel() for each in np.meshgrid(np.linspace(-3.5, 0.5, 7), np.linspace(-9.0, 3.0, 7)))
+    columns = {"coupler.P.x": x, "coupler.P.y": y}
+    traced = Traced(fourbar, columns, over_cycle(fourbar, 360))
+    output = Output("y", "coupler.P", "coupler.P")
+    cycle = CycleProgram(tuple(limit_stages(traced, [output])))
+    known = {**traced.solver.nominal.parameters, **constants(traced)}
+    table = np.stack([np.broadcast_to(columns.get(a, known[a]), len(x)) for a in cycle.dimensions], axis=1)
+    doubted = cycle.evaluate(table, traced.positions.arrays)[f"doubt:{output}"] > 0.0
+    turns = []
+    for k in range(len(x)):
+        design = fourbar.with_dimensions({a: float(c[k]) for a, c in columns.items()})
+        rising = lw.solve_motion(design, steps=360).point("coupler.P").velocity[:, 1] > 0.0
+        turns.append(int((rising != np.roll(rising, 1)).sum()))
+    assert doubted.tolist() == [count > 2 for count in turns]
+    assert {2, 4} <= set(turns)

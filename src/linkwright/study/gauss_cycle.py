@@ -82,7 +82,7 @@ class GaussCycle:
     @cached_property
     def positions(self) -> dict[str, Floats]:
         """Inputs (n,): the uniform turn for limit stages, and how places and widths follow from the cuts."""
-        shares = (np.arange(self.pieces)[:, None] + 0.5 + 0.5 * NODES).ravel() / self.pieces
+        shares = np.arange(self.count) / self.count
         first, time, speed = list(self.constants.values())[:3]
         angle = first + np.sign(speed) * TURN * shares
         (driver,) = self.traced.mechanism.drivers
@@ -126,11 +126,6 @@ class GaussCycle:
         found["place after"] = np.where(last, inside, 0.0)
         found["width after"] = np.where(last, width, 0.0)
         return found
-
-    @property
-    def gap(self) -> float:
-        """The largest step of the input between two Gauss points of the uniform turn, rad."""
-        return float(np.diff(NODES).max()) * math.pi / self.pieces * 1.01
 
     def part_stages(self) -> list[Stage]:
         """The stages that find where parts of strokes begin and end."""

@@ -13,7 +13,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin
+from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin, sqrt
 from linkwright.fields.signals import Output, SwingPhase
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
@@ -28,6 +28,10 @@ RATES: Mapping[str, Callable[[str], tuple[str, str]]] = {
     "x": lambda owner: (f"v:{owner}.x", f"a:{owner}.x"),
     "y": lambda owner: (f"v:{owner}.y", f"a:{owner}.y"),
 }
+#: The step of the input between two positions, rad, and the number of positions that are reached.
+STEP, ASSEMBLED = "step of the input", "assembled at limits"
+#: How near the sum of directions of neighbouring places comes to the longest; others lack some (π/n)² of it.
+TOGETHER = 1e-7
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
 #: Newton steps from a limit of a design to that of one near it.
@@ -42,13 +46,11 @@ def limit_stages(
     """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
     also ``value:OUTPUT:max`` and ``:min``, and where ``judged`` ``doubt:OUTPUT``: above zero where these are not
     certain to be its only limits."""
-    found: list[Stage] = []
-    known = set(valued)
-    for output in dict.fromkeys(outputs):
-        found.append(_nearest(traced, output))
-        found += [_refined(traced, output, kind, output in known) for kind in ("max", "min")]
-        found += [_counted(traced, output), _doubt(output)] if judged else []
-    return found
+    asked, known = tuple(dict.fromkeys(outputs)), set(valued)
+    if not asked:
+        return []
+    refined = [_refined(traced, each, kind, each in known) for each in asked for kind in ("max", "min")]
+    return [_seen(traced, asked, judged), *refined, *([_doubt(traced, asked)] if judged else [])]
 
 
 def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
@@ -67,15 +69,28 @@ def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
     return RATES[output.kind](owner)
 
 
-def _nearest(traced: Traced, output: Output) -> Stage:
-    """The inputs of the positions with the largest and the smallest value."""
+def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
+    """The inputs of the positions with the largest and the smallest value; where ``judged`` how many positions have a
+    growing value, and the sum of their directions on the circle of inputs."""
     trace = traced.solver.motion.trace
-    carrier = traced.named.quantity(f"{output.owner}.{output.kind}").carrier
-    program = Program.of(
-        trace, {"value": carrier, "input": trace.position("input"), VALID: traced.solver.motion.valid}
-    )
-    near = {f"near:{output}:{kind}": Reduction("input", f"at_{kind}", "value") for kind in ("max", "min")}  # type: ignore[arg-type]
-    return Stage(program, near, valid=VALID)
+    (driver,) = traced.mechanism.drivers
+    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.solver.motion.valid}
+    wanted: dict[str, Reduction] = {}
+    for each in outputs:
+        found[f"{each}"] = traced.named.quantity(f"{each.owner}.{each.kind}").carrier
+        wanted |= {
+            f"near:{each}:{kind}": Reduction("input", f"at_{kind}", f"{each}")  # type: ignore[arg-type]
+            for kind in ("max", "min")
+        }
+        if judged:
+            grows = select(rates(traced, each)[0] > 0.0, 1.0, 0.0)
+            sums = {"grows": grows} | {
+                part: grows * trace.position(f"{part}:{driver}") for part in ("cos", "sin")
+            }
+            found |= {f"{part}:{each}": value for part, value in sums.items()}
+            wanted |= {f"sum {part}:{each}": Reduction(f"{part}:{each}", "sum") for part in sums}
+    count = ASSEMBLED if judged else ""
+    return Stage(Program.of(trace, found), wanted, valid=VALID, count=count)
 
 
 def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
@@ -92,7 +107,7 @@ def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
     there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
     falling = there["rate"] if kind == "max" else -there["rate"]
     before = falling > 0.0
-    step = t.parameter("step of the input") * sign(speed)
+    step = t.parameter(STEP) * sign(speed)
     near = t.parameter(f"near:{output}:{kind}")
     first = absolute(low) + absolute(high) <= 0.0
     low0, high0 = select(first, near - step, low), select(first, near + step, high)
@@ -185,35 +200,28 @@ def near_limits(traced: Traced, outputs: Iterable[Output], valued: Iterable[Outp
     return Program.of(t, found)
 
 
-def _counted(traced: Traced, output: Output) -> Stage:
-    """How often the rate changes its sign from one position to the next."""
-    trace = traced.solver.motion.trace
-    rate, _ = rates(traced, output)
-    before = trace.state(f"before:{output}")
-    turns = select(before * rate < 0.0, 1.0, 0.0) + select(absolute(rate) <= 0.0, 1.0, 0.0)
-    program = Program.of(
-        trace, {"turns": turns, VALID: traced.solver.motion.valid}, {f"before:{output}": rate}
-    )
-    return Stage(
-        program,
-        {f"turns:{output}": Reduction("turns", "sum")},
-        valid=VALID,
-        count=f"assembled:{output}",
-        starts={f"before:{output}": 0.0},
-    )
+def _doubt(traced: Traced, outputs: Iterable[Output]) -> Stage:
+    """Whether the value grows in one stretch of the positions, and all steps came to an end.
 
-
-def _doubt(output: Output) -> Stage:
+    Of all choices of m of n places evenly round a circle, m beside each other have the longest sum of directions,
+    sin(mπ/n)/sin(π/n), and no others reach it.
+    """
     t = Trace()
-    doubt: Scalar = select(t.parameter(f"turns:{output}") > 2.5, 1.0, 0.0)
-    doubt = doubt + select(t.parameter(f"assembled:{output}") < t.parameter("positions"), 1.0, 0.0)
-    for kind in ("max", "min"):
-        moved = t.parameter(f"moved:{output}:{kind}")
-        doubt = doubt + select(moved <= CONVERGED, 0.0, 1.0)
-    return Stage(Program.of(t, {"doubt": doubt}), {f"doubt:{output}": Reduction("doubt", "first")}, steps=1)
+    half = 0.5 * t.parameter(STEP)
+    doubts: dict[str, Scalar] = {}
+    for each in outputs:
+        grows, across, up = (t.parameter(f"sum {part}:{each}") for part in ("grows", "cos", "sin"))
+        lacking = sin(half * grows) / sin(half) - sqrt(across * across + up * up)
+        doubt: Scalar = select(absolute(lacking) <= TOGETHER, 0.0, 1.0)
+        doubt = doubt + select(t.parameter(ASSEMBLED) < t.parameter("positions"), 1.0, 0.0)
+        for kind in ("max", "min"):
+            moved = t.parameter(f"moved:{each}:{kind}")
+            doubt = doubt + select(moved <= CONVERGED, 0.0, 1.0)
+        doubts[f"doubt:{each}"] = doubt
+    return Stage(Program.of(t, doubts), {name: Reduction(name, "first") for name in doubts}, steps=1)
 
 
 def constants(traced: Traced) -> dict[str, float]:
     """What the stages take besides dimensions: the step between positions, rad, and their number."""
     count = traced.positions.count
-    return {"step of the input": 2.0 * np.pi / count, "positions": float(count)}
+    return {STEP: 2.0 * np.pi / count, "positions": float(count)}

@@ -28,7 +28,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
-from linkwright.study.limit_stages import limit_stages
+from linkwright.study.limit_stages import STEP, limit_stages
 from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
 from linkwright.study.piece_summaries import SIDES, PieceSummaries, Reduced
 from linkwright.study.terms import Asked, Term, all_parts, term
@@ -283,7 +283,7 @@ class MetricCycle:
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
-        known |= {"step of the input": self.gauss.gap, "positions": float(self.gauss.count)}
+        known |= {STEP: TURN / self.gauss.count, "positions": float(self.gauss.count)}
         designs = len(next(iter(columns.values())))
         rows = [columns[name] if name in columns else known[name] for name in cycle.dimensions]
         return (
