@@ -419,8 +419,8 @@ class _Seen:
     def weights(self, part: Summary) -> dict[str, Floats]:
         """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
         means, whose weights are the widths."""
+        self.summary(part)
         if part.kind == "excess":
-            self.summary(part)
             return {f"{part.output} excess": self._excess(part.output)}
         found: dict[str, Floats] = {}
         for side in SIDES.get(part.kind, ()):
