@@ -10,6 +10,7 @@ from tests.reference.test_cam_joints import GUIDED, SPEED, SWINGING, follower, m
 from tests.unit.test_worked_arithmetic import against_solver, reckon_lines
 
 import linkwright as lw
+from linkwright.report.formula import formula
 
 SENSES = ("counterclockwise", "clockwise")
 #: One position in each segment of the program but its dwells, degrees of the cam's program, and one in a dwell.
@@ -19,6 +20,9 @@ PLACES = (35.0, 140.0, 225.0)
 def page_of(forces: lw.Forces, index: int) -> tuple[lw.Worked, dict[str, float]]:
     """The worked position and its numbers; every line comes out, every column is the solver's."""
     page = lw.worked(forces, index)
+    for line in page.equations:
+        for latex in (line.latex_symbol, line.latex_formula, line.latex_numbers):
+            formula(latex)  # what no report can print is refused
     assert reckon_lines(page) == []
     wrong, seen = against_solver(page, forces)
     assert wrong == []

@@ -16,7 +16,7 @@ from linkwright.words.width import cells
 
 SYMBOLS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "eta": "η",
-    "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
+    "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
     "Sigma": "Σ", "tau": "τ", "varphi": "φ", "psi": "ψ", "omega": "ω", "Omega": "Ω", "phi": "φ",
     "cdot": "⋅", "times": "×", "to": "→", "circ": "°", "angle": "∠", "sum": "∑", "perp": "⊥", "pm": "±",
     "le": "≤", "ge": "≥", "approx": "≈", "infty": "∞", "partial": "∂", "int": "∫", "ldots": "…", "neq": "≠",

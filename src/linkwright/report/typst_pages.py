@@ -20,11 +20,13 @@ from linkwright.report.document import (
     Paragraph,
     Source,
     Table,
+    plain,
     spans,
 )
 from linkwright.report.formula import Atom, Row, formula, lines, width
 from linkwright.report.typst_formula import quoted, typst
 from linkwright.words.sentence import Sentence
+from linkwright.words.width import cells
 
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
 MATHEMATICS = "New Computer Modern Math"
@@ -42,6 +44,8 @@ SURE = 35.0
 SHORT = 400
 #: Width of the text, mm, and rows of a table that stays on one page.
 TEXT, TOGETHER = 170.0, 32
+#: Characters across a table beyond which its long columns are wrapped.
+ACROSS = 112
 #: Warnings of Typst that say nothing about the page.
 _EXPECTED = ("html export is under active", "was ignored during HTML export", "equation was ignored")
 _HEAD = """\
@@ -230,7 +234,7 @@ class _Writer:
         match block:
             case Heading():
                 number = self.numbers.of[index]
-                return f"{'=' * block.level} {_words(f'{number}  {block.text}')} <{_place(index)}>\n"
+                return f"{'=' * block.level} {_words(f'{number}  ')}{self.inline(block.text)} <{_place(index)}>\n"
             case Paragraph():
                 return self._paragraph(block, sticky=self._leads(index, block))
             case Formula():
@@ -268,8 +272,7 @@ class _Writer:
     def _table(self, index: int, table: Table) -> str:
         align = {"<": "left", ">": "right", "^": "center"}
         marks = table.align or "<" * len(table.head)
-        wraps = [max(len(row[i]) for row in (table.head, *table.rows)) > 40 for i in range(len(table.head))]
-        columns = ", ".join("1fr" if each else "auto" for each in wraps)
+        columns = ", ".join("1fr" if each else "auto" for each in _wrapping(table))
         sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
@@ -321,6 +324,12 @@ class _Writer:
                 )
             else:
                 yield _words(part)
+
+
+def _wrapping(table: Table) -> list[bool]:
+    """The columns that share the room left over, since the table would be wider than the page."""
+    wide = [max(cells(plain(row[i])) for row in (table.head, *table.rows)) for i in range(len(table.head))]
+    return [sum(wide) + 2 * len(wide) > ACROSS and each > 40 for each in wide]
 
 
 def aligned(sides: tuple[str, ...]) -> tuple[str, float]:

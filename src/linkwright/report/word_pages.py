@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from typing import Any
+from xml.sax.saxutils import escape
 
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import (
@@ -27,6 +28,8 @@ from linkwright.words.width import cells
 
 #: Width of the text, inches; pictures' dots per inch.
 TEXT, DOTS = 6.69, 160.0
+#: Levels of headings in the list of contents.
+LISTED = 2
 #: Width of a character of a table, inches.
 LETTER = 0.062
 #: What the margins of a cell take, inches; size of the letters of tables, points.
@@ -58,6 +61,8 @@ class _Writer:
         self.file.add_heading(self.document.title, 0)
         for line in self.document.lines:
             self.file.add_paragraph(line)
+        if self.document.contents:
+            self._contents()
         for index, block in enumerate(self.document.blocks):
             self._block(index, block)
         self.file.core_properties.title = self.document.title[:255]
@@ -79,6 +84,33 @@ class _Writer:
             style.font.name = FONTS[0]
             style.element.get_or_add_rPr().get_or_add_rFonts().set(qn("w:eastAsia"), FONTS[1])
         self.file.styles["Normal"].font.size = Pt(10.5)
+
+    def _contents(self) -> None:
+        """The list of sections: a field that Word renews, with entries that every program shows."""
+        from docx.enum.text import WD_TAB_ALIGNMENT, WD_TAB_LEADER
+        from docx.shared import Inches, Pt
+
+        head = self.file.add_paragraph()
+        head.add_run(self.document.say("report.contents")).bold = True
+        headings = [(i, block) for i, block in enumerate(self.document.blocks)
+                    if isinstance(block, Heading) and block.level <= LISTED]  # fmt: skip
+        line = head
+        for index, block in headings:
+            line = self.file.add_paragraph()
+            line.paragraph_format.left_indent = Inches(0.25 * (block.level - 1))
+            line.paragraph_format.space_after = Pt(0)
+            line.paragraph_format.tab_stops.add_tab_stop(
+                Inches(TEXT), WD_TAB_ALIGNMENT.RIGHT, WD_TAB_LEADER.DOTS
+            )
+            if index == headings[0][0]:
+                _mark(line, "begin", f'TOC \\o "1-{LISTED}" \\h \\z \\u')
+            self._inline(line, f"{self.numbers.of[index]}  {block.text}")
+            line.add_run("\t")
+            _mark(line, "begin", f"PAGEREF b{index} \\h")
+            line.add_run("–")
+            _mark(line, "end")
+        if headings:
+            _mark(line, "end")
 
     def _block(self, index: int, block: Block) -> None:
         match block:
@@ -215,6 +247,22 @@ def _widths(block: Table) -> list[float]:
     found = [a + more * max(w - a, 0.0) for w, a in zip(whole, asked, strict=True)]
     shrink = min(1.0, TEXT / sum(found))
     return [shrink * each for each in found]
+
+
+def _mark(line: Any, kind: str, asks: str = "") -> None:
+    """The begin of a field that is renewed when the file is opened, up to its result, or the end of one."""
+    from docx.oxml import parse_xml
+    from docx.oxml.ns import nsdecls
+
+    def run(inside: str) -> None:
+        line._p.append(parse_xml(f"<w:r {nsdecls('w')}>{inside}</w:r>"))
+
+    if kind == "end":
+        run('<w:fldChar w:fldCharType="end"/>')
+        return
+    run('<w:fldChar w:fldCharType="begin" w:dirty="true"/>')
+    run(f'<w:instrText xml:space="preserve"> {escape(asks)} </w:instrText>')
+    run('<w:fldChar w:fldCharType="separate"/>')
 
 
 def _small(line: Any) -> None:

@@ -36,7 +36,7 @@ class Paths(Kind):
         single = len(sources) == 1
         curves = [_curves(source, request) for source in sources]
         tiny = single and not any(_worth_marks(sources[0], curve) for curve in curves[0].values())
-        figure = new_figure(request.size or ((9.6, 5.2) if tiny else (6.8, 5.6)))
+        figure = new_figure(request.size or ((9.6, 5.2) if tiny else _room(sources, curves)))
         axes = list(figure.subplots(1, 2 if tiny else 1, squeeze=False)[0])
         legend = Legend()
         if single:
@@ -53,6 +53,22 @@ class Paths(Kind):
         framed(figure, f"{sources[0].label}: {title}" if single else title, request)
         legend.put(figure)
         return figure
+
+
+def _room(sources: Sequence[Source], curves: Sequence[dict[str, Floats]]) -> tuple[float, float]:
+    """Width and height of a figure that the machines and the paths fill, inches."""
+    clouds = [each for found in curves for each in found.values()]
+    for source in sources:
+        frame = list(source.mechanism.frame.points.values())
+        clouds.append(1e3 * np.array(frame, dtype=float).reshape(-1, 2))
+        first = int(np.flatnonzero(source.motion.ok)[0])
+        names = source.motion.point_names()
+        clouds += [1e3 * source.motion.point_of(key).position[first : first + 1] for key in names]
+    every = np.concatenate(clouds)
+    every = every[np.isfinite(every).all(axis=1)]
+    extent = np.ptp(every, axis=0) if len(every) else np.ones(2)
+    share = float(extent[1] / extent[0]) if extent[0] > 0.0 else 1.0
+    return 6.8, 1.4 + 5.6 * min(max(share, 0.35), 0.75)
 
 
 def _curves(source: Source, request: Request) -> dict[str, Floats]:

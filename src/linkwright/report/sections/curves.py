@@ -11,6 +11,8 @@ from linkwright.report.section import SECTIONS, Section
 from linkwright.words.sentence import Sentence
 
 KINDS = ("sva", "angles", "paths")
+#: Height of a diagram, mm: two of them share a page.
+TALLEST = 104.0
 
 
 @SECTIONS.register("curves")
@@ -34,4 +36,4 @@ def pictures(case: Case, kinds: tuple[str, ...], share: float = 0.78) -> Iterato
         except LinkwrightError as error:
             yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
             continue
-        yield Figure(case.say(f"report.caption_{kind}"), ((shown, share),), kind)
+        yield Figure(case.say(f"report.caption_{kind}"), ((shown, share),), kind, TALLEST)

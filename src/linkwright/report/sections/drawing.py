@@ -10,6 +10,9 @@ from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph
 from linkwright.report.section import SECTIONS, Section
 
+#: Height of a drawing, mm: two of them share a page.
+TALLEST = 104.0
+
 
 @SECTIONS.register("drawing")
 class KinematicDrawing(Section):
@@ -22,9 +25,11 @@ class KinematicDrawing(Section):
         motion, index = case.worked_motion
         yield Paragraph(say("report.drawing_text", figure="[[drawing]]"))
         shown = draw(motion, position=index, centres=True, language=case.language)
-        yield Figure(say("report.drawing_caption"), ((shown.svg, 0.85),), "drawing")
+        loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
+        caption = say("report.drawing_caption" if loaded else "report.drawing_plain_caption")
+        yield Figure(caption, ((shown.svg, 0.85),), "drawing", TALLEST)
         try:
             faded = draw(case.motion, overlay="limits", labels="points", language=case.language)
         except LinkwrightError:
             return
-        yield Figure(say("report.limits_caption"), ((faded.svg, 0.85),), "limit-drawing")
+        yield Figure(say("report.limits_caption"), ((faded.svg, 0.85),), "limit-drawing", TALLEST)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.report.case import Case, Missing
-from linkwright.report.document import Block, Formula, Paragraph, Table, literal
-from linkwright.report.numbers import column, small
+from linkwright.report.document import Block, Formula, Paragraph, Table
+from linkwright.report.numbers import column, small, typeset
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.curves import pictures
 from linkwright.words.sentence import Sentence
@@ -50,7 +50,12 @@ class Torque(Section):
             largest = float(np.nanmax(np.abs(known)))
             top = float(np.nanmax(np.abs(forces.input_torque)))
             yield Paragraph(
-                say("report.torque_gap", gap=literal(f"{largest:.2g} {unit}"), top=literal(f"{top:.6g} {unit}"),
+                say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
                     table="[[torque-both]]")
             )  # fmt: skip
         yield from pictures(case, ("torque",))
+
+
+def _number(value: float, digits: int) -> str:
+    """A number in a sentence."""
+    return typeset(f"{value:.{digits}g}")

@@ -65,6 +65,7 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "drawing_text": "The machine in the standard symbols is shown in {figure}, at the position that is worked out "
     "below.",
     "drawing_caption": "Kinematic drawing with mass centres and loads",
+    "drawing_plain_caption": "Kinematic drawing",
     "limits_caption": "Limit positions of the output, dashed",
     "stop": ".",
     "groups": "Assur groups in solving order",
