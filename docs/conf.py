@@ -2,11 +2,13 @@
 
 import re
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
+from sphinx.search.en import SearchEnglish
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -60,24 +62,88 @@ def language_link(app: Any, name: str, template: str, context: dict[str, Any], d
     context["other_page"], context["other_language"] = page, {"zh": "中文", "en": "English"}[language]
 
 
+#: What the theme says on Chinese pages; words of its footer that are not here stay English.
+THEME = {
+    "Search": "搜索", "Next": "下一页", "Previous": "上一页", "Home": "首页",
+    "On this page": "本页内容", "Contents": "目录",
+    "Back to top": "回到页首", "Index": "索引", "Skip to content": "跳到正文",
+}  # fmt: skip
+
+
+def theme_words(app: Any, name: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """The theme's own words in the language of the page."""
+    if "/zh/" in f"/{name}":
+        context["language"] = "zh-CN"
+        context["_"] = context["gettext"] = lambda text: THEME.get(text, text)
+
+
+class BothLanguages(SearchEnglish):
+    """English words, and every two neighbouring Chinese characters: Chinese has no spaces between its words."""
+
+    lang = "en"
+    js_splitter_code = """
+const pairs = (run) => Array.from({length: run.length - 1}, (_, k) => run.slice(k, k + 2));
+var splitQuery = (query) =>
+  query.split(/[^\\p{L}\\p{N}_]+/gu).filter(Boolean)
+    .flatMap((word) => word.match(/[\u4e00-\u9fff]+|[^\u4e00-\u9fff]+/gu))
+    .flatMap((run) => (/^[\u4e00-\u9fff]{3,}$/.test(run) ? pairs(run) : [run]));
+"""
+
+    def split(self, input: str) -> list[str]:
+        words = super().split(input)
+        pairs = (two for word in words for two in map("".join, pairwise(word)))
+        return [*words, *(two for two in pairs if re.fullmatch(f"{CHINESE}{{2}}", two))]
+
+
+NAMES = "(?:arc(?:sin|cos|tan)|sin|cos|tan|det|min|max|sign|exp|log)"
+THIN = '<mspace width="0.17em"/>'
+#: Places for a thin space: behind the name of a function, and before it where a factor stands; bars have none.
+BEHIND = re.compile(rf"(?<!<msup>)(?<!<msub>)(?<!<msubsup>)<mi>{NAMES}</mi>")
+BEFORE = re.compile(rf"</(?:mi|mn|msub|msup|mfrac|msqrt)>(?=<mi>{NAMES}</mi>|<msup><mi>{NAMES}</mi>)")
+BAR = re.compile(r'<mo(?: stretchy="false")?>(&#x0007C;)</mo>')
+
+
+def mathml(text: str, display: str) -> str:
+    """A formula as MathML; bars without space around them, thin spaces around names of functions."""
+    found = BEFORE.sub(rf"\g<0>{THIN}", convert(text, display=display))
+    found = BEHIND.sub(rf"\g<0>{THIN}", found)
+    return BAR.sub(r'<mo lspace="0" rspace="0" stretchy="false">\1</mo>', found)
+
+
 def inline_formula(page: Any, node: Any) -> None:
     """A formula within a line as MathML, which browsers show without scripts."""
-    page.body.append(convert(node.astext()))
+    page.body.append(mathml(node.astext(), "inline"))
     raise SkipNode
 
 
 def formula(page: Any, node: Any) -> None:
     """A formula on lines of its own."""
-    page.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    page.body.append(f'<div class="math">{mathml(node.astext(), "block")}</div>')
     raise SkipNode
 
 
 def joined_lines(app: Any, name: str, source: list[str]) -> None:
-    """Chinese lines of one paragraph follow each other without a space."""
-    source[0] = re.sub(rf"(?<={CHINESE})\n(?={CHINESE})", "", source[0])
+    """Chinese lines of one paragraph follow each other without a space; headings and code stay as they are."""
+    joined: list[str] = []
+    code = False
+    for line in source[0].split("\n"):
+        code ^= line.lstrip().startswith("```")
+        before = joined[-1] if joined else ""
+        if (
+            not code
+            and not before.startswith("#")
+            and re.search(f"{CHINESE}$", before)
+            and re.match(CHINESE, line)
+        ):
+            joined[-1] = before + line
+        else:
+            joined.append(line)
+    source[0] = "\n".join(joined)
 
 
 def setup(app: Any) -> None:
     app.connect("html-page-context", language_link)
+    app.connect("html-page-context", theme_words)
     app.connect("source-read", joined_lines)
+    app.add_search_language(BothLanguages)
     app.add_html_math_renderer("mathml", (inline_formula, None), (formula, None))

@@ -174,6 +174,7 @@ FILE_WORDS = {
         "required": " (required)",
         "name": "name of a {}",
         "list": "list of {}({})",
+        "of": "",
         "or": " or ",
         "see": "Its keys: [{0}]({0}).",
     },
@@ -184,7 +185,8 @@ FILE_WORDS = {
         "head": "| 键 | 含义 | 写法 |",
         "required": "（必须）",
         "name": "{}的名称",
-        "list": "列表：{}（{}）",
+        "list": "{}（{}）的列表",
+        "of": "个",
         "or": "，或",
         "see": "各键见 [{0}]({0})。",
     },
@@ -259,7 +261,7 @@ def form(schema: Mapping[str, Any], language: str) -> str:
         return words["name"].format(said(schema["x-reference"]))
     if schema.get("type") == "array" and isinstance(schema.get("items"), Mapping):
         least, most = schema.get("minItems"), schema.get("maxItems")
-        count = f"{least} " if least == most and least else ""
+        count = f"{least} {words['of']}" if least == most and least else ""
         return words["list"].format(count, form(schema["items"], language))
     options = schema.get("anyOf") or schema.get("oneOf")
     if options:
