@@ -12,7 +12,7 @@ from benchmarks import by_numpy
 from benchmarks.cases import sixbar
 from benchmarks.kernels_alone import HAND
 from benchmarks.timing import Candidate
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Rows
 from linkwright.metrics import METRICS
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 

@@ -19,8 +19,7 @@ from linkwright.kinematics.change_points import (
 )
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle, time_span
 from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import nothing_passed
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism

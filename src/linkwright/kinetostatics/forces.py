@@ -12,8 +12,7 @@ import numpy as np
 from linkwright.core.frozen import locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver

@@ -8,8 +8,7 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.solver import ForceSolver

@@ -13,8 +13,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import Output, Phase
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.limits import Between
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import activity

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces

@@ -19,8 +19,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import Rows
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
