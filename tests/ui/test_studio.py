@@ -602,6 +602,40 @@ NASTY = "\"'><img src=x onerror=window.bad=1><script>window.bad=2</script>"
 
 
 @needs_chromium
+def test_a_hand_leaves_short_numbers_and_a_limit_a_machine_that_moves(tmp_path: Path) -> None:
+    """A drag writes few digits, one beyond a limit stops where the file still moves and says it; undo in a hurry ends
+    with the first text and its machine."""
+    text = lw.read_document("gallery:crank_rocker").text
+    (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
+    with serving(tmp_path, "a.yaml") as studio, browser() as chromium:
+        tab = chromium.new_page(viewport={"width": 1360, "height": 900})
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        agreed = "() => desk.session.value?.data.text === desk.text.value"
+        tab.wait_for_function(agreed)
+        tab.locator('.handle[data-key="B"]').focus()
+        tab.keyboard.press("ArrowRight")
+        tab.wait_for_function("first => desk.text.value !== first", arg=text)
+        tab.wait_for_function(agreed)
+        lengths = re.findall(r"length: ([\d.]+) m", tab.locator("textarea").input_value())
+        assert all(len(each.replace(".", "")) <= 4 for each in lengths)
+        handle = tab.locator('.handle[data-key="A"]').bounding_box()
+        tab.mouse.move(handle["x"] + 13, handle["y"] + 13)
+        tab.mouse.down()
+        tab.mouse.move(handle["x"] + 300, handle["y"] - 250, steps=8)
+        tab.mouse.up()
+        tab.wait_for_function(agreed)
+        assert tab.locator(".status").first.inner_text().startswith("Limit")
+        assert lw.solve_motion(lw.loads(tab.locator("textarea").input_value()), steps=90).ok.all()
+        for _ in range(8):
+            tab.keyboard.press("Control+z")
+        tab.wait_for_function(agreed)
+        assert tab.locator("textarea").input_value() == text
+        got = tab.evaluate("() => linkwright.sessions[0].model.values['crank.length']")
+        assert got == lw.loads(text).dimension("crank.length")
+
+
+@needs_chromium
 def test_names_are_text_on_the_page(tmp_path: Path) -> None:
     """Names of model, links, pins and file that hold markup are shown as they are; none becomes an element.
 

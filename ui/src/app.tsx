@@ -94,9 +94,9 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
       session.touched();
     });
   };
-  const done = () => {
+  const done = (roughly: boolean) => {
     page.flush();
-    session.end();
+    session.end(roughly);
   };
   const changed = now !== value;
   return (
@@ -114,14 +114,14 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
         type="range" min={shown(dimension.positive ? value * 0.3 : value - reach)} max={shown(dimension.positive ? value * 2 : value + reach)}
         step="any" value={now / factor} disabled={locked} aria-label={address} aria-valuetext={`${shown(now)} ${unit}`}
         onPointerDown={() => session.begin()} onKeyDown={() => session.begin()}
-        onInput={(event) => to(Number(event.currentTarget.value))} onChange={done}
+        onInput={(event) => to(Number(event.currentTarget.value))} onChange={() => done(true)}
       />
       <input
         type="number" step="any" value={shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
         onChange={(event) => {
           session.begin();
           to(Number(event.currentTarget.value));
-          done();
+          done(false);
         }}
       />
       <span class="unit">{unit}</span>

@@ -74,7 +74,8 @@ export class Desk {
   private future: string[] = [];
   private version = "";
   private serial = 0;
-  private asked = 0;
+  private stale = false;
+  private solving: Promise<void> | null = null;
   private timer = 0;
   private queue: Promise<void> = Promise.resolve();
   private ready: Promise<void> = Promise.resolve();
@@ -200,7 +201,7 @@ export class Desk {
     this.onDisk.value = "";
     this.text.value = opened.text;
     this.dirty.value = opened.recovered;
-    if (opened.recovered) this.page.note.value = this.say("recovered");
+    this.page.note.value = opened.recovered ? this.say("recovered") : "";
     this.clear();
     await this.solve();
     this.drawing.value = this.session.value === null;
@@ -236,11 +237,23 @@ export class Desk {
     this.side();
   }
 
-  /** Asks what the text makes; a newer question makes an older answer void. */
-  async solve(): Promise<void> {
-    const number = ++this.asked, text = this.text.value;
+  /** Asks what the text makes, once at a time: texts that came meanwhile are one question more. */
+  solve(): Promise<void> {
+    this.stale = true;
+    return (this.solving ??= this.settled().finally(() => (this.solving = null)));
+  }
+
+  private async settled(): Promise<void> {
+    while (this.stale) {
+      this.stale = false;
+      await this.once();
+    }
+  }
+
+  private async once(): Promise<void> {
+    const text = this.text.value;
     const solved = await this.ask<Solved>("solve", { text });
-    if (!solved || number !== this.asked || text !== this.text.value) return;
+    if (!solved || text !== this.text.value) return;
     this.solved.value = { ...solved, text };
     if (!solved.model?.module) return;
     const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
@@ -320,6 +333,7 @@ export class Desk {
         if (!edited) return;
         text = edited.text;
       }
+      this.page.note.value = "";
       this.change(text);
     }).finally(() => this.pending--));
   };

@@ -102,7 +102,7 @@ function attach(page: Page, session: Session, view: View): void {
     if (!dragged) return;
     page.flush();
     dragged = null;
-    session.end();
+    session.end(true);
   };
   view.svg.addEventListener("pointerup", stop);
   view.svg.addEventListener("pointercancel", stop);
@@ -115,6 +115,6 @@ function attach(page: Page, session: Session, view: View): void {
     const far = (event.shiftKey ? 10 : 1) / view.zoom, handle = event.target as SVGElement;
     session.begin();
     move(key, { ...session.model.values }, Number(handle.getAttribute("cx")) + far * way[0], Number(handle.getAttribute("cy")) + far * way[1]);
-    session.end();
+    session.end(true);
   });
 }

@@ -24,6 +24,8 @@ export interface Design {
 
 const TURN = 2 * Math.PI;
 const BISECTIONS = 32;
+// Share of the way that is kept clear of a limit.
+const BEFORE = 1e-7;
 // Least squares of sines of transmission angles: worth a closer look; a change point.
 const NEAR = 0.02;
 const TOUCH = 1e-10;
@@ -275,13 +277,21 @@ export class Model {
       let good = this.values, low = 0, high = 1;
       for (let k = 0; k < BISECTIONS; k++) {
         const middle = 0.5 * (low + high), tried = mixed(this.values, target, middle);
-        if (!this.notPositive(tried) && !this.evaluate(tried)) [good, low] = [tried, middle];
+        if (this.allows(tried)) [good, low] = [tried, middle];
         else high = middle;
       }
-      this.evaluate(good);
+      // A little before the limit, so that the digits of a file do not pass it.
+      const before = mixed(this.values, good, 1 - BEFORE);
+      if (!this.allows(before)) this.evaluate(good);
+      else good = before;
       this.values = good;
     } else this.values = target;
     this.keepStates();
+  }
+
+  /** Whether the machine can have these dimensions; its rows are those of them. */
+  allows(values: Values): boolean {
+    return !this.notPositive(values) && !this.evaluate(values);
   }
 
   private notPositive(values: Values): Wall | null {

@@ -28,6 +28,8 @@ const SHARE = 0.2;
 const FEWEST = 41, MOST = 500, MOMENT = 400, TRIED = 4;
 // Between two readings of tables and fields, ms.
 const REST = 90;
+// Digits of dimensions that a hand has moved, the fewest first.
+const DIGITS = [4, 5, 7];
 
 export class Session {
   readonly model: Model;
@@ -81,15 +83,26 @@ export class Session {
     this.future = [];
   }
 
-  /** A change has ended; one that changed nothing leaves no step behind. */
-  end(): void {
+  /** A change has ended; one that changed nothing leaves no step behind. What a hand has moved (`roughly`) is rounded. */
+  end(roughly = false): void {
     const before = this.past[this.past.length - 1];
+    if (roughly && before && !this.model.wall) this.round(before);
     if (before && same(before, this.model.values)) this.past.pop();
     if (this.view?.outside) this.view.fit();
     this.sweep(this.swept.value);
     this.touched();
     if (this.stale) this.calmed();
     this.ended?.();
+  }
+
+  /** Takes the changed dimensions with as few digits as a file is written with, where the machine can have them. */
+  private round(before: Values): void {
+    const { model } = this, changed = this.data.dimensions.filter(({ address }) => model.values[address] !== before[address]);
+    for (const digits of DIGITS) {
+      const near = changed.map(({ address, factor }) => [address, Number((model.values[address] / factor).toPrecision(digits)) * factor]);
+      const rounded = { ...model.values, ...Object.fromEntries(near) };
+      if (model.allows(rounded)) return model.change(rounded);
+    }
   }
 
   /** Goes on where another session of the same machine was: what is shown, kept and compared with. */
@@ -104,6 +117,8 @@ export class Session {
     if (chosen.join() !== old.data.curves.join() && chosen.every(known)) this.curves.value = chosen;
     const points = new Set(this.data.points.map(({ key }) => key));
     Object.assign(this.shown, old.shown, { paths: new Set([...old.shown.paths].filter((key) => points.has(key))) });
+    const close = (address: string) => Math.abs(this.model.values[address] - old.model.values[address]) <= 1e-9 * Math.abs(this.model.values[address]);
+    if (this.data.dimensions.every(({ address }) => close(address))) this.model.wall = old.model.wall;
     for (const address of old.model.locked) if (address in this.model.values) this.model.locked.add(address);
   }
 
@@ -233,7 +248,7 @@ function splice(text: string, [start, end]: [number, number], by: string): strin
 }
 
 function written(value: number): string {
-  return String(Number(value.toPrecision(10)));
+  return String(Number(value.toPrecision(12)));
 }
 
 function same(a: Values, b: Values): boolean {

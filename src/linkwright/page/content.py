@@ -31,8 +31,8 @@ from linkwright.study.loaded_cycle import SIZES
 from linkwright.words import LANGUAGES, catalogue, say
 
 Plain = dict[str, Any]
-#: Areas of the catalogue that pages carry.
-_AREAS = ("page", "outcome")
+#: What of a position's outcome a page can find itself.
+_OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
 _TAGS = {"en": "en", "zh": "zh-CN"}
 
 
@@ -47,7 +47,8 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
     found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
     words = {
-        each: {f"{area}.{key}": text for area in _AREAS for key, text in catalogue(area, each).items()}
+        each: {f"page.{key}": text for key, text in catalogue("page", each).items()}
+        | {f"outcome.{key}": catalogue("outcome", each)[key] for key in _OUTCOMES}
         for each in LANGUAGES
     }
     data = {"language": language, "words": words, "models": [each for each, _ in found]}
