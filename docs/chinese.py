@@ -59,7 +59,8 @@ MEANINGS = {
     "velocity at its end, where both sides can meet it": "段末的速度，两侧都能满足时",
     "acceleration at its end": "段末的加速度",
     "angles of a table of the lift, increasing within a turn": "升程数表的角度，一周内递增",
-    "lifts of the table; between them a periodic spline": "数表的升程；其间为周期样条",
+    "lifts of the table, between them a periodic spline; four equal ones or more are a rest":
+        "数表的升程，其间为周期样条；四个及以上相等的值为休止",
     "their numbers of teeth [a, b]": "齿数 [a, b]",
     "pitch of the chain, with teeth": "链节距，与齿数同用",
     "ratio of b's speed to a's on the carrier: negative external, positive internal":

@@ -216,7 +216,7 @@ def model_file(language: str = "en") -> Iterator[str]:
 def sentence(schema: Mapping[str, Any], language: str) -> str:
     """What a key is, in its own words."""
     found = str(schema.get("description", ""))
-    text = " ".join((MEANINGS[found] if language == "zh" and found else found).replace("``", "`").split())
+    text = " ".join((MEANINGS.get(found, found) if language == "zh" else found).replace("``", "`").split())
     stop = "。" if language == "zh" else "."
     return text[:1].upper() + text[1:] + (stop if text and not text.endswith((".", "。")) else "")
 
@@ -250,7 +250,7 @@ def form(schema: Mapping[str, Any], language: str) -> str:
     words = FILE_WORDS[language]
 
     def said(word: str) -> str:
-        return FORMS[word] if language == "zh" and word else word
+        return FORMS.get(word, word) if language == "zh" else word
 
     if "enum" in schema:
         return ", ".join(f"`{each}`" for each in schema["enum"])
@@ -293,7 +293,7 @@ def functions(language: str) -> Iterator[str]:
     shown = names_shown(language)
     english = {} if language == "en" else names_shown("en")
     for name in sorted((each for names in lw.PUBLIC.values() for each in names), key=str.lower):
-        text = NAMES[name] if language == "zh" else plain(first_line(getattr(lw, name)))
+        text = NAMES.get(name, "") if language == "zh" else plain(first_line(getattr(lw, name)))
         pages = (shown.get(name) or english[name])[:3]
         links = ", ".join(f"[{heading(each)}](../../{each.relative_to(ROOT).as_posix()})" for each in pages)
         yield f"| [`{name}`](../en/api.markdown#{name.lower()}) | {cell(text)} | {links} |"

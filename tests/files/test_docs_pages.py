@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -62,3 +63,20 @@ def test_links_of_pages_lead_to_pages() -> None:
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text("utf-8")):
             found = page.parent / target
             assert "made" in found.parts or found.exists(), f"{page}: {target}"
+
+
+def test_every_key_and_every_name_is_told_in_chinese() -> None:
+    """A changed sentence of the schema asks for its Chinese one in ``docs/chinese.py``."""
+    told = set(pages.MEANINGS)
+
+    def said(schema: object) -> Iterator[str]:
+        if isinstance(schema, dict):
+            if isinstance(schema.get("description"), str):
+                yield schema["description"]
+            schema = list(schema.values())
+        if isinstance(schema, list):
+            for each in schema:
+                yield from said(each)
+
+    assert set(said(lw.json_schema())) - {""} == told
+    assert set(pages.NAMES) == {name for names in lw.PUBLIC.values() for name in names}
