@@ -86,9 +86,19 @@ class CompiledPaths:
         """The best of them, in order."""
         return self.of_starts(self.starts[np.argsort(self.deviation, kind="stable")[:count]])
 
+    def joined(self, other: CompiledPaths) -> CompiledPaths:
+        """These and others of the same demand."""
+        return self.of_starts(np.concatenate([self.starts, other.starts]))
+
     def of_starts(self, starts: Floats) -> CompiledPaths:
         """The same demand with other starts."""
         return replace(self, starts=starts)
+
+    def moved(self, free: Floats, angles: Floats) -> CompiledPaths:
+        """Untimed starts with other free numbers (K, 3) and crank angles (K, points), judged, to be iterated anew."""
+        starts = self.starts.copy()
+        starts[:, :3], starts[:, ANGLES:], starts[:, 6] = free, angles, FIRST_DAMPING
+        return self.of_starts(starts).judged()
 
     def judged(self) -> CompiledPaths:
         """With the linear numbers and the deviation of each, without the bound."""
