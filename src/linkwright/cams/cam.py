@@ -23,8 +23,6 @@ from linkwright.fields.base import Field
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem, fault
 
-CLOSURES = ("force", "groove", "conjugate")
-
 
 @dataclass(frozen=True)
 class CamLimits:

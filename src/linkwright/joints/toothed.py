@@ -262,10 +262,6 @@ class WheelCut(Cut):
     def bend(self, states: States) -> list[Scalar]:
         return [self._sum(lambda end: states[end].alpha)]
 
-    def centre_line(self, poses: Poses) -> Vec:
-        """From the centre of a to that of b, in frame axes."""
-        return poses[self.carrier].spin(self.centre_b - self.centre_a)
-
     def place(self, end: str, poses: Poses) -> Vec:
         """The centre of wheel a."""
         return poses[self.carrier].point(self.centre_a)

@@ -11,6 +11,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.units import format as shown
 from linkwright.words.sentence import Sentence, together
@@ -24,16 +25,21 @@ class FrictionError(LinkwrightError):
     """Friction for which no finite driver effort is found."""
 
 
-def run_forces(motion: Motion, static: bool, solver: ForceSolver | None = None) -> Forces:
-    """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again."""
+def run_forces(
+    motion: Motion, static: bool, solver: ForceSolver | None = None, signals: MotionSignals | None = None
+) -> Forces:
+    """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again.
+
+    ``signals``: what its loads follow, where more of its cycle is known than the motion tells.
+    """
     solver = solver or ForceSolver(motion.solver, inertia=not static)
-    fields = _load_fields(motion, solver)
+    fields = _load_fields(motion, solver, signals)
     if solver.friction.terms:
-        fields = with_friction(motion, solver, fields)
-    return evaluated(motion, solver, fields, static)
+        fields = _with_friction(motion, solver, fields)
+    return _evaluated(motion, solver, fields, static)
 
 
-def evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
+def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
     names = tuple(solver.outputs.standard())
     values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
@@ -72,12 +78,11 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
+def _load_fields(motion: Motion, solver: ForceSolver, signals: MotionSignals | None) -> dict[str, Floats]:
     """Load magnitudes that depend on the position; friction starts from zero."""
-    from linkwright.kinetostatics.signals import MotionSignals
     from linkwright.loads.magnitude import evaluate
 
-    signals = MotionSignals(motion)
+    signals = signals or MotionSignals(motion)
     fields: dict[str, Floats] = {}
     for name in solver.fields_needed():
         kind, _, key = name.partition(":")
@@ -88,14 +93,14 @@ def _load_fields(motion: Motion, solver: ForceSolver) -> dict[str, Floats]:
     return fields
 
 
-def with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
+def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
     """Friction that agrees with the reactions it causes, by fixed-point iteration."""
     terms = solver.friction.terms
     rates = {term.field: _rate(motion, term) for term in terms}
     previous = np.inf
     growing = 0
     for _ in range(FRICTION_STEPS):
-        forces = evaluated(motion, solver, fields, False)
+        forces = _evaluated(motion, solver, fields, False)
         sizes = friction_sizes(terms, {t.field: _pressing(forces, t) for t in terms}, rates)
         change = _change(fields, sizes, motion)
         fields = {**fields, **sizes}

@@ -77,36 +77,15 @@ class Resolver:
 
     def forces(self, motion: Motion) -> Forces:
         """Forces of such a motion."""
-        from linkwright.kinetostatics import run
+        from linkwright.kinetostatics.run import run_forces
 
-        assert self._forces is not None
-        solver = self._forces.solver
-        fields = self._fields(motion)
-        if solver.friction.terms:
-            fields = run.with_friction(motion, solver, fields)
-        return run.evaluated(motion, solver, fields, self._forces.static)
+        known = self._forces
+        assert known is not None
+        return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals))
 
     def active(self, phase: Phase, time: Floats) -> NDArray[np.bool_]:
         """Whether a load of this phase acts at some times, (n,)."""
         return activity(phase, _SameCycle(self.motion(time), self._signals)).where
-
-    def _fields(self, motion: Motion) -> dict[str, Floats]:
-        """Magnitudes of the loads and relative angles of such a motion; friction starts at zero."""
-        from linkwright.loads.magnitude import evaluate
-
-        assert self._forces is not None
-        signals = _SameCycle(motion, self._signals)
-        fields: dict[str, Floats] = {}
-        for name in self._forces.solver.fields_needed():
-            kind, _, key = name.partition(":")
-            if kind == "load":
-                fields[name] = evaluate(motion.mechanism.loads[key], signals)
-            elif kind == "angle":
-                a, b = key.split("|")
-                fields[name] = signals.angle_between(a, b, float(self._forces.fields[name][0]))
-            else:
-                fields[name] = np.zeros(motion.steps)
-        return fields
 
     @cached_property
     def _signals(self) -> MotionSignals:

@@ -159,10 +159,6 @@ class Structure:
         """The highest class of its groups."""
         return max((group.assur_class for group in self.groups), default=1)
 
-    def group_of(self, link: str) -> Group:
-        """The group in which a link is solved."""
-        return next(group for group in self.groups if link in group.links)
-
     def text(self, language: str = "en") -> str:
         """The structure analysis as a student would write it, in English (``en``) or Chinese (``zh``)."""
         from linkwright.structure.text import describe
