@@ -107,6 +107,8 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
         path = motion.point("P").position @ [1, 1j]
         assert curve_distance(path, size * FOUR, False) == pytest.approx(each.error, rel=0.03)
         assert np.abs(path[0] - each.curve[0]) < 1e-4 * size
+        speed = np.abs(np.diff(path) / np.diff(motion.input)).max() * 2 * math.pi
+        assert speed == pytest.approx(each.values["fastest_at_1_Hz"], rel=0.01)
     turning = lw.loads(found.model_text(0).split("cycle:")[0])
     whole = lw.solve_motion(turning, steps=720)
     places = {name: whole.point(name).position @ [1, 1j] for name in found.best.linkage.points}

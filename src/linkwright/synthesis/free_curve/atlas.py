@@ -38,8 +38,8 @@ M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
 #: Joints of each level, with the dyads, structures and draws of its atlas; the last level starts from the others.
-LEVELS = ((5, 1, 1, 40000), (8, 2, 60, 1600), (10, 3, 150, 800))
-EDITION = 2
+LEVELS = ((5, 1, 1, 40000), (8, 2, 100, 960), (10, 3, 300, 400))
+EDITION = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +51,8 @@ class Atlas:
     which: NDArray[np.int32]
     curves: NDArray[np.int8]
 
-    def find(self, target: Target, count: int) -> list[Design]:
-        """The linkages whose curves, or parts of them, are most like the target."""
+    def matches(self, target: Target) -> Matches:
+        """How well each curve, or the best part of it, fits the target."""
         wanted = list(_windows(target))
         filters = [
             np.conj(np.fft.fft(np.pad(each, (0, M - len(each))))).astype(np.complex64) for _, each in wanted
@@ -63,10 +63,10 @@ class Atlas:
             best[:, first:last] = _match(self.curves[first:last], wanted, filters, target.closed)
 
         spread_over(len(self.curves), BLOCK, cores(), match)
-        chosen = np.argsort(-best[0], kind="stable")[:count]
-        return [self._design(i, *wanted[int(best[1, i])], int(best[2, i])) for i in chosen]
+        return Matches(self, wanted, best, np.argsort(-best[0], kind="stable"))
 
-    def _design(self, i: int, mirror: bool, wanted: Complexes, lag: int) -> Design:
+    def design(self, i: int, mirror: bool, wanted: Complexes, lag: int) -> Design:
+        """A linkage laid on a target by its curve's part from ``lag`` on."""
         structure, row = self.which[i]
         nodes, x = self.structures[structure], self.x[structure][row].astype(float)
         angle, length = np.linspace(0, 2 * np.pi, 145), len(wanted)
@@ -79,6 +79,24 @@ class Atlas:
         part = np.tile(_complex(self.curves[i]), 2)[lag : lag + length]
         turn = float(np.angle(np.sum(np.conj(part) * wanted)))
         return Design(nodes, np.concatenate([x, [turn, first, span]]), mirror)
+
+
+@dataclass(frozen=True, eq=False)
+class Matches:
+    """The linkages of an atlas in ``order`` of their likeness to a target, with window and first point of each."""
+
+    atlas: Atlas
+    wanted: list[tuple[bool, Complexes]]
+    best: NDArray[np.float32]
+    order: NDArray[np.intp]
+
+    def designs(self, block: int, count: int, most: int) -> Iterator[Design]:
+        """A block of ``count`` with at most so many joints, the most alike in block 0; blocks come round again."""
+        joints = np.array([len(each) // 4 for each in self.atlas.structures])
+        rows = self.order[joints[self.atlas.which[self.order, 0]] <= most]
+        first = block % max(1, len(rows) // count) * count
+        for i in rows[first : first + count]:
+            yield self.atlas.design(i, *self.wanted[int(self.best[1, i])], int(self.best[2, i]))
 
 
 def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:
@@ -132,7 +150,7 @@ def make(level: int) -> Atlas:
     """The atlas of a level, from its own seed: the same everywhere."""
     joints, dyads, structures, draws = LEVELS[level]
     draw = np.random.default_rng(level + 1)
-    found = [random_structure(dyads, joints, draw) for _ in range(structures)]
+    found = _structures(dyads, joints, structures, draw)
     kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * structures
     seeds = draw.integers(1 << 60, size=structures)
 
@@ -147,6 +165,15 @@ def make(level: int) -> Atlas:
     )
     curves = np.concatenate([curve for _, curve in parts])
     return Atlas(tuple(found), tuple(x for x, _ in parts), which.astype(np.int32), curves)
+
+
+def _structures(dyads: int, joints: int, count: int, draw: np.random.Generator) -> list[Whole]:
+    """So many different structures."""
+    found: dict[bytes, Whole] = {}
+    while len(found) < count:
+        nodes = random_structure(dyads, joints, draw)
+        found.setdefault(nodes.tobytes(), nodes)
+    return list(found.values())
 
 
 def _draws(nodes: Whole, draws: int, draw: np.random.Generator) -> tuple[Floats, NDArray[np.int8]]:

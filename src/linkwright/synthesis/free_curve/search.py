@@ -1,38 +1,49 @@
-"""The search: fewest links first, each level from its atlas and from the designs of the levels below.
+"""The search: fewest joints first, each level from its atlas and from the designs of the levels below.
 
-A level looks its atlas up, lets many starts descend a little, the best of them on, and keeps a pool of good designs
-of different structure that err in different places. Until its share of the time is over, an attempt shakes a member
-of the pool, or hangs one more dyad on a member of the pools below, and descends. At the end the best are polished at
-fine positions, with the penalties weighted so that the demands hold.
+A level lets many starts from its atlas descend a little, the best of them on, and keeps a pool of good designs of
+different structure that err in different places. Until its share of the time is over, an attempt shakes a member of
+the pool, or hangs one more dyad on a member of the pools below, parts joints while there is room, and descends. A
+pool soon turns about what it has found, so all levels begin again in rounds, from other starts; at last the designs
+of all rounds go on together. The best are polished at fine positions, with the penalties weighted so that the demands
+hold.
 """
 
 from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 import numpy as np
 
 from linkwright.engine.threads import cores
-from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
+from linkwright.synthesis.free_curve.atlas import atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
 from linkwright.synthesis.free_curve.target import COARSE, FINE, Target
 
-#: Most joints of each level, and the share of the time after which it ends, for each number of levels.
+#: Most joints of a four-bar, six-bar, eight-bar and of any linkage; of each level, and its part of the time.
 JOINTS = (5, 8, 10, 12)
-SHARES = {1: (1.0,), 2: (0.2, 1.0), 3: (0.1, 0.45, 1.0), 4: (0.06, 0.28, 0.55, 1.0)}
-#: Starts from an atlas; those that descend on, and further on; iterations of each step.
-STARTS, HALVED, CHOSEN = 2000, 250, 50
+LEVELS = {5: 1.0, 7: 2.0, 8: 2.5, 9: 3.0, 10: 3.5, 12: 8.0}
+#: Starts from an atlas; those that descend on, and further on; how many begin together.
+STARTS, HALVED, CHOSEN, SOME = 4000, 500, 50, 200
+#: Number of the atlas by most joints.
+ATLASES = {5: 0, 6: 1, 7: 1, 8: 1, 9: 2, 10: 2}
+#: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
+#: the rounds go on together, and after which the best are polished.
+ROUND, MERGED, ENDED = 1.5, 0.85, 0.96
 POOL, BATCH = 30, 0.2
 #: Chance that a design with room for one more joint gets one.
 PARTED = 0.8
 #: Dyads drawn of which a promising one is taken.
 DRAWS = 96
+#: Share of the attempts that goes on after each of two steps, among this many recent ones.
+GOES_ON, RECENT = (0.6, 0.25), 200
 #: Designs err alike whose misses have a product above this; as many of them stay in a pool.
 NICHE, CROWD = 0.9, 4
 #: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
@@ -44,6 +55,15 @@ class Pool:
     """The best designs so far, few of one structure or erring alike, none twice."""
 
     designs: list[Design] = field(default_factory=list)
+    tried: tuple[deque[float], ...] = field(
+        default_factory=lambda: tuple(deque(maxlen=RECENT) for _ in GOES_ON)
+    )
+
+    def promises(self, step: int, value: float) -> bool:
+        """Whether a descent goes on after a step: it is among the best share of the recent ones, or in the pool."""
+        recent = self.tried[step]
+        recent.append(value)
+        return value < self.worst or sum(each < value for each in tuple(recent)) < GOES_ON[step] * len(recent)
 
     def add(self, design: Design) -> None:
         """Takes a design in where it is good and different enough in structure and in where it errs."""
@@ -107,34 +127,61 @@ class Search:
 
     def run(self) -> list[Design]:
         """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
-        limits = [each for each in JOINTS if each < self.joints] + [self.joints]
-        shares, self.begin, self.draw = (
-            SHARES[len(limits)],
-            time.perf_counter(),
-            np.random.default_rng(self.seed),
-        )
-        pools: list[Pool] = []
-        found: list[Design] = []
+        limits = [each for each in LEVELS if each < self.joints] + [self.joints]
+        self.begin, self.draw = time.perf_counter(), np.random.default_rng(self.seed)
+        self.best = {most: Pool() for most in limits}
         with ThreadPoolExecutor(cores()) as self.workers:
             try:
-                for level, most in enumerate(limits):
-                    pools.append(Pool())
-                    self._level(level, most, pools, shares[level])
-                    found += self._polished(pools[-1])
+                self._rounds()
+                self._level(limits[-1], self.best, self.begin + ENDED * self.seconds)
+                return [
+                    each
+                    for most in limits
+                    if most in JOINTS or most == self.joints
+                    for each in self._polished(self.best[most])
+                ]
             except KeyboardInterrupt:
-                found += [each for pool in pools for each in pool.designs[:4]]
+                found = [each for pool in self.best.values() for each in pool.designs[:4]]
                 if not found:
                     raise
-        return found
+                return found
 
-    def _level(self, level: int, most: int, pools: list[Pool], share: float) -> None:
-        pool, below = pools[-1], [each for each in pools[max(0, level - 2) : level] if each.designs]
-        if level < len(LEVELS):
-            for each in self._starts(level):
-                pool.add(each)
-        for one in below[-1].designs[:10] if below else []:
-            pool.add(one)
-        end = self.begin + share * self.seconds - 0.03 * self.seconds
+    def _rounds(self) -> None:
+        """As many rounds as the time holds, after the atlases have been looked up."""
+        used = {ATLASES[most] for most in self.best if most in ATLASES}
+        self.matches = {level: atlas(level).matches(self.target) for level in used}
+        over = (time.perf_counter() - self.begin) / self.seconds
+        rounds = max(1, round(self.seconds * cores() / (ROUND * sum(self._parts()))))
+        times = np.linspace(over, max(over, MERGED), rounds + 1)
+        for number in range(rounds):
+            self._round(number, times[number], times[number + 1])
+
+    def _round(self, number: int, begin: float, end: float) -> None:
+        """All levels once, from starts of the atlases that no round had before."""
+        pools: dict[int, Pool] = {}
+        parts = np.cumsum(self._parts())
+        for most, part in zip(self.best, parts / parts[-1], strict=True):
+            before = [pools[limit].designs[:10] for limit in pools][-1:]
+            pool = pools[most] = Pool()
+            over = self.begin + (begin + (end - begin) * part) * self.seconds
+            try:
+                for each in self._starts(number, most, over) if most in ATLASES else []:
+                    pool.add(each)
+                for each in before[0] if before else []:
+                    pool.add(each)
+                self._level(most, pools, over)
+            finally:
+                for each in pool.designs:
+                    self.best[most].add(each)
+
+    def _parts(self) -> list[float]:
+        """Parts of the time of all levels."""
+        return [LEVELS.get(most, LEVELS[12]) for most in self.best]
+
+    def _level(self, most: int, pools: dict[int, Pool], end: float) -> None:
+        """Attempts until the time is over."""
+        pool = pools[most]
+        below = [each for limit, each in pools.items() if limit <= most - 2 and each.designs][-2:]
 
         def work(seed: int) -> None:
             draw, stop = np.random.default_rng(seed), min(time.perf_counter() + BATCH, end)
@@ -150,11 +197,19 @@ class Search:
                 over = (time.perf_counter() - self.begin) / self.seconds
                 self.progress(min(over, 1.0), pool.designs[0].value)
 
-    def _starts(self, level: int) -> Iterable[Design]:
-        """The best of an atlas, after descents."""
-        starts = atlas(level).find(self.target, STARTS)
-        self.attempts += len(starts)
-        near = self._best(starts, lambda each: self.target.descend(each, 15, COARSE), HALVED)
+    def _starts(self, number: int, most: int, end: float) -> Iterable[Design]:
+        """Starts of an atlas with at most so many joints, after descents; half the time of the level at most."""
+        starts, half = (
+            self.matches[ATLASES[most]].designs(number, STARTS, most),
+            0.5 * (time.perf_counter() + end),
+        )
+        near: list[Design] = []
+        while some := list(islice(starts, SOME)):
+            near += self.workers.map(lambda each: self.target.descend(each, 15, COARSE), some)
+            if time.perf_counter() > half:
+                break
+        self.attempts += len(near)
+        near = sorted(near, key=lambda each: each.value)[: max(SOME // 4, HALVED * len(near) // STARTS)]
         nearer = self._best(near, lambda each: self.target.eased(each, 60), CHOSEN)
         return self._checked(self._best(nearer, lambda each: self.target.eased(each, 150), CHOSEN))
 
@@ -168,10 +223,10 @@ class Search:
         """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
         design = self._next(draw, most, pool, below)
         design = self.target.descend(self.target.descend(design, 25, COARSE), 10)
-        if design.value < 2 * pool.worst:
+        if pool.promises(0, design.value):
             design = self.target.eased(design, 60)
-        if design.value < 1.2 * pool.worst:
-            return self.target.checked(self.target.eased(design, 200))
+            if pool.promises(1, design.value):
+                return self.target.checked(self.target.eased(design, 200))
         return replace(design, value=FAR)
 
     def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
