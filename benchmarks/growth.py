@@ -61,7 +61,7 @@ class Chain:
     def traced(self) -> Program:
         """The driver's torque and the valid positions as a program."""
         motion: MotionTrace = trace_motion(self.mechanism, self.structure)
-        effort = next(iter(trace_forces(motion).efforts.values()))
+        effort = next(iter(trace_forces(motion, inertia=True, along_input=frozenset()).efforts.values()))
         return Program.of(motion.trace, {EFFORT: effort, "valid": motion.valid})
 
     def compiled(self) -> machine_code.Loaded:

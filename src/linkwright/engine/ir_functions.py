@@ -50,11 +50,9 @@ def number(value: float) -> str:
 
 def vector_functions(body: list[str], width: int) -> list[str]:
     """The functions that the instructions of a module call."""
-    found = []
-    for name, writer in _WRITERS.items():
-        if any(f"@{VECTOR}{name}(" in line for line in body):
-            found += writer(_Lanes(name, width))
-    return found
+    calls = "".join(line for line in body if VECTOR in line)
+    wanted = [name for name in _WRITERS if f"@{VECTOR}{name}(" in calls]
+    return [line for name in wanted for line in _WRITERS[name](_Lanes(name, width))]
 
 
 class _Lanes:

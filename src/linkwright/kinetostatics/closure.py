@@ -39,13 +39,13 @@ def transmission(outputs: MotionOutputs, group: Group) -> Scalar:
 def conditioning(outputs: MotionOutputs, group: Group) -> Scalar:
     """Determinant of the closure equations with unit columns, 0 (singular) to 1; a dyad's is sin μ."""
     columns = _columns(outputs, group)
-    found = absolute(determinant(columns))
+    squares: Scalar = 1.0
     for column in columns:
         square: Scalar = 0.0
         for entry in column:
             square = square + entry * entry
-        found = found / sqrt(square)
-    return found
+        squares = squares * square
+    return absolute(determinant(columns)) / sqrt(squares)
 
 
 def _columns(outputs: MotionOutputs, group: Group) -> list[list[Scalar]]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.stage import Backend, Run, code_for
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.cycle import Positions
@@ -49,8 +50,8 @@ def near_enough(positions: Positions) -> float:
 class ChangePoints:
     """Looks for change points of one mechanism's designs."""
 
-    def __init__(self, traced: Traced) -> None:
-        self.traced = traced
+    def __init__(self, traced: Traced, backend: Backend = "auto") -> None:
+        self.traced, self.backend = traced, backend
         placed = traced.solver.motion.placed
         self.groups = tuple(modal_groups(traced.solver.structure))
         qualities = {name: placed[name].quality for name in self.groups}
@@ -80,6 +81,14 @@ class ChangePoints:
             np.concatenate([self._low(columns), self._parallel(columns), self._meeting(columns)])
         )
 
+    def _along(self, program: NumpyProgram, table: Floats) -> Floats:
+        """Outputs at all positions, (designs, outputs, n); compiled where that pays."""
+        arrays, count = self.traced.positions.arrays, self.traced.positions.count
+        code = code_for(program.program, None, Run(arrays, count, None, 1, self.backend), len(table))
+        if code is None:
+            return program.run_designs(table, arrays, length=count)
+        return code.store(table, arrays, length=count)
+
     def _meeting(self, columns: Mapping[str, Floats]) -> Numbers:
         """Designs in which the outer pins of a group meet between two positions, or pass too near to each other."""
         positions = self.traced.positions
@@ -87,7 +96,7 @@ class ChangePoints:
             return np.empty(0, dtype=np.intp)
         anywhere, groups = self.pins_anywhere, len(self.pins.program.outputs) // 2
         table = self.traced.table(self.pins.program, columns)
-        square = self.pins.run_designs(table, positions.arrays, length=positions.count)[:, :groups]
+        square = self._along(self.pins, table)[:, :groups]
         edges = square[:, :, [-1, 0]] if positions.closed else np.full((*square.shape[:2], 2), np.inf)
         around = np.concatenate([edges[:, :, :1], square, edges[:, :, 1:]], axis=2)
         largest = square.max(axis=2, keepdims=True)
@@ -113,7 +122,7 @@ class ChangePoints:
             return np.empty(0, dtype=np.intp)
         positions = self.traced.positions
         table = self.traced.table(self.sines.program, columns)
-        sign = np.sign(self.sines.run_designs(table, positions.arrays, length=positions.count))
+        sign = np.sign(self._along(self.sines, table))
         following = (
             np.roll(sign, -1, axis=2) if positions.closed else sign[:, :, [*range(1, sign.shape[2]), -1]]
         )
@@ -123,9 +132,7 @@ class ChangePoints:
         if not self.groups:
             return np.empty(0, dtype=np.intp)
         table = self.traced.table(self.along.program, columns)
-        quality = self.along.run_designs(
-            table, self.traced.positions.arrays, length=self.traced.positions.count
-        )
+        quality = self._along(self.along, table)
         before, after = np.roll(quality, 1, axis=2), np.roll(quality, -1, axis=2)
         valleys = (
             (np.abs(quality) < near_enough(self.traced.positions)) & (quality <= before) & (quality < after)

@@ -190,7 +190,7 @@ class SweepRun:
 
     @cached_property
     def _touching(self) -> ChangePoints:
-        return ChangePoints(self.traced)
+        return ChangePoints(self.traced, self.manner.backend)
 
     @cached_property
     def _single(self) -> OneByOne:
