@@ -82,6 +82,10 @@ CASES = {
         "  m: {kind: belt, links: [a, b], radii: [30 mm, 40 mm]}",
         ("joints.m", "the radii add up to 0.07 m", "further apart"),
     ),
+    "pulleys that just touch": (
+        "  m: {kind: belt, links: [a, b], radii: [20 mm, 40 mm]}",
+        ("joints.m", "the radii add up to 0.06 m", "further apart"),
+    ),
     "rack without guide": (
         "  m: {kind: rack, pinion: a, rack: rack, through: T, radius: 20 mm}",
         ("joints.m.rack", "no guide leads from the rack 'rack'", "add a prismatic joint"),
@@ -285,3 +289,19 @@ def test_no_derivative_by_a_distance_that_wheels_fix() -> None:
             lw.sensitivity(five_bar, of=["driver.effort"], by=[address], steps=12)
     found = lw.sensitivity(five_bar, of=["driver.effort"], by=["mesh.phase", "bar_1.length"], steps=12)
     assert found.slope("driver.effort", "mesh.phase").shape == (12,)
+
+
+@pytest.mark.parametrize(
+    ("radii", "words"),
+    [
+        ("[20 mm, 10 mm]", []),
+        ("[10 mm, 20 mm]", ["2 turns of 'driver'"]),
+        ("[10 mm, 14.142135623730951 mm]", ["never"]),
+    ],
+)
+def test_a_belt_says_how_many_turns_its_cycle_takes(radii: str, words: list[str]) -> None:
+    pair = f"kind: belt, links: [a, b], radii: {radii}"
+    said = lw.solve_motion(lw.loads(MOVED.format(pair=pair)), steps=4).notes
+    assert len(said) == len(words)
+    for note, word in zip(said, words, strict=True):
+        assert word in str(note)

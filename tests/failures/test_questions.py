@@ -94,6 +94,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (lambda: at_inputs(six(), [np.nan]), ["driver"]),
         (lambda: at_times(six(), [0.0, np.inf]), ["time"]),
         (lambda: over_cycle(six(), 0), ["0"]),
+        (lambda: measured(["peak_reaction"], sampling="lattice"), ["lattice", "sobol"]),
         (lambda: criteria([]), ["metric"]),
         (lambda: measured(["travel"])["travle"], ["'travle'", "travel"]),
         (lambda: measured(["travel"]).best("travel"), ["travel"]),
