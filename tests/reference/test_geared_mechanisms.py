@@ -11,7 +11,7 @@ import pytest
 from tests.reference.adapter import driver_values, reference_system
 from tests.reference.agreement import floors, motion_comparison
 from tests.reference.geared import Geared, Wheels
-from tests.reference.geared_judge import TOLERANCE, disagreements, well_placed
+from tests.reference.geared_judge import TIMES, TOLERANCE, disagreements, well_placed
 from tests.reference.geared_mechanisms import GearedCase, geared_case
 from tests.reference.multibody import Motion
 
@@ -40,6 +40,12 @@ def test_every_piece_comes_up_and_some_groups_need_newtons_method() -> None:
 @pytest.mark.parametrize("index", range(25))
 def test_motion_and_forces_agree_with_the_reference(index: int) -> None:
     assert disagreements(*cases()[index]) == []
+
+
+def test_a_loop_that_ends_beside_wheels_without_loops_is_named() -> None:
+    """Its neighbours' rows are sums of rotations, which have no equations of their own among the loops."""
+    with pytest.raises(lw.LinkwrightError, match=r"\(l9, l10, l11, l12, l13\) cannot be followed"):
+        lw.solve_motion(lw.loads(geared_case(1000534).text), times=TIMES)
 
 
 WHEELS = ("external_gear_pair", "internal_gear_pair", "gear_differential", "geared_fivebar", "geared_fivebar_third",

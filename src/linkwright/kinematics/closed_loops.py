@@ -251,11 +251,13 @@ class ClosedLoops:
         return float(np.abs(step[: self.n] / self.scale).max())
 
     def weakest_group(self, y: Floats) -> str:
-        """The group whose own equations are nearest to singular at y."""
+        """The group whose own equations are nearest to singular at y; one that only pairs' sums place has none."""
         jacobian = self.jacobian(self.slopes(self.turned(y))) * self.scale * self.row_scale
         least: dict[str, float] = {}
         for group in dict.fromkeys(self.groups):
             rows = [k for k, name in enumerate(self.loop_groups) if name == group]
+            if not rows:
+                continue
             columns = [i for i, name in enumerate(self.groups) if name == group]
             block = jacobian[np.ix_([*rows, *(self.K + k for k in rows)], columns)]
             least[group] = float(np.linalg.svd(block, compute_uv=False)[-1])
