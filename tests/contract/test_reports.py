@@ -296,11 +296,27 @@ def test_a_machine_that_cannot_be_assembled_has_a_report_that_says_so_in_every_s
     assert any(isinstance(b, Formula) and b.label == "mobility" for b in found.document.blocks)
 
 
-def test_chinese_reports_of_the_reference_cases_hold_no_english_sentence() -> None:
-    for name in ("swing_conveyor", "jaw_crusher_fourbar", "fourbar_lecture", "rack_and_rocker"):
-        found = report(f"gallery:{name}", sections=["task", "structure", "errata"], language="zh")
+def test_chinese_reports_of_the_gallery_hold_no_english_sentence() -> None:
+    whole = ("swing_conveyor", "jaw_crusher_fourbar", "fourbar_lecture", "rack_and_rocker")
+    for name in lw.gallery_names():
+        sections = ["task", "structure", "errata"] if name in whole else ["task"]
+        found = report(f"gallery:{name}", sections=sections, language="zh")
         texts = [plain(b.text) for b in found.document.blocks if isinstance(b, Paragraph | Heading)]
         texts += [plain(cell) for b in found.document.blocks if isinstance(b, Table) and b.label == "errata"
                   for row in b.rows for cell in row]  # fmt: skip
         english = [text for text in texts if re.search(r"[a-z]{3,} [a-z]{2,} [a-z]{2,}", text)]
         assert english == []
+
+
+def test_word_files_list_their_sections_with_links_that_lead_there() -> None:
+    from docx import Document
+
+    made = report("gallery:kite", sections=["task", "structure", "method"], language="zh")
+    body = Document(io.BytesIO(made.content(".docx"))).element
+    anchors = body.xpath("//w:hyperlink/@w:anchor")
+    marks = set(body.xpath("//w:bookmarkStart/@w:name"))
+    assert anchors
+    assert set(anchors) <= marks
+    assert body.xpath('count(//w:instrText[contains(., "TOC")])') == 1
+    kinds = body.xpath("//w:fldChar/@w:fldCharType")
+    assert kinds.count("begin") == kinds.count("end") == kinds.count("separate") == 1

@@ -33,7 +33,7 @@ LISTED = 2
 #: Width of a character of a table, inches.
 LETTER = 0.062
 #: What the margins of a cell take, inches; size of the letters of tables, points.
-GAP, SMALL = 0.18, 8
+GAP, SMALL = 0.22, 8
 #: Fonts by language: of Latin letters, of Chinese characters.
 FONTS = ("Cambria", "SimSun")
 
@@ -87,7 +87,6 @@ class _Writer:
 
     def _contents(self) -> None:
         """The list of sections: a field that Word renews, with entries that every program shows."""
-        from docx.enum.text import WD_TAB_ALIGNMENT, WD_TAB_LEADER
         from docx.shared import Inches, Pt
 
         head = self.file.add_paragraph()
@@ -99,18 +98,22 @@ class _Writer:
             line = self.file.add_paragraph()
             line.paragraph_format.left_indent = Inches(0.25 * (block.level - 1))
             line.paragraph_format.space_after = Pt(0)
-            line.paragraph_format.tab_stops.add_tab_stop(
-                Inches(TEXT), WD_TAB_ALIGNMENT.RIGHT, WD_TAB_LEADER.DOTS
-            )
             if index == headings[0][0]:
                 _mark(line, "begin", f'TOC \\o "1-{LISTED}" \\h \\z \\u')
-            self._inline(line, f"{self.numbers.of[index]}  {block.text}")
-            line.add_run("\t")
-            _mark(line, "begin", f"PAGEREF b{index} \\h")
-            line.add_run("–")
-            _mark(line, "end")
+            self._entry(line, index, block)
         if headings:
             _mark(line, "end")
+
+    def _entry(self, line: Any, index: int, block: Heading) -> None:
+        """A section's number and title, leading there; its page is added where Word renews the field."""
+        from docx.oxml.ns import qn
+
+        before = len(line._p)
+        self._inline(line, f"{self.numbers.of[index]}  {block.text}")
+        link = line._p.makeelement(qn("w:hyperlink"), {qn("w:anchor"): f"b{index}"})
+        for part in line._p[before:]:
+            link.append(part)
+        line._p.append(link)
 
     def _block(self, index: int, block: Block) -> None:
         match block:
@@ -121,7 +124,11 @@ class _Writer:
                 self._bookmark(shown, index)
             case Paragraph():
                 style = {"bullet": "List Bullet", "missing": "Intense Quote", "note": "Intense Quote"}
-                self._inline(self.file.add_paragraph(style=style.get(block.kind)), block.text)
+                line = self.file.add_paragraph(style=style.get(block.kind))
+                line.paragraph_format.keep_with_next = block.kind == "lead" or block.text.endswith(
+                    (":", "：")
+                )
+                self._inline(line, block.text)
             case Formula():
                 self._formula(index, block)
             case Table():
