@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright import units
 from linkwright.errors import LinkwrightError, QuantityError
@@ -13,8 +13,10 @@ from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
 from linkwright.files.document import Document, content_end
 from linkwright.files.write import flow, scalar
-from linkwright.kinematics.motion import Motion
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
 
 Plain = dict[str, Any]
 

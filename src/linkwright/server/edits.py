@@ -15,7 +15,6 @@ from linkwright.files.model_file import read_text
 from linkwright.files.write import flow
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.page.dimensions import dimensions
 from linkwright.server.contacts import add_cam, add_rack
 from linkwright.server.draft import Draft, fresh, picture, texts
 from linkwright.units import number
@@ -189,6 +188,8 @@ def with_values(text: str, values: Mapping[str, float]) -> str:
 
     Raises LinkwrightError where the file has no place for one.
     """
+    from linkwright.page.dimensions import dimensions
+
     document = Document(text, "model", read_text)
     mechanism = document.mechanism.with_dimensions(values)
     drawn = [name for name, link in mechanism.links.items() if link.geometry == "drawing"]
