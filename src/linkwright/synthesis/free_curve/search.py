@@ -36,7 +36,7 @@ STARTS, HALVED, CHOSEN, SOME = 4000, 500, 50, 200
 ATLASES = {5: 0, 6: 1, 7: 1, 8: 1, 9: 2, 10: 2}
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
-ROUND, MERGED, ENDED = 1.5, 0.85, 0.96
+ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
 POOL, BATCH = 30, 0.2
 #: Chance that a design with room for one more joint gets one.
 PARTED = 0.8
