@@ -6,7 +6,7 @@ the image of pairs of dyads (x, X, w, W), (y, Y, v, V) that take them: irreducib
 M = 1).
 A further point is a linear condition on c, and no c satisfies it at all points; so N general points cut K in as many
 curves as N general linear forms do: deg K. It is what a start set must have: 1442 for nine points, of four-bars
-through one place and eight more points with their cognates; 30 and 201 for M = 4 and 3 poses.
+through one place and eight more points with their cognates; 30, 201 and 1112 for M = 4, 3 and 2 poses.
 
 A start set is carried from its points to a general linear section of K, and from there to two parallel ones, where
 the last of the forms l(c) = t λ(c) has moved on. The sum of c/λ(c) over a complete section is linear in t; that of a

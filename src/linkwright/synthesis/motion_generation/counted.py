@@ -35,7 +35,7 @@ Flags = NDArray[np.bool_]
 
 FILE = "mixed_starts.npz"
 #: Four-bars through M poses and 10 - 2 M points.
-KNOWN = {4: 30, 3: 201}
+KNOWN = {4: 30, 3: 201, 2: 1112}
 TOLERANCE, SMALLEST, LARGEST, MOST_STEPS = 1e-3, 1e-12, 0.2, 1500
 SAME, REAL, TURNS = 1e-7, 1e-6, 6
 
@@ -85,7 +85,7 @@ def real_ones(u: Complexes) -> Complexes:
 
 @cache
 def start_set(poses: int) -> tuple[Places, Complexes]:
-    """General complex places and the solutions there, for 3 or 4 poses."""
+    """General complex places and the solutions there, for 2, 3 or 4 poses."""
     with np.load(BytesIO((resources.files(__package__) / FILE).read_bytes()), allow_pickle=False) as data:
         places = Places(data[f"d{poses}"], data[f"e{poses}"], data[f"g{poses}"])
         u = data[f"u{poses}"].astype(complex)
