@@ -75,12 +75,12 @@ def _distance(case: Case, pair: WheelPair) -> float:
 
 
 def _radii(pair: WheelPair, distance: float) -> str:
-    """Pitch radii, mm: as given; of gears and rolling wheels else from ratio and centre distance."""
-    found = pair.radii
-    if found is None and not pair.kind.startswith(("belt", "chain")):
+    """Pitch radii, mm: of belts and chains, or as given; else from ratio and centre distance."""
+    found = pair.running_radii() or pair.radii
+    if found is None:
         i = pair.transmission
         found = (abs(distance * i / (i - 1.0)), abs(distance / (i - 1.0)))
-    return ", ".join(f"{1e3 * each:.6g}" for each in found) if found else "–"
+    return ", ".join(f"{1e3 * each:.6g}" for each in found)
 
 
 def _train(case: Case, train: GearTrain) -> Iterator[Block]:
