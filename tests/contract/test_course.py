@@ -221,3 +221,20 @@ def test_the_commands(
         assert say("course.mistake_rpm_for_radians", language) in shown and "100 %" in shown
     assert main(["grade", "answers.csv", "answers.csv"]) == 2
     assert np.all([p.stat().st_size for p in Path("bar-variants").iterdir()])
+
+
+def test_variants_are_equally_hard_by_a_measure_that_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No transmission angle far below the model's, no answer of another order of size than in another variant."""
+    made = lw.variants("gallery:jaw_crusher_fourbar", 3, seed=7)
+    hard = made.difficulty
+    assert hard.transmission_angle is not None
+    for each in made.variants:
+        own = [row.value for row in lw.metrics(lw.solve_motion(each.mechanism, steps=90))
+               if row.metric == "transmission_angle"]  # fmt: skip
+        assert hard.transmission_angle[0] - 1e-9 <= min(own) <= hard.transmission_angle[1] + 1e-9
+    assert 1.0 <= hard.ratio < 16.0
+    assert main(["variants", "gallery:jaw_crusher_fourbar", "--count", "2", "--to", "key", "--output",
+                 str(tmp_path / "out")]) == 0  # fmt: skip
+    assert "smallest transmission angle" in capsys.readouterr().out

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,13 +33,24 @@ APART = 3.0
 
 @dataclass(frozen=True)
 class Variant:
-    """One variant: ``dimensions`` (SI) that were changed, right ``answers`` and those of mistakes, by question."""
+    """One variant: ``dimensions`` (SI) that were changed, right ``answers`` and those of mistakes, by question;
+    ``transmission_angle``: the smallest over the cycle, rad, None where there is none."""
 
     number: int
     mechanism: Mechanism
     dimensions: Mapping[str, float]
     answers: tuple[float, ...]
     mistakes: tuple[tuple[Consequence, tuple[float, ...]], ...]
+    transmission_angle: float | None = None
+
+
+@dataclass(frozen=True)
+class Difficulty:
+    """``transmission_angle``: least and largest among the variants' smallest, rad; ``ratio``: of an answer's largest
+    to its smallest size, in the question where they lie furthest apart (angles left out)."""
+
+    transmission_angle: tuple[float, float] | None
+    ratio: float
 
 
 @dataclass(frozen=True)
@@ -54,6 +65,18 @@ class Variants:
     def name(self) -> str:
         """Name of the model."""
         return self.task.mechanism.name
+
+    @property
+    def difficulty(self) -> Difficulty:
+        """How far the variants lie apart in what makes a task hard."""
+        angles = [each.transmission_angle for each in self.variants if each.transmission_angle is not None]
+        ratios = [
+            max(abs(column)) / min(abs(column))
+            for column, question in zip(np.array([v.answers for v in self.variants]).T, self.task.questions,
+                                        strict=True)
+            if question.unit != "°" and np.all(column)
+        ]  # fmt: skip
+        return Difficulty((min(angles), max(angles)) if angles else None, max(ratios, default=1.0))
 
     def key(self) -> dict[str, Any]:
         """The answer key as plain data, which ``grade`` reads."""
@@ -179,7 +202,7 @@ def _sound(
         return None
     if bar is not None and (angle is None or angle < min(bar, GOOD) - SLACK):
         return None
-    fresh = _solved(asked, number, changes, mechanism)
+    fresh = replace(_solved(asked, number, changes, mechanism), transmission_angle=angle)
     alike = all(
         _alike(a, b, q) for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
     )

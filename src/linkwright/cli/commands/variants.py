@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from math import degrees
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
@@ -50,4 +51,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     else:
         questions = len(found.task.questions)
         session.show(say("variants.written", count=options.count, questions=questions, path=folder))
+        found_angles, ratio = found.difficulty.transmission_angle, f"{found.difficulty.ratio:.3g}"
+        if found_angles is None:
+            session.show(say("variants.spread", ratio=ratio))
+        else:
+            low, high = (f"{degrees(each):.3g}" for each in found_angles)
+            session.show(say("variants.difficulty", low=low, high=high, ratio=ratio))
     return 0

@@ -19,4 +19,7 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
     "folder_exists": "{path}: the folder is there already; name another with --output, or replace its files with "
     "--force",
     "written": "{count} variants with {questions} questions written: {path}",
+    "difficulty": "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ by {ratio} "
+    "times at most",
+    "spread": "difficulty: an answer's sizes differ by {ratio} times at most",
 }

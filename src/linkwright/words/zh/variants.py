@@ -16,4 +16,6 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
     "working": "变式",
     "folder_exists": "{path}：文件夹已存在；请用 --output 另取名称，或用 --force 替换其中的文件",
     "written": "已写出 {count} 个变式，每个 {questions} 问：{path}",
+    "difficulty": "难度：最小传动角 {low}° 至 {high}°；同一问的答案大小最多相差 {ratio} 倍",
+    "spread": "难度：同一问的答案大小最多相差 {ratio} 倍",
 }
