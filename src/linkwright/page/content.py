@@ -33,6 +33,11 @@ from linkwright.words import LANGUAGES, catalogue, say
 Plain = dict[str, Any]
 #: What of a position's outcome a page can find itself.
 _OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
+#: Words of the page's area that are said here, not by the page.
+_NAMES = frozenset((
+    "displacement", "slide_velocity", "slide_acceleration", "input_torque", "input_force", "reaction",
+    "shaking_force", "swing", "opening",
+))  # fmt: skip
 _TAGS = {"en": "en", "zh": "zh-CN"}
 
 
@@ -47,7 +52,7 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
     found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
     words = {
-        each: {f"page.{key}": text for key, text in catalogue("page", each).items()}
+        each: {f"page.{key}": text for key, text in catalogue("page", each).items() if key not in _NAMES}
         | {f"outcome.{key}": catalogue("outcome", each)[key] for key in _OUTCOMES}
         for each in LANGUAGES
     }
