@@ -36,8 +36,9 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complexfloating]
 Flags = NDArray[np.bool_]
 
-#: Places t of the parallel sections; what the residual may be; how near curves of one section are the same.
-SECTIONS, ENOUGH, SAME = (0.0, 0.7 + 0.4j, -0.5 + 0.8j), 1e-7, 1e-6
+#: Places t of parallel sections, of which two that no path is lost to are taken beside 0; what the residual may be;
+#: how near curves of one section are the same.
+SECTIONS, ENOUGH, SAME = (0.7 + 0.4j, -0.5 + 0.8j, 0.5 - 0.6j, -0.7 - 0.3j, 0.3j, -0.4), 1e-7, 1e-6
 TOLERANCE, SMALLEST, LARGEST, MOST_STEPS, WAYS = 1e-3, 1e-12, 0.2, 2000, 8
 
 
@@ -160,16 +161,18 @@ def general_section(
 
 def second_differences(first: Complexes, family: Family, section: Complexes, chart: Complexes) -> Complexes:
     """Divided second difference over the parallel sections of each curve's coordinates, (N, 15)."""
-    places = [coordinates(first, family.points, chart)]
-    for t in SECTIONS[1:]:
+    places, at = [coordinates(first, family.points, chart)], [0j]
+    for t in SECTIONS:
         moved = section.copy()
         moved[-1] -= t * chart
         ends, arrived = carried(first, family, section, moved)
-        if not arrived.all():
-            raise ArithmeticError(f"{int((~arrived).sum())} paths were lost on the way to a parallel section")
-        places.append(coordinates(ends, family.points, chart))
-    weights = [1 / np.prod([t - other for other in SECTIONS if other != t]) for t in SECTIONS]
-    return np.asarray(sum(weight * place for weight, place in zip(weights, places, strict=True)))
+        if arrived.all():
+            places.append(coordinates(ends, family.points, chart))
+            at.append(complex(t))
+        if len(at) == 3:
+            weights = [1 / np.prod([t - other for other in at if other != t]) for t in at]
+            return np.asarray(sum(weight * place for weight, place in zip(weights, places, strict=True)))
+    raise ArithmeticError("paths were lost on the way to every parallel section")
 
 
 def coordinates(z: Complexes, points: Complexes, chart: Complexes) -> Complexes:
