@@ -78,11 +78,13 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
     reaction, shaking = forces().reaction("O5", on="jaw"), forces().shaking_force
     expected = [*reaction.max(axis=0), *shaking.max(axis=0)]
     assert [found[f"{name} max"][0] for name in names] == pytest.approx(expected, rel=1e-9)
+    assert {found.quantities[name].dimension for name in names} == {"force"}
 
 
 @pytest.mark.parametrize(
     ("ask", "words"),
     [
+        (lambda: forces().reaction("O5", on="jaw", axes="jwa"), ["jwa", "jaw"]),
         (lambda: forces().reaction("O9"), ["O9", "joint"]),
         (lambda: forces().reaction("B"), ["joint 'B'", "say on which link", "on='pitman'"]),
         (lambda: forces().reaction("O5", on="crank"), ["'O5'", "does not touch", "'crank'"]),

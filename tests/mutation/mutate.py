@@ -51,6 +51,10 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
 }  # fmt: skip
 
 
+#: Functions whose arguments may change places.
+COMMUTATIVE = ("max", "min", "maximum", "minimum", "hypot", "gcd", "lcm")
+
+
 def mutants(path: str, source: str) -> list[Mutant]:
     """All mutants of one module."""
     tree = ast.parse(source)
@@ -134,7 +138,7 @@ def _arguments(node: ast.Call) -> Iterator[tuple[str, str]]:
     plain = [k for k, a in enumerate(node.args) if not isinstance(a, ast.Starred)]
     if len(plain) >= 2 and plain[:2] == [0, 1] and not isinstance(node.args[0], ast.JoinedStr):
         first, second, *others = node.args
-        if ast.dump(first) != ast.dump(second):
+        if ast.dump(first) != ast.dump(second) and ast.unparse(node.func).split(".")[-1] not in COMMUTATIVE:
             yield "arguments", _with(node, args=[second, first, *others])
 
 

@@ -41,6 +41,25 @@ def test_a_text_gives_its_si_value(text: str, dimension: str, value: float) -> N
 
 
 @pytest.mark.parametrize(
+    ("units_", "dimension", "values"),
+    [
+        ("m mm cm dm km µm μm um", "length", [1.0, 1e-3, 1e-2, 0.1, 1e3, 1e-6, 1e-6, 1e-6]),
+        ("s ms min h", "time", [1.0, 1e-3, 60.0, 3600.0]),
+        ("kg g t lb", "mass", [1.0, 1e-3, 1e3, 0.45359237]),
+        ("N mN kN MN lbf kg·m/s²", "force", [1.0, 1e-3, 1e3, 1e6, 0.45359237 * 9.80665, 1.0]),
+        ("W kW J/s kJ/h", "power", [1.0, 1e3, 1.0, 1.0 / 3.6]),
+        ("Pa kPa MPa GPa bar N/mm²", "pressure", [1.0, 1e3, 1e6, 1e9, 1e5, 1e6]),
+        ("rad mrad deg ° rev", "angle", [1.0, 1e-3, math.pi / 180, math.pi / 180, 2 * math.pi]),
+        ("J N·m kJ", "torque", [1.0, 1.0, 1e3]),
+        ("Hz 1/s", "frequency", [1.0, 1.0]),
+    ],
+)
+def test_every_unit_by_its_definition(units_: str, dimension: str, values: list[float]) -> None:
+    found = [units.parse(f"2 {unit}", dimension) / 2 for unit in units_.split()]
+    assert found == pytest.approx(values, rel=1e-14)
+
+
+@pytest.mark.parametrize(
     ("text", "dimension", "code", "words"),
     [
         ("60,5 mm", "length", "decimal-comma", '"60.5 mm"'),
