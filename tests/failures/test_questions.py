@@ -93,6 +93,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (lambda: lw.solve_forces(lw.solve_motion(still())).input_torque, [still().name, "driver"]),
         (lambda: at_inputs(still(), [0.0]), [still().name, "no driver"]),
         (lambda: at_inputs(six(), {"motor": [0.0]}), ["motor", "driver"]),
+        (lambda: at_inputs(six(), {}), ["no input is given", "at={'driver': [0.5]}"]),
         (lambda: at_inputs(six(), [np.nan]), ["driver"]),
         (lambda: at_times(six(), [0.0, np.inf]), ["time"]),
         (lambda: over_cycle(six(), 0), ["0"]),

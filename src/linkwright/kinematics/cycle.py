@@ -107,6 +107,8 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     if not mechanism.drivers:
         raise CycleError(Sentence("motion.no_input_to_set", name=mechanism.name))
     given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
+    if not given:
+        raise CycleError(Sentence("motion.no_inputs", driver=next(iter(mechanism.drivers))))
     rows = {}
     for name, values in given.items():
         driver = _driver(mechanism, name)

@@ -8,6 +8,7 @@ WORDS = {
     "needs_drawing": "the group ({links}) of class {level} has no closed form; give the coordinates of its "
     "points in a drawing of the assembled mechanism: drawing: {{{points}: [x, y]}}",
     "bad_time": "a time is not a finite number; give times in seconds",
+    "no_inputs": "no input is given; give the coordinates of a driver, as in at={{{driver!r}: [0.5]}}",
     "no_input_to_set": "{name!r} has no driver, so there is no input to set; leave the input out",
     "own_law": "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
     "bad_input": "an input of driver {name!r} is not a finite number",

@@ -8,6 +8,7 @@ WORDS = {
     "needs_drawing": "杆组（{links}，{level} 级）没有闭式解；请在图中给出装配后各点的坐标：drawing: "
     "{{{points}: [x, y]}}",
     "bad_time": "有一个时刻不是有限的数；请以秒给出时刻",
+    "no_inputs": "没有给出输入；请给出某个驱动的坐标，例如 at={{{driver!r}: [0.5]}}",
     "no_input_to_set": "“{name}”没有驱动，因此没有可设的输入；请去掉输入",
     "own_law": "驱动“{name}”按自己的时间规律运动；请按时刻而不是按输入求位置",
     "bad_input": "驱动“{name}”的一个输入不是有限的数",
