@@ -161,9 +161,15 @@ class LiftWriter:
         once = [number(float(k)) * each if k > 1 else each for k, each in enumerate(factors)][1:]
         twice = [number(float(k * (k - 1))) * each for k, each in enumerate(factors)][2:]
         thousand = number(1000.0)
-        step.find(self.now.value, _horner(factors, t) / thousand, "m")
-        step.find(self.now.first, _horner(once, t) / (thousand * arc), "m/rad")
-        step.find(self.now.second, _horner(twice, t) / (thousand * arc.squared), "m/rad²")
+        marks = (("P", "P"), ("P'", "P'"), ("P''", "P''"))
+        parts = [_powers(factors, t), _powers(once, t), _powers(twice, t)]
+        found = [
+            step.find(self.named(*name, part.value), part, "mm")
+            for name, part in zip(marks, parts, strict=True)
+        ]
+        step.find(self.now.value, found[0] / thousand, "m")
+        step.find(self.now.first, found[1] / (thousand * arc), "m/rad")
+        step.find(self.now.second, found[2] / (thousand * arc.squared), "m/rad²")
 
 
 def _plain(latex: str) -> str:
@@ -183,9 +189,10 @@ def _plain(latex: str) -> str:
     return text
 
 
-def _horner(factors: list[Term], t: Term) -> Term:
-    """c₀ + t (c₁ + t (c₂ + …))."""
-    found = factors[-1]
-    for each in factors[-2::-1]:
-        found = each + t * found
+def _powers(factors: list[Term], t: Term) -> Term:
+    """c₀ + c₁ t + c₂ t² + …, which a line may break at every sign."""
+    found, power = factors[0], t
+    for each in factors[1:]:
+        found = found + each * power
+        power = t.squared if power == t else power * t
     return found
