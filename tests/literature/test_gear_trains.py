@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.study import sensitivity
 
 RPM = np.pi / 30.0
 ALPHA = np.radians(20.0)
@@ -165,6 +166,23 @@ def test_teeth_off_their_distance_keep_the_ratio_and_press_under_the_working_ang
         assert forces.input_torque == pytest.approx(plain.input_torque, rel=1e-12)
         lines = {line.symbol: line.value for line in lw.worked(forces).equations}
         assert lines["F_mesh,1x"] == pytest.approx(expected[0], rel=1e-6)
+
+
+def test_a_distance_as_a_file_rounds_it_has_the_given_angle_to_the_last_digit() -> None:
+    """F_r = F_t tan 20° at nine digits of the distance; it changes with the distance as under the working angle."""
+    pair = lw.load("gallery:external_gear_pair")
+    nominal = pair.frame.points["Q"][0]
+    rounded = pair.with_dimensions({"frame.Q.x": nominal * (1.0 + 4e-7)})
+    force = lw.solve_forces(lw.solve_motion(rounded, at=[0.0])).reaction("mesh", on="pinion")[0]
+    assert force[0] / force[1] == pytest.approx(np.tan(ALPHA), rel=1e-13)
+    found = sensitivity(pair, of=["reaction mesh on pinion.x"], by=["frame.Q.x"], steps=4)
+    steps = [pair.with_dimensions({"frame.Q.x": nominal + off}) for off in (-1e-6, 1e-6)]
+    ends = [
+        lw.solve_forces(lw.solve_motion(each, at=[0.0])).reaction("mesh", on="pinion")[0, 0] for each in steps
+    ]
+    assert found.slope("reaction mesh on pinion.x", "frame.Q.x")[0] == pytest.approx(
+        (ends[1] - ends[0]) / 2e-6, rel=1e-4
+    )
 
 
 @pytest.mark.parametrize("off", [6e-4, -6e-4])

@@ -10,7 +10,7 @@ from math import cos as cos_of
 from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, sqrt, tan
+from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
@@ -157,12 +157,17 @@ class GearPair(WheelPair):
         return dimensions.trace.logic("and", near, base * base <= line.square * (1.0 + 2.0 * FITS))
 
     def _slope(self, dimensions: Dimensions, square: Scalar) -> Scalar:
-        """tan of the pressure angle in mesh, at the square of the distance."""
+        """tan of the pressure angle in mesh, at the square of the distance.
+
+        A distance that fits, as a file rounds it, has the given angle to the last digit.
+        """
         angle = dimensions(f"{self.name}.pressure_angle")
         if not self.involute or (isinstance(angle, float) and angle == 0.0):
             return tan(angle)
-        base = self._asked(dimensions) * cos(angle)
-        return sqrt(maximum(square * reciprocal(base * base) - 1.0, 0.0))
+        wanted, root = self._asked(dimensions), cos(angle)
+        off = square * reciprocal(wanted * wanted) - 1.0
+        rounded = select(absolute(off) <= 2.0 * FITS * (1.0 + FITS), off, 0.0)
+        return sqrt(maximum((1.0 + off - stop(rounded)) * reciprocal(root * root) - 1.0, 0.0))
 
     def written(self) -> dict[str, Any]:
         found = super().written()
@@ -243,9 +248,9 @@ class GearPair(WheelPair):
     def contact(self, mechanism: Mechanism) -> Contact:
         reach, other = self.arms(mechanism)
         angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
-        alpha = self.pressure_angle
-        if self.involute:
-            alpha = acos(min(1.0, self.asked * cos_of(alpha) / abs(self.line(mechanism))))
+        alpha, distance = self.pressure_angle, abs(self.line(mechanism))
+        if self.involute and abs(distance - self.asked) > FITS * distance:
+            alpha = acos(min(1.0, self.asked * cos_of(alpha) / distance))
         return Contact(-other, self.carrier, angle, at, reach, press=self.sense * tan_of(alpha))
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
