@@ -5,9 +5,8 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import acos, atan2, dist, pi
+from math import atan2, dist, pi
 from math import cos as cos_of
-from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
@@ -156,15 +155,14 @@ class GearPair(WheelPair):
         near = off <= CLEARANCE * dimensions(f"{self.name}.module")
         return dimensions.trace.logic("and", near, base * base <= line.square * (1.0 + 2.0 * FITS))
 
-    def _slope(self, dimensions: Dimensions, square: Scalar) -> Scalar:
-        """tan of the pressure angle in mesh, at the square of the distance.
+    def _slope(self, angle: Scalar, wanted: Scalar, square: Scalar) -> Scalar:
+        """tan of the pressure angle in mesh, traced or a number, at the square of the distance.
 
         A distance that fits, as a file rounds it, has the given angle to the last digit.
         """
-        angle = dimensions(f"{self.name}.pressure_angle")
         if not self.involute or (isinstance(angle, float) and angle == 0.0):
             return tan(angle)
-        wanted, root = self._asked(dimensions), cos(angle)
+        root = cos(angle)
         off = square * reciprocal(wanted * wanted) - 1.0
         rounded = select(absolute(off) <= 2.0 * FITS * (1.0 + FITS), off, 0.0)
         return sqrt(maximum((1.0 + off - stop(rounded)) * reciprocal(root * root) - 1.0, 0.0))
@@ -248,10 +246,9 @@ class GearPair(WheelPair):
     def contact(self, mechanism: Mechanism) -> Contact:
         reach, other = self.arms(mechanism)
         angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
-        alpha, distance = self.pressure_angle, abs(self.line(mechanism))
-        if self.involute and abs(distance - self.asked) > FITS * distance:
-            alpha = acos(min(1.0, self.asked * cos_of(alpha) / distance))
-        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * tan_of(alpha))
+        slope = self._slope(self.pressure_angle, self.asked, abs(self.line(mechanism)) ** 2)
+        assert isinstance(slope, float)
+        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * slope)
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
@@ -260,7 +257,8 @@ class GearPair(WheelPair):
         i = self.traced_ratio(dimensions)
         part = d * reciprocal(i - 1.0)
         phase = dimensions(f"{self.name}.phase")
-        slope = self._slope(dimensions, line.square)
+        wanted = self._asked(dimensions) if self.involute else 0.0
+        slope = self._slope(dimensions(f"{self.name}.pressure_angle"), wanted, line.square)
         unit = line * reciprocal(d)
         return GearCut(
             connection, self.carrier, (part * i, -part, -d), part * phase, a, b, unit, slope, self.sense
