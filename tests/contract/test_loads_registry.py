@@ -62,7 +62,7 @@ def model() -> Model:
     m.link("arm", ["O", "A"], length=1, also={"D": (0.4, 0.3)}, mass=2, inertia=0.1)
     m.link("bar", ["A", "B"], length=2.5, also={"E": (1, -0.4)}, mass=3, inertia=0.4)
     m.link("block", ["B"], mass=4)
-    m.prismatic("guide", guide="frame", through="G", direction=0.2, block="block", at="B")
+    m.joint("guide", "prismatic", guide="frame", through="G", direction=0.2, block="block", at="B")
     m.drive("arm", about="O", speed=7)
     return m
 

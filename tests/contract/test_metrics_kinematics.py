@@ -140,11 +140,18 @@ def test_bearing_value_of_a_pin() -> None:
     model.link("crank", ["O", "A"], length=0.05)
     model.link("die", ["A"])
     model.link("yoke", ["Y"], mass=4)
-    model.pin("A", radius=0.01)
-    model.prismatic(
-        "slot", guide="yoke", through="Y", direction=pi / 2, block="die", at="A", block_angle=pi / 2
+    model.joint("A", "revolute", pin_radius=0.01)
+    model.joint(
+        "slot",
+        "prismatic",
+        guide="yoke",
+        through="Y",
+        direction=pi / 2,
+        block="die",
+        at="A",
+        block_angle=pi / 2,
     )
-    model.prismatic("guide", guide="frame", through="O", direction=0, block="yoke", at="Y")
+    model.joint("guide", "prismatic", guide="frame", through="O", direction=0, block="yoke", at="Y")
     model.drive("crank", about="O", speed=20)
     table = metrics(lw.solve_forces(model.build(), steps=50), "bearing_pv")
     assert table.value("bearing_pv") == pytest.approx(4 * 0.05 * 20**2 * 0.01 * 20, rel=1e-9)
@@ -159,9 +166,16 @@ def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: i
     model.link("foot", ["A"], mass=2)
     model.link("bar", ["A", "B"], length=1, mass=4, inertia=0.3)
     model.link("head", ["B"], mass=1)
-    model.prismatic("floor", guide="frame", through="O", direction=0, block="foot", at="A")
-    model.prismatic(
-        "wall", guide="frame", through="O", direction=pi / 2, block="head", at="B", block_angle=pi / 2
+    model.joint("floor", "prismatic", guide="frame", through="O", direction=0, block="foot", at="A")
+    model.joint(
+        "wall",
+        "prismatic",
+        guide="frame",
+        through="O",
+        direction=pi / 2,
+        block="head",
+        at="B",
+        block_angle=pi / 2,
     )
     model.assemble(B="forward")
     model.slide("floor", speed=0.1, start=0)

@@ -9,9 +9,6 @@ from linkwright.errors import ModelError
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.read_model import read_model
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 
@@ -76,50 +73,10 @@ class Model:
         listed = points if isinstance(points, Mapping) else list(points)
         self._section("links", name, {"points": listed, **_present(given)})
 
-    def pin(self, name: str, *, radius: Value | None = None, friction: Value | None = None) -> None:
-        """Attributes of the implied pin at the shared point ``name``."""
-        self._section(
-            "joints",
-            name,
-            {"kind": RevoluteJoint.kind, **_present({"pin_radius": radius, "friction": friction})},
-        )
-
-    def prismatic(
-        self,
-        name: str,
-        *,
-        guide: str,
-        through: str,
-        direction: Value | tuple[str, str],
-        block: str,
-        at: str,
-        offset: Value | None = None,
-        block_angle: Value | None = None,
-        friction: Value | None = None,
-    ) -> None:
-        """A guide on one link and a block on it; ``direction`` in rad in the guide's axes, or two of its
-        points."""
-        along = list(direction) if isinstance(direction, tuple) else direction
-        given = {"offset": offset, "block_angle": block_angle, "friction": friction}
-        self._section(
-            "joints",
-            name,
-            {
-                "kind": PrismaticJoint.kind,
-                "guide": guide,
-                "through": through,
-                "direction": along,
-                "block": block,
-                "at": at,
-                **_present(given),
-            },
-        )
-
-    def weld(self, name: str, a: str, b: str, *, at: str, angle: Value | None = None) -> None:
-        """Link b fixed to link a at their common point, its x axis at ``angle`` (rad) to a's."""
-        self._section(
-            "joints", name, {"kind": WeldJoint.kind, "links": [a, b], "at": at, **_present({"angle": angle})}
-        )
+    def joint(self, name: str, kind: str, **fields: Any) -> None:
+        """A joint of a registered kind, by the keys of a file: m, rad, kg. The pins at shared points are implied; one
+        of them is named for its radius or its friction."""
+        self._section("joints", name, {"kind": kind, **_present(fields)})
 
     def drive(
         self,

@@ -9,13 +9,9 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
-from linkwright.joints.base import JOINTS, Entry, Joint
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.base import JOINTS, Entry, Joint, implied_joint, implied_kind
 from linkwright.mechanism.mechanism import Link
 from linkwright.words.sentence import Sentence
-
-#: The kind of the joints that shared points imply.
-IMPLIED = RevoluteJoint.kind
 
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
@@ -26,10 +22,10 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         else []
     )
     reader.names.pins = _implied_pins(reader.names.links, [value for _, value in declared])
-    reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
+    reader.names.joints = dict.fromkeys(reader.names.pins, implied_kind())
     for key, value in declared:
         kind = _word(value, "kind")
-        if kind in JOINTS and kind != IMPLIED:
+        if kind in JOINTS and not JOINTS[kind].implied:
             reader.names.joints[key] = kind
 
 
@@ -66,14 +62,14 @@ def _implied_pins(
 
 def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) -> dict[str, Joint]:
     """All joints: implied pins in order of first appearance, then the explicit ones."""
-    joints: dict[str, Joint] = {pin: RevoluteJoint(pin, owners) for pin, owners in reader.names.pins.items()}
+    joints = {pin: implied_joint(pin, owners) for pin, owners in reader.names.pins.items()}
     mapping = None if node is None else reader.mapping(node, "joints")
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"joints.{entry.key.text}", "joint")
         joint = None if name is None else _read_joint(reader, entry.value, name, links)
         if joint is None or name is None:
             continue
-        if name in joints and joint.kind != IMPLIED:
+        if name in joints and not joint.implied:
             reader.error(
                 entry.key,
                 f"joints.{name}",

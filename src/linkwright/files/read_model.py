@@ -18,7 +18,7 @@ from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.plain_reader import Place, TooManyFindings
 from linkwright.files.read_drivers import complete, read_cycle, read_drivers, scan_input
-from linkwright.files.read_joints import IMPLIED, read_joints, scan_joints
+from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
@@ -203,7 +203,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
             "name",
         )
         return None
-    if name in reader.names.links or reader.names.joints.get(name, IMPLIED) != IMPLIED:
+    if name in {*reader.names.links, *reader.names.joints} - set(reader.names.pins):
         reader.error(
             key, place, Sentence("model.name_taken", name=name), Sentence("model.rename_one"), "duplicate"
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -280,7 +281,28 @@ class CamJoint(HigherPair):
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
     ) -> Iterable[Row]:
-        yield system.cam(self, places)
+        """The follower's coordinate against the lift at the cam's angle."""
+        carrier, cam, follower = places[self.carrier], places[self.cam], places[self.follower]
+        lift, slope, _ = self.lift.curves(self.sense * (cam.angle - carrier.angle - self.phase))
+        slope = slope * self.sense
+        if self.side:
+            side = 1.0 if self.side == "left" else -1.0
+            gap = side * (follower.angle - carrier.angle) - lift
+            turns = {self.follower: side, self.cam: -slope, self.carrier: slope - side}
+            yield system.kept(self.name, gap, {link: (0.0, 0.0, each) for link, each in turns.items()})
+            return
+        own = self.geometry(system.mechanism).own
+        nx, ny = follower.arm((math.cos(own), math.sin(own)))
+        px, py = follower.arm(system.local(self.follower, self.at))
+        cx, cy = cam.arm(system.local(self.cam, self.centre))
+        gx, gy = follower.x + px - cam.x - cx, follower.y + py - cam.y - cy
+        driven = slope / system.size
+        parts = {
+            self.follower: (nx, ny, ny * px - nx * py + nx * gy - ny * gx),
+            self.cam: (-nx, -ny, nx * cy - ny * cx - driven),
+            self.carrier: (0.0, 0.0, driven),
+        }
+        yield system.kept(self.name, nx * gx + ny * gy - lift / system.size, parts)
 
     def geometry(self, mechanism: Mechanism) -> Geometry:
         """Directions and distances of cam and follower on their carrier."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import cos as cos_of
 from math import pi
+from math import sin as sin_of
 from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -284,7 +286,20 @@ class RackPair(HigherPair):
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
     ) -> Iterable[Row]:
-        yield system.rolling(self, places)
+        """The pinion's centre along the rack, and its rotation against it."""
+        pinion, rack = places[self.pinion], places[self.rack]
+        lever = self.side * self.radius / system.size
+        tx, ty = rack.arm((cos_of(self.direction), sin_of(self.direction)))
+        cx, cy = pinion.arm(system.local(self.pinion, self.centre))
+        px, py = rack.arm(system.local(self.rack, self.through))
+        gx, gy = pinion.x + cx - rack.x - px, pinion.y + cy - rack.y - py
+        gap = tx * gx + ty * gy + lever * (pinion.angle - rack.angle)
+        turned = tx * gy - ty * gx + tx * py - ty * px
+        parts = {
+            self.pinion: (tx, ty, ty * cx - tx * cy + lever),
+            self.rack: (-tx, -ty, turned - lever),
+        }
+        yield system.kept(self.name, gap, parts)
 
     def _way(self, mechanism: Mechanism) -> _Way | None:
         return _Search(self, mechanism).found()

@@ -31,6 +31,7 @@ class RevoluteJoint(TurningJoint):
 
     kind: ClassVar[str] = "revolute"
     letter: ClassVar[str] = "R"
+    implied: ClassVar[bool] = True
 
     def dimensions(self) -> Mapping[str, float]:
         given = {f"{self.name}.friction": self.friction} if self.friction else {}

@@ -224,7 +224,8 @@ class WheelPair(HigherPair):
         a, b, c = self.turning
         theta = {link: places[link].angle for link in (a, b, c)}
         gap = i * (theta[a] - theta[c]) - (theta[b] - theta[c]) + (self.phase or 0.0)
-        yield system.row(self.name, gap, {a: i, b: -1.0, c: 1.0 - i})
+        factors = {a: i, b: -1.0, c: 1.0 - i}
+        yield system.kept(self.name, gap, {link: (0.0, 0.0, each) for link, each in factors.items()})
 
 
 @dataclass(frozen=True)

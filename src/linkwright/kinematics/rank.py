@@ -16,9 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
-from linkwright.joints.cam import CamJoint
 from linkwright.joints.lower import SlidingJoint
-from linkwright.joints.rack import RackPair
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
@@ -201,67 +199,19 @@ class ConstraintSystem:
         a, b = driver.relative_to, driver.link
         return Row(joint.name, "driver", poses[b].angle - poses[a].angle, {a: (0, 0, -1.0), b: (0, 0, 1.0)})
 
-    def rolling(self, pair: RackPair, poses: Mapping[str, Place]) -> Row:
-        """A pinion's centre along its rack, and its rotation against it."""
-        pinion, rack = poses[pair.pinion], poses[pair.rack]
-        lever = pair.side * pair.radius / self.size
-        tx, ty = rack.arm((math.cos(pair.direction), math.sin(pair.direction)))
-        cx, cy = pinion.arm(self._local(pair.pinion, pair.centre))
-        px, py = rack.arm(self._local(pair.rack, pair.through))
-        gx, gy = pinion.x + cx - rack.x - px, pinion.y + cy - rack.y - py
-        gap = tx * gx + ty * gy + lever * (pinion.angle - rack.angle)
-        gap = gap - self._rest.setdefault(pair.name, float(np.real(gap)))
-        turned = tx * gy - ty * gx + tx * py - ty * px
-        parts = {
-            pair.pinion: (tx, ty, ty * cx - tx * cy + lever),
-            pair.rack: (-tx, -ty, turned - lever),
-        }
-        return Row(pair.name, "rolling", gap, parts)
-
-    def cam(self, pair: CamJoint, poses: Mapping[str, Place]) -> Row:
-        """A follower's coordinate against the lift at the cam's angle."""
-        held, carrier, cam, follower = (
-            pair.geometry(self.mechanism),
-            poses[pair.carrier],
-            poses[pair.cam],
-            poses[pair.follower],
-        )
-        lift, slope, _ = pair.lift.curves(pair.sense * (cam.angle - carrier.angle - pair.phase))
-        slope = slope * pair.sense
-        if pair.side:
-            side = 1.0 if pair.side == "left" else -1.0
-            gap = side * (follower.angle - carrier.angle) - lift
-            rest = self._rest.setdefault(pair.name, float(np.real(gap)))
-            parts = {pair.follower: side, pair.cam: -slope}
-            parts[pair.carrier] = parts.get(pair.carrier, 0.0) + slope - side
-            return Row(pair.name, "rolling", gap - rest, {k: (0.0, 0.0, v) for k, v in parts.items()})
-        nx, ny = follower.arm((math.cos(held.own), math.sin(held.own)))
-        px, py = follower.arm(self._local(pair.follower, pair.at))
-        cx, cy = cam.arm(self._local(pair.cam, pair.centre))
-        gx, gy = follower.x + px - cam.x - cx, follower.y + py - cam.y - cy
-        gap = nx * gx + ny * gy - lift / self.size
-        rest = self._rest.setdefault(pair.name, float(np.real(gap)))
-        turned = ny * px - nx * py + nx * gy - ny * gx
-        driven = slope / self.size
-        parts_of = {
-            pair.follower: (nx, ny, turned),
-            pair.cam: (-nx, -ny, nx * cy - ny * cx - driven),
-        }
-        if pair.carrier != "frame":
-            parts_of[pair.carrier] = (0.0, 0.0, driven)
-        return Row(pair.name, "rolling", gap - rest, parts_of)
-
-    def row(self, joint: str, gap: Any, factors: Mapping[str, float]) -> Row:
-        """A sum of rotations that keeps the value that it has where it is first seen."""
+    def kept(self, joint: str, gap: Any, parts: Parts) -> Row:
+        """The row of a higher pair: ``gap``, over the size where it is a length, keeps the value that it has where it
+        is first seen; ``parts``: its derivatives by (x, y, θ) of its links."""
         rest = self._rest.setdefault(joint, float(np.real(gap)))
-        return Row(joint, "rolling", gap - rest, {link: (0.0, 0.0, each) for link, each in factors.items()})
+        return Row(joint, "rolling", gap - rest, parts)
 
-    def _local(self, link: str, point: str) -> tuple[float, float]:
+    def local(self, link: str, point: str) -> tuple[float, float]:
+        """A point in the axes of its link, over the size."""
         x, y = self.mechanism.link(link).points[point]
         return x / self.size, y / self.size
 
     def pin(self, joint: str, a: str, b: str, point: str, poses: Mapping[str, Place]) -> Iterable[Row]:
-        (ax, ay), (bx, by) = (poses[link].arm(self._local(link, point)) for link in (a, b))
+        (ax, ay), (bx, by) = (poses[link].arm(self.local(link, point)) for link in (a, b))
         p, q = poses[a], poses[b]
         yield Row(joint, "place", p.x + ax - q.x - bx, {a: (1.0, 0.0, -ay), b: (-1.0, 0.0, by)})
         yield Row(joint, "place", p.y + ay - q.y - by, {a: (0.0, 1.0, ax), b: (0.0, -1.0, -bx)})
@@ -277,8 +227,8 @@ class ConstraintSystem:
         guide, block = poses[joint.guide], poses[joint.block]
         direction = joint.angle_of_guide(self.mechanism) + (0.5 * math.pi if across else 0.0)
         nx, ny = guide.arm((math.cos(direction), math.sin(direction)))
-        tx, ty = guide.arm(self._local(joint.guide, joint.through))
-        bx, by = block.arm(self._local(joint.block, joint.at))
+        tx, ty = guide.arm(self.local(joint.guide, joint.through))
+        bx, by = block.arm(self.local(joint.block, joint.at))
         gx, gy = block.x + bx - guide.x - tx, block.y + by - guide.y - ty
         value = nx * gx + ny * gy - (joint.offset / self.size if across else 0.0)
         turned = nx * ty - ny * tx + nx * gy - ny * gx

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError
-from linkwright.joints.revolute import RevoluteJoint
+from linkwright.joints.base import implied_joint
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.loads.base import Load
@@ -169,7 +169,7 @@ def _with_gap(mechanism: Mechanism, pin: str, clearance: Clearance, law: TurnedB
     del joints[pin]
     _refuse_attached({**joints, **mechanism.loads}, pin, on)
     joints[pin] = replace(old, links=tuple(gap if name == on else name for name in old.links))
-    joints[hole] = RevoluteJoint(hole, (on, gap))
+    joints[hole] = implied_joint(hole, (on, gap))
     drawing = dict(mechanism.drawing)
     if pin in drawing:
         drawing[hole] = drawing[pin]
