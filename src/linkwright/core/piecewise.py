@@ -165,9 +165,10 @@ def extremes_of(wanted: Sequence[tuple[Piecewise, str]]) -> list[Extreme]:
     piece, share, top, _ = largest(values, tops)
     found = []
     for k, (each, _) in enumerate(wanted):
-        low, high = each.edges[piece[k] : piece[k] + 2]
+        at = int(piece[k]) if piece[k] < len(each.values) else 0  # what fills up is the first piece again
+        low, high = each.edges[at : at + 2]
         place = float(low + 0.5 * (share[k] + 1.0) * (high - low))
-        found.append(Extreme(place, signs[k] * float(top[k]), bool(each.smooth[piece[k]])))
+        found.append(Extreme(place, signs[k] * float(top[k]), bool(each.smooth[at])))
     return found
 
 
