@@ -110,11 +110,16 @@ def test_a_design_whose_load_has_no_value_is_told() -> None:
     assert np.isnan(found["driver.effort max"]).tolist() == [False, True, False]
 
 
-def test_a_part_longer_than_the_stroke_of_a_design_is_told() -> None:
-    load = LOADS["first way"].replace("60 mm", "401 mm")
+@pytest.mark.parametrize("output", ["driver.effort max", "driver.effort rms"])
+@pytest.mark.parametrize("size", ["ramp: [100 N, 900 N]", "magnitude: 800 N", "magnitude: F0*(1 + sin(rod))"])
+@pytest.mark.parametrize("part", ["first: 401 mm", "last: 401 mm", "free: 200.2 mm"])
+def test_a_part_longer_than_the_stroke_of_a_design_is_told(part: str, size: str, output: str) -> None:
+    """The stroke is 401.1 mm, of the shorter crank 381.1 mm; no number stands for a load that does not exist."""
+    load = f"{AT}, {size}, phase: {{of: guide, from: max, to: min, {part}}}"
     mechanism = lw.loads(MODEL.replace("LOAD", load))
-    found = lw.sweep(mechanism, {"crank.length": [0.2, 0.19]}, outputs=["driver.effort max"])
+    found = lw.sweep(mechanism, {"crank.length": [0.2, 0.19]}, outputs=[output])
     assert found.ok.tolist() == [True, False]
+    assert "too much of the stroke is named" in found.unloaded[1] and np.isnan(found[output][1])
 
 
 @pytest.mark.parametrize("load", ["last share", "table", "torsion spring"])

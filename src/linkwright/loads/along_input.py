@@ -116,7 +116,7 @@ def magnitude(load: Load, course: Course) -> Scalar:
     own = load.traced(course)
     if own is not None:
         return own
-    acts, share = _phase(load, course)
+    acts, share, exists = _phase(load, course)
     given, table = getattr(load, "magnitude", None), getattr(load, "table", None)
     if getattr(load, "ramp", None) is not None:
         first, last = course.dimension("ramp.0"), course.dimension("ramp.1")
@@ -127,7 +127,7 @@ def magnitude(load: Load, course: Course) -> Scalar:
         size = _interpolated(table, course)
     else:
         size = 1.0 if given is None else course.dimension("magnitude")
-    return select(acts, size, 0.0)
+    return select(exists, select(acts, size, 0.0), float("nan"))
 
 
 def _interpolated(table: Table, course: Course) -> Scalar:
@@ -146,26 +146,26 @@ def _interpolated(table: Table, course: Course) -> Scalar:
     return select(x <= last + slack, found, float("nan"))
 
 
-def _phase(load: Load, course: Course) -> tuple[Mask, Scalar]:
-    """Whether the load acts, and the share of its phase that is passed."""
+def _phase(load: Load, course: Course) -> tuple[Mask, Scalar, Mask]:
+    """Whether the load acts, the share of its phase that is passed, and whether there is such a phase."""
     known = course.known_phase()
     if known is not None:
-        return known
+        return (*known, True)
     phase = getattr(load, "phase", None)
     match phase:
         case InputPhase():
-            return _between(course)
+            return (*_between(course), True)
         case MovingPhase():
             ends = ("min", "max") if phase.direction == "increasing" else ("max", "min")
             gone, length = _way(course, phase.output, *ends)
             way = turned(gone)
             inside = _both(way > NEAR * TURN, way < length - NEAR * TURN)
-            return inside, way / length
+            return inside, way / length, True
         case SwingPhase():
             gone, length = _way(course, phase.output, phase.start, phase.end)
             acts, share = _within(gone, length)
-            return (acts, share) if phase.part is None else _in_part(phase, acts, course)
-    return True, 0.0
+            return (acts, share, True) if phase.part is None else _in_part(phase, acts, course)
+    return True, 0.0, True
 
 
 def _way(course: Course, output: Output, start: str, end: str) -> tuple[Scalar, Scalar]:
@@ -193,15 +193,15 @@ def part_ends(phase: SwingPhase, course: Course) -> tuple[Scalar, Scalar, Scalar
     return ways[0], size - ways[-1], stroke
 
 
-def _in_part(phase: SwingPhase, acts: Mask, course: Course) -> tuple[Mask, Scalar]:
-    """Where the output itself is in a part of its stroke; NaN everywhere where the stroke is too short for it."""
+def _in_part(phase: SwingPhase, acts: Mask, course: Course) -> tuple[Mask, Scalar, Mask]:
+    """Where the output itself is in a part of its stroke; there is none where the stroke is too short for it."""
     begin, end, stroke = part_ends(phase, course)
     size = absolute(stroke)
     slack = NEAR * size
     gone = (course.output(phase.output) - course.limit_value(phase.output, phase.start)) * sign(stroke)
     fits = _both(_both(begin >= -slack, end <= size + slack), begin < end)
     inside = _both(_both(acts, gone >= begin - slack), gone <= end + slack)
-    return inside, select(fits, (gone - begin) / (end - begin), float("nan"))
+    return inside, (gone - begin) / (end - begin), fits
 
 
 def _both(a: Mask, b: Mask) -> Mask:
