@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -76,6 +78,25 @@ def test_a_bound_call_follows_its_arrays_and_takes_none_that_it_would_copy() -> 
         line(carried=True).bound(given, {"x": X}, out, {"f": f})
     with pytest.raises(ValueError, match="only programs without states are bound, to"):
         program.bound(given, {"x": X[:1]}, out[:, :1], {"f": f[:1]})
+
+
+@pytest.mark.parametrize("count", [40, 1])
+def test_repeated_calls_keep_what_they_found(count: int) -> None:
+    """Each result is its own array, whatever thread asks, for as few positions as one as well."""
+    t = Trace()
+    compiled = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x"), "x": t.position("x")}))
+    assert compiled is not None
+    again, given = compiled.repeated({"x": X[-count:]}), np.empty(1)
+    found = []
+    for value in (2.0, 3.0, -4.0):
+        given[0] = value
+        found.append(again(given))
+    with ThreadPoolExecutor(1) as pool:
+        found.append(pool.submit(again, np.array([5.0])).result())
+    for value, out in zip((2.0, 3.0, -4.0, 5.0), found, strict=True):
+        assert out == pytest.approx(np.array([value * X[-count:], X[-count:]]), rel=1e-15)
+    with pytest.raises(ValueError, match="only programs without fields and states"):
+        line().repeated({"x": X})
 
 
 def test_states_without_next_values_are_not_compiled() -> None:

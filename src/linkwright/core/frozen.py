@@ -34,7 +34,7 @@ class FrozenDict(dict[K, V]):
 def locked(array: NDArray[S]) -> NDArray[S]:
     """A view of an array that cannot be written."""
     view = array.view()
-    view.flags.writeable = False
+    view.setflags(write=False)
     return view
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TypeGuard
+from ctypes import addressof, c_char
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -158,6 +159,7 @@ class SingleCall:
         self._block = self.inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
         self.shape = (len(program.outputs), self.inputs.length)
+        self._room = math.prod(self.shape) + _LINE // 8
 
     def fits(
         self, positions: Arrays, fields: Arrays, length: int | None = None, tables: Tables | None = None
@@ -183,13 +185,12 @@ class SingleCall:
 
     def new_out(self) -> Floats:
         """An array of its own for the outputs, which starts at a cache line."""
-        count = self.shape[0] * self.shape[1]
-        room = np.empty(count + _LINE // 8)
-        address = address_of(room)
+        room: Any = np.empty(self._room)
+        address = addressof(c_char.from_buffer(room))
         skipped = -address % _LINE
         self._out = None
         self._block[Block.OUT] = address + skipped
-        return room[skipped // 8 : skipped // 8 + count].reshape(self.shape)
+        return np.ndarray(self.shape, np.float64, room, skipped)
 
     def set_out(self, out: Floats) -> None:
         """Where the outputs go."""

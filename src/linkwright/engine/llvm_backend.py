@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import threading
 from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -141,6 +142,29 @@ class CompiledProgram:
 
         def run(kept: object = (call, parameters, out)) -> None:
             function(address)
+
+        return run
+
+    def repeated(self, positions: Arrays, *, tables: Tables | None = None) -> Callable[[Floats], Floats]:
+        """:meth:`run` of one design (parameters,) after another on positions and tables that are looked at once.
+
+        Raises ValueError as :meth:`run`, and for programs that take fields or carry states.
+        """
+        if self.program.fields or self.program.next_states:
+            raise ValueError("only programs without fields and states are repeated")
+        own, function = threading.local(), self._function
+        inputs = self._inputs(positions, _NONE, None, tables)
+        if inputs.stride != inputs.length:
+            return partial(self.run, positions=positions, tables=tables)
+
+        def run(parameters: Floats) -> Floats:
+            call: SingleCall | None = getattr(own, "call", None)
+            if call is None:
+                call = own.call = SingleCall(self.program, self.width, positions, _NONE, tables=tables)
+            call.set_parameters(parameters)
+            out = call.new_out()
+            function(call.address)
+            return out
 
         return run
 

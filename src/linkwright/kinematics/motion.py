@@ -28,33 +28,38 @@ if TYPE_CHECKING:
     from linkwright.plot import Diagram
 
 
+Evaluate = Callable[[tuple[str, ...]], Floats]
+
+
 class Rows:
     """``values`` (outputs, n) with the row number of every name in ``index``; ``extra`` rows by name."""
 
     __slots__ = ("extra", "index", "values")
 
     def __init__(self, values: Floats, index: Mapping[str, int]) -> None:
-        self.values = values
+        self.values = locked(values)
         self.index = index
         self.extra: dict[str, Floats] = {}
 
-    def row(self, name: str) -> Floats:
-        """A stored row, (n,)."""
-        return locked(self.values[self.index[name]])
+    def row(self, name: str, evaluate: Evaluate) -> Floats:
+        """The row of an output, (n,); ``evaluate`` supplies one that is not stored."""
+        place = self.index.get(name)
+        return self.fetch((name,), evaluate)[0] if place is None else self.values[place]
 
-    def pair(self, names: tuple[str, str], evaluate: Callable[[tuple[str, ...]], Floats]) -> Floats:
+    def pair(self, names: tuple[str, str], evaluate: Evaluate) -> Floats:
         """The two components of a vector output, (n, 2); a view of the stored rows where they lie together."""
         first = self.index.get(names[0])
         if first is not None and self.index.get(names[1]) == first + 1:
-            return locked(self.values[first : first + 2].T)
+            return self.values[first : first + 2].T
         return locked(np.stack(self.fetch(names, evaluate), axis=1))
 
-    def fetch(self, names: tuple[str, ...], evaluate: Callable[[tuple[str, ...]], Floats]) -> list[Floats]:
+    def fetch(self, names: tuple[str, ...], evaluate: Evaluate) -> list[Floats]:
         """The rows of some outputs, (n,) each; ``evaluate`` supplies those that are not stored."""
-        missing = tuple(name for name in names if name not in self.index and name not in self.extra)
+        index, extra = self.index, self.extra
+        missing = [name for name in names if name not in index and name not in extra]
         if missing:
-            self.extra.update(zip(missing, map(locked, evaluate(missing)), strict=True))
-        return [self.row(name) if name in self.index else self.extra[name] for name in names]
+            extra.update(zip(missing, map(locked, evaluate(tuple(missing))), strict=True))
+        return [self.values[index[name]] if name in index else extra[name] for name in names]
 
 
 class PointMotion:
@@ -64,17 +69,17 @@ class PointMotion:
         self._motion = motion
         self.name = name
 
-    @cached_property
+    @property
     def position(self) -> Floats:
         """(n, 2) m."""
         return self._motion.vector("p", self.name)
 
-    @cached_property
+    @property
     def velocity(self) -> Floats:
         """(n, 2) m/s."""
         return self._motion.vector("v", self.name)
 
-    @cached_property
+    @property
     def acceleration(self) -> Floats:
         """(n, 2) m/s²."""
         return self._motion.vector("a", self.name)
@@ -190,7 +195,7 @@ class Motion:
     @property
     def outcome_codes(self) -> Floats:
         """0 for a solved position, else the number (from 1) of the failing group, negative if singular, (n,)."""
-        return self.rows.row("outcome")
+        return self.rows.row("outcome", self.evaluate)
 
     @cached_property
     def ok(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
@@ -245,7 +250,7 @@ class Motion:
         """A scalar output, (n,)."""
         if key == "frame":
             return np.zeros(self.steps)
-        return self._fetch((f"{prefix}:{key}",))[0]
+        return self.rows.row(f"{prefix}:{key}", self.evaluate)
 
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
         return self.rows.fetch(names, self.evaluate)

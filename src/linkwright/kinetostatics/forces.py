@@ -89,7 +89,7 @@ class Forces:
         if not self.mechanism.joints[joint].couples:
             return np.zeros(self.steps)
         other = self.mechanism.joints[joint].joined[1]
-        row = self.fetch((f"c:{joint}|{other}",))[0]
+        row = self.rows.row(f"c:{joint}|{other}", self.evaluate)
         return locked(-row) if link == first else row
 
     def resultant_offset(self, joint: str) -> Floats:
@@ -106,7 +106,7 @@ class Forces:
         drivers = self.motion.design.base.drivers
         if name not in drivers:
             raise RequestError(no_such("driver", name, drivers))
-        return self.fetch((f"effort:{name}",))[0]
+        return self.rows.row(f"effort:{name}", self.evaluate)
 
     @property
     def input_torque(self) -> Floats:
@@ -125,14 +125,14 @@ class Forces:
     @cached_property
     def power(self) -> Floats:
         """Power that the drivers must supply, from the powers of all forces, (n,) W."""
-        return self.fetch(("power",))[0]
+        return self.rows.row("power", self.evaluate)
 
     @cached_property
     def power_residual(self) -> Floats:
         """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""
         if not self.mechanism.drivers:
             return np.zeros(self.steps)
-        return locked(self.fetch(("driver_power",))[0] - self.power)
+        return locked(self.rows.row("driver_power", self.evaluate) - self.power)
 
     @cached_property
     def balance_residual(self) -> Floats:
@@ -147,7 +147,7 @@ class Forces:
     @cached_property
     def shaking_moment(self) -> Floats:
         """Its moment about the frame's origin, (n,) N·m."""
-        return self.fetch(("shake_moment",))[0]
+        return self.rows.row("shake_moment", self.evaluate)
 
     def load(self, name: str) -> LoadForce:
         """What one of the file's loads did."""

@@ -137,7 +137,7 @@ def _change(old: dict[str, Floats], new: dict[str, Floats], motion: Motion) -> f
 
 def _largest(forces: Forces) -> float:
     """Size of the largest reaction: what friction is exact to, also where a joint carries next to nothing."""
-    rows = [forces.rows.row(name) for name in forces.rows.index if name.startswith("r:")]
+    rows = [forces.rows.row(name, forces.evaluate) for name in forces.rows.index if name.startswith("r:")]
     return max(float(np.max(np.abs(row)[forces.motion.ok], initial=0.0)) for row in rows)
 
 
