@@ -99,3 +99,106 @@ def test_formatting_in_a_chosen_unit() -> None:
     assert units.format(0.0605, "length", "mm") == "60.5 mm"
     with pytest.raises(QuantityError, match="mass"):
         units.format(1.0, "length", "kg")
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "column", "said"),
+    [
+        ("5 N·mmx", "torque", 4, 'unknown unit "N·mmx"; did you mean "N·mm"?'),
+        ("2 km/hh", "velocity", 5, 'unknown unit "km/hh"; did you mean "km/h"?'),
+        ("5 m s", "length", 4, 'unknown unit "m s"; did you mean "ms"?'),
+        ("5 r/h", "angular_velocity", 2, 'unknown unit "r/h"; did you mean "rev/h"?'),
+        ("5 kgm2/s", "inertia", 2, 'unknown unit "kgm2/s"; did you mean "kg·m²/s"?'),
+        ("5 newton*metre", "torque", 2, 'unknown unit "newton*metre"; did you mean "N·m"?'),
+        ("5 KN*mm", "torque", 2, 'unknown unit "KN*mm"; did you mean "kN·mm"?'),
+        ("5 U/min", "angular_velocity", 2, 'unknown unit "U/min"; did you mean "rpm"?'),
+        ("5 mm3", "volume", 4, 'unknown unit "mm3"; did you mean "mm³"?'),
+        ("5 m·", "length", 4, 'unknown unit "m·"; write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²'),
+        ("5 m//s", "velocity", 4, 'unknown unit "m//s"; write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²'),
+        ("5 qqqq·m", "torque", 2, 'unknown unit "qqqq·m"; write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²'),
+        ("2 m^10", "area", 2, 'the exponent "10" is too large; units take exponents from -9 to 9'),
+        ("2 m^-99999999999999999999999", "area", 2,
+         'the exponent "-9999999999999999999" is too large; units take exponents from -9 to 9'),
+        ("60", "length", 0, '"60" has no unit; a length is needed, such as "60 mm"'),
+        ("60", "torque", 0, '"60" has no unit; a torque is needed, such as "60 N·m"'),
+        ("3 mm", "dimensionless", 0,
+         '"3 mm" is a length, where a dimensionless number is needed; write it as in "0.1"'),
+        ("0 kg", "length", 0, '"0 kg" is a mass, where a length is needed; write it as in "60.5 mm"'),
+        ("3 kg·m·rad", "time", 0,
+         '"3 kg·m·rad" is a quantity in m·kg·rad, where a time is needed; write it as in "2.5 s"'),
+        ("6, 5 mm", "length", 0, 'decimal comma in "6, 5 mm"; write a point: "6.5 mm"'),
+        ("6 0 mm", "length", 0, '"6 0 mm" has a space inside the number; write "60 mm"'),
+        ("-.infinity", "mass", 0, '"-.infinity" is not a finite number; write a number such as "4.5 kg"'),
+        ("infx", "angle", 0, '"infx" is not a quantity; write a number and a unit, such as "30 deg"'),
+    ],
+)  # fmt: skip
+def test_a_refusal_says_what_is_wrong_at_which_column_and_what_to_write(
+    text: str, dimension: str, column: int, said: str
+) -> None:
+    with pytest.raises(QuantityError) as caught:
+        units.parse(text, dimension)
+    assert (str(caught.value), caught.value.column) == (said, column)
+    assert not units.unit_fits(text, dimension)
+    assert units.plain_quantity(text, dimension) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [("3 N/mm", "stiffness", 3000.0), ("-2.5e1 mm", "length", -0.025), ("2 1/rad", "per_angle", None),
+     ("2 1/s", "frequency", None), ("60mm", "length", 0.06), ("2 mm", "mass", None), ("1e999 m", "length", None)],
+)  # fmt: skip
+def test_a_plain_quantity_is_read_at_once_and_anything_else_looked_at_more_closely(
+    text: str, dimension: str, value: float | None
+) -> None:
+    found = units.plain_quantity(text, dimension)
+    assert found == (value if value is None else pytest.approx(value, rel=1e-15))
+    assert units.unit_fits(text, dimension) == (text not in ("2 mm", "1e999 m"))
+
+
+def test_largest_sizes_are_round_and_a_velocity_s_is_that_of_light() -> None:
+    assert set(units.LARGEST) == set(units.DIMENSIONS)
+    assert {name for name, value in units.LARGEST.items() if f"{value:.0e}"[0] != "1"} == {"velocity"}
+    assert 299_792_458.0 <= units.LARGEST["velocity"] < 299_792_458.0 * 1.001
+    assert units.LARGEST_OF_ALL == 1e24 and units.SMALLEST == 1e-12
+
+
+@pytest.mark.parametrize(
+    ("quantity", "factors"),
+    [("torque", "force length"), ("power", "force velocity"), ("area", "length length"), ("volume", "area length"),
+     ("inertia", "mass area"), ("mass_moment", "mass length"), ("second_moment_of_area", "area area"),
+     ("velocity", "length frequency"), ("acceleration", "velocity frequency"), ("force", "mass acceleration"),
+     ("angular_velocity", "angle frequency"), ("angular_acceleration", "angular_velocity frequency"),
+     ("length", "length_per_angle angle"), ("length_per_angle", "length_per_angle_squared angle"),
+     ("dimensionless", "per_angle angle"), ("dimensionless", "time frequency"), ("force", "pressure area"),
+     ("force", "stiffness length"), ("force", "damping velocity"), ("force", "line_load length"),
+     ("torque", "torsional_stiffness angle"), ("torque", "torsional_damping angular_velocity"),
+     ("mass", "density volume"), ("mass", "linear_density length")],
+)  # fmt: skip
+def test_dimensions_multiply_as_their_definitions_say(quantity: str, factors: str) -> None:
+    a, b = (units.DIMENSIONS[name] for name in factors.split())
+    assert units.times(a, b) == units.DIMENSIONS[quantity]
+    assert units.times(units.DIMENSIONS[quantity], b, -1) == a
+    assert units.unit(units.SI_UNITS[factors.split(maxsplit=1)[0]] or "rad/rad") == (1.0, a)
+
+
+@pytest.mark.parametrize(
+    ("dimension", "symbol", "said"),
+    [((0.5, 0, 0, 0), "m^0.5", "a quantity in m^0.5"), ((1, 0, -1, 1), "m·s^-1·rad", "a quantity in m·s^-1·rad"),
+     ((1, 1, 0, 0), "kg·m", "a mass moment"), ((0, 0, 0, 0), "", "a dimensionless number")],
+)  # fmt: skip
+def test_any_dimension_has_a_symbol_and_a_name(dimension: units.Dimension, symbol: str, said: str) -> None:
+    assert (units.si_symbol(dimension), units.name_of(dimension)) == (symbol, said)
+
+
+def test_numbers_are_as_short_as_they_read_back_or_of_twelve_digits_in_a_chosen_unit() -> None:
+    assert units.format(1 / 3e3, "length", "mm") == "0.333333333333 mm"
+    assert [units.number(3.0), units.number(1e22), units.number(2 / 3, 3)] == ["3", "1e+22", "0.667"]
+    assert units.format(2.0, "dimensionless") == "2"
+    assert [units.exponent(text) for text in ("", "^2", "**-1", "⁻³", "^ 9", "^-9")] == [1, 2, -1, -3, 9, -9]
+
+
+def test_a_unit_of_a_written_number_is_refused_from_its_own_first_column() -> None:
+    with pytest.raises(QuantityError) as caught:
+        units.format(1.0, "length", "mm·")
+    assert caught.value.column == 3
+    assert units.unknown_unit("xyzzyq").column == 0
