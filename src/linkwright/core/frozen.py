@@ -31,6 +31,10 @@ class FrozenDict(dict[K, V]):
         return self
 
 
+#: Types whose values cannot be changed, and that most fields hold.
+_FROZEN = frozenset({FrozenDict, str, tuple, float})
+
+
 def locked(array: NDArray[S]) -> NDArray[S]:
     """A view of an array that cannot be written."""
     view = array.view()
@@ -40,10 +44,12 @@ def locked(array: NDArray[S]) -> NDArray[S]:
 
 def frozen(value: Any) -> Any:
     """The same array or mapping, arrays within mappings too, read-only; everything else as it is."""
+    if value is None or type(value) in _FROZEN:
+        return value
     numpy = sys.modules.get("numpy")  # a model alone needs none
     if numpy is not None and isinstance(value, numpy.ndarray):
         return locked(value)
-    if isinstance(value, Mapping) and not isinstance(value, FrozenDict):
+    if isinstance(value, Mapping):
         return FrozenDict({key: frozen(each) for key, each in value.items()})
     return value
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
@@ -25,11 +27,20 @@ class AssemblyError(LinkwrightError):
 
 @dataclass(frozen=True)
 class Assembly:
-    """Signs of the assembly modes by group, chain coordinates of the other groups, the drawing's inputs."""
+    """Signs of the assembly modes by group, chain coordinates of the other groups, what is drawn."""
 
     modes: dict[str, float]
     states: dict[str, float]
-    inputs: dict[str, float]
+    drawing: Drawing
+
+    @cached_property
+    def inputs(self) -> dict[str, float]:
+        """The drivers' coordinates in the drawing, at the start of their laws where it does not tell."""
+        return {name: self._input(name) for name in self.drawing.mechanism.drivers}
+
+    def _input(self, name: str) -> float:
+        drawn = self.drawing.driver(name) if self.drawing else None
+        return self.drawing.mechanism.drivers[name].law.at(0.0) if drawn is None else drawn
 
 
 def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
@@ -41,17 +52,20 @@ def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
     """
     modes = _from_words(mechanism, structure)
     drawing = Drawing(mechanism)
-    states = _drawn_states(mechanism, structure, drawing)
-    inputs = {}
-    for name, driver in mechanism.drivers.items():
-        drawn = drawing.driver(name) if drawing else None
-        inputs[name] = driver.law.at(0.0) if drawn is None else drawn
-    _from_drawing(mechanism, structure, drawing, modes, states, inputs)
-    return Assembly(modes, states, inputs)
+    found = Assembly(modes, _drawn_states(mechanism, structure, drawing), drawing)
+    _from_drawing(mechanism, structure, found)
+    return found
 
 
 def modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str]]]:
     """Groups that have two assembly modes, with the words for them."""
+    return _modal.get(structure, None, lambda: _modal_groups(structure))
+
+
+_modal: Recent[Structure, dict[str, tuple[Group, tuple[str, str]]]] = Recent(64)
+
+
+def _modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str]]]:
     found = {}
     for group in structure.groups:
         shape = dyad_shape(group)
@@ -137,15 +151,9 @@ def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:
     return counted(structure, mechanism)
 
 
-def _from_drawing(
-    mechanism: Mechanism,
-    structure: Structure,
-    drawing: Drawing,
-    modes: dict[str, float],
-    states: dict[str, float],
-    inputs: dict[str, float],
-) -> None:
+def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly) -> None:
     """Of both modes of a group, the one that comes closer to the drawing; without a drawing the first."""
+    modes, drawing = assembly.modes, assembly.drawing
     open_groups = [group for name, (group, _) in modal_groups(structure).items() if name not in modes]
     modes |= {group.name: 1.0 for group in open_groups}
     if not drawing or not open_groups:
@@ -155,7 +163,8 @@ def _from_drawing(
         probe = _Probe(motion, group, drawing)
         if probe.names:
             distances = {
-                sign: probe.distance({**modes, group.name: sign}, states, inputs) for sign in (1.0, -1.0)
+                sign: probe.distance({**modes, group.name: sign}, assembly.states, assembly.inputs)
+                for sign in (1.0, -1.0)
             }
             closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding
             modes[group.name] = -1.0 if closer else 1.0

@@ -18,11 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.search import edge, ends, lowest
+from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.passing import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
@@ -105,14 +107,19 @@ def passages(solver: MotionSolver, positions: Positions, followed: Followed | No
 
 def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
     """Names of the outputs that show where :func:`passages` may find something; None where these do not tell."""
-    placed = solver.motion.placed
-    if (
-        not is_way(positions)
-        or parts(solver, positions) > 1
-        or any("sine" in p.facts for p in placed.values())
-    ):
+    if not is_way(positions) or parts(solver, positions) > 1:
         return None
-    return tuple(name for group in modal(solver.motion) for name in measures(solver.motion, group))
+    return _measures.get(solver.motion, None, lambda: _all_measures(solver.motion))
+
+
+#: Of a motion all :func:`measures`; None where a group's guides may become parallel.
+_measures: Recent[MotionTrace, tuple[str, ...] | None] = Recent(64)
+
+
+def _all_measures(motion: MotionTrace) -> tuple[str, ...] | None:
+    if any("sine" in placed.facts for placed in motion.placed.values()):
+        return None
+    return tuple(name for group in modal(motion) for name in measures(motion, group))
 
 
 def nearness(solver: MotionSolver) -> Scalar:
@@ -132,16 +139,14 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
     """How often the steps of a cycle must be divided, so that no driver moves farther than :data:`FINE` in one."""
     if not positions.cycle or not positions.coordinates:
         return 1
-    mechanism = solver.mechanism
+    mechanism, ways = solver.mechanism, positions
     step = _step(positions)
-    rates = positions.coordinates
     if any(driver.law.constant_speed is None for driver in mechanism.drivers.values()):
         span = step * (positions.count if positions.closed else positions.count - 1)
-        rates = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1)).coordinates
-    size = mechanism_size(mechanism)
+        ways = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1))
     farthest = max(
-        float(np.abs(rate).max()) * abs(step) / (1.0 if positions.rotary[name] else size)
-        for name, (_, rate, _) in rates.items()
+        pace * abs(step) / (1.0 if positions.rotary[name] else mechanism_size(mechanism))
+        for name, pace in ways.paces.items()
     )
     return min(int(np.ceil(farthest / FINE - 1e-9)) or 1, max(MOST // positions.count, 1))
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drivers.base import Driver
+from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.whole_turns import whole_turns
 from linkwright.mechanism.mechanism import Mechanism
@@ -49,6 +51,11 @@ class Positions:
     def count(self) -> int:
         """Number of positions."""
         return len(self.time)
+
+    @cached_property
+    def paces(self) -> dict[str, float]:
+        """The largest rate of every driver, rad/s or m/s."""
+        return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
 
     @cached_property
     def arrays(self) -> dict[str, Floats]:
@@ -137,10 +144,25 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
         raise CycleError(Sentence("motion.bad_steps", steps=steps))
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
+    if any(joint.higher for joint in mechanism.joints.values()):
+        return _over_cycle(mechanism, steps, endpoint)
+    turning = tuple(_rotary(mechanism).values())
+    key = (steps, endpoint, mechanism.cycle, turning)
+    return _cycles.get(mechanism.drivers, key, lambda: _over_cycle(mechanism, steps, endpoint))
+
+
+#: Of machines without wheels, whose cycle their drivers alone decide.
+_cycles: Recent[Mapping[str, Driver], Positions] = Recent(16)
+
+
+def _over_cycle(mechanism: Mechanism, steps: int, endpoint: bool) -> Positions:
     start, duration, closed = time_span(mechanism)
     count = steps if closed and not endpoint else steps + 1
     time = start + duration * np.arange(count) / steps
-    return replace(at_times(mechanism, time, closed, abs(duration) if closed else None), cycle=True)
+    found = replace(at_times(mechanism, time, closed, abs(duration) if closed else None), cycle=True)
+    for row in (found.time, *chain.from_iterable(found.coordinates.values())):
+        row.flags.writeable = False
+    return found
 
 
 def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:

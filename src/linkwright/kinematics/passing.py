@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import ceil, cos, inf, isfinite, sin, tau
+from collections.abc import Callable, Sequence
+from math import ceil, cos, inf, isfinite, nan, sin, tau
 from typing import TYPE_CHECKING
 
 from linkwright.engine.program import Program
@@ -34,19 +34,37 @@ def measures(motion: MotionTrace, group: str) -> list[str]:
     return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
 
 
-def nothing_passed(names: Sequence[str], rows: Sequence[Sequence[float]]) -> bool:
-    """Whether these outputs, (names, n), stay so far from zero that nothing can lie between two positions."""
-    for name, row in zip(names, rows, strict=True):
-        low, high = min(row), max(row)
+def clear_of_zero(
+    names: Sequence[str], lows: Sequence[float], highs: Sequence[float], leap: Callable[[int], float]
+) -> bool:
+    """Whether these outputs stay so far from zero that nothing can lie between two positions.
+
+    ``lows``, ``highs``: the smallest and the largest value of each, NaN where one is; ``leap``: the largest change of
+    an output, by its number, from one position to the next.
+    """
+    for k, (name, low, high) in enumerate(zip(names, lows, highs, strict=True)):
         if name.startswith("fact:"):
             least = NEAR * high
         elif low > max(NEAR, high - low):
             least = NEAR
         else:
-            least = max(NEAR, *(abs(b - a) for a, b in zip(row, [*row[1:], row[0]], strict=True)))
-        if not (low > least and isfinite(sum(row))):
+            least = max(NEAR, leap(k))
+        if not (low > least and isfinite(high)):
             return False
     return True
+
+
+def nothing_passed(names: Sequence[str], rows: Sequence[Sequence[float]]) -> bool:
+    """The same of outputs (names, n) as plain numbers."""
+    sound = [isfinite(sum(row)) for row in rows]
+    lows, highs = (
+        [end(row) if good else nan for row, good in zip(rows, sound, strict=True)] for end in (min, max)
+    )
+
+    def leap(k: int) -> float:
+        return max(abs(b - a) for a, b in zip(rows[k], [*rows[k][1:], rows[k][0]], strict=True))
+
+    return clear_of_zero(names, lows, highs, leap)
 
 
 def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Hashable, Mapping
 from typing import Any
 
 from linkwright.core.expressions import Expression
+from linkwright.drivers.base import Driver
 from linkwright.engine.recent import Recent
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Link, Mechanism
@@ -23,19 +24,42 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
     its arguments. Loads, joints and laws take part with their fields, numbers left out.
     """
     numbers = mechanism.dimensions()
+    joints, links = mechanism.joints, (mechanism.frame, *mechanism.links.values())
     return (
         tuple(numbers),
         tuple(_known(value) if address not in free else None for address, value in numbers.items()),
         free,
-        _link(mechanism.frame),
-        tuple(_link(link) for link in mechanism.links.values()),
-        tuple(_form(joint) for joint in mechanism.joints.values()),
-        tuple(_ahead(mechanism, joint) for joint in mechanism.joints.values()),
-        tuple((d.name, d.joint, d.link, d.relative_to, type(d.law)) for d in mechanism.drivers.values()),
-        tuple(_form(load) for load in mechanism.loads.values()),
+        tuple(_link(link) for link in links),
+        _forms.get(joints, None, lambda: Form(tuple(map(_plain, joints.values())))),
+        tuple(_ahead(mechanism, joint) for joint in joints.values()),
+        _forms.get(mechanism.drivers, None, lambda: Form(tuple(map(_driver, mechanism.drivers.values())))),
+        _forms.get(mechanism.loads, None, lambda: Form(tuple(map(_plain, mechanism.loads.values())))),
         tuple((address, each.text) for address, each in mechanism.expressions.items()),
         math.frexp(mechanism_size(mechanism))[1],
     )
+
+
+class Form:
+    """What of elements decides programs, hashed once."""
+
+    __slots__ = ("_hash", "_parts")
+
+    def __init__(self, parts: Hashable) -> None:
+        self._parts, self._hash = parts, hash(parts)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Form) and self._parts == other._parts)
+
+
+#: Of joints, drivers and loads, by the mapping that holds them.
+_forms: Recent[Mapping[str, Any], Form] = Recent(256)
+
+
+def _driver(driver: Driver) -> Hashable:
+    return driver.name, driver.joint, driver.link, driver.relative_to, type(driver.law)
 
 
 def _known(value: float) -> int | None:
@@ -56,14 +80,6 @@ def _ahead(mechanism: Mechanism, joint: Any) -> bool | None:
         return None
     start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
     return end > start
-
-
-def _form(element: Any) -> Hashable:
-    """The same of a whole element, kept with it."""
-    return _forms.get(element, None, lambda: _plain(element))
-
-
-_forms: Recent[Any, Hashable] = Recent(1024)
 
 
 def _plain(value: Any) -> Hashable:

@@ -20,7 +20,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle, time_span
 from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.passing import nothing_passed
+from linkwright.kinematics.passing import clear_of_zero
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -121,7 +121,7 @@ class MotionRun:
         *names, outcome = self.solver.outputs.standard()
         stored = (*names, *measures, outcome)
         values = self.solver.evaluate(stored, self.positions, {}, {})
-        if np.count_nonzero(values[-1]) or not nothing_passed(measures, values[len(names) : -1].tolist()):
+        if np.count_nonzero(values[-1]) or not _clear(measures, values[len(names) : -1]):
             return None
         rows = Rows(values, {name: i for i, name in enumerate(stored)})
         motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)
@@ -153,6 +153,14 @@ class MotionRun:
             notes=notes(found, self.positions),
             barred=barred,
         )
+
+
+def _clear(measures: tuple[str, ...], rows: Floats) -> bool:
+    """Whether these outputs (measures, n) show that nothing is passed between two positions."""
+    lows, highs = rows.min(axis=1).tolist(), rows.max(axis=1).tolist()
+    return clear_of_zero(
+        measures, lows, highs, lambda k: float(np.abs(np.diff(rows[k], append=rows[k, 0])).max())
+    )
 
 
 def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str, Floats], tuple[str, ...]]:

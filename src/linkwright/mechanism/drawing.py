@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 from linkwright.joints.lower import SlidingJoint
 from linkwright.mechanism.mechanism import Mechanism
@@ -16,14 +17,17 @@ class Drawing:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.points: dict[str, Vec] = {**dict(mechanism.drawing), **dict(mechanism.frame.points)}
-        self._angles: dict[str, float | None] = {"frame": 0.0}
-        for name in mechanism.links:
-            self._angles[name] = self._from_points(name)
-        self._spread_along_guides()
-        self._count_turns()
 
     def __bool__(self) -> bool:
         return bool(self.mechanism.drawing)
+
+    @cached_property
+    def _angles(self) -> dict[str, float | None]:
+        found: dict[str, float | None] = {"frame": 0.0}
+        found |= {name: self._from_points(name) for name in self.mechanism.links}
+        self._spread_along_guides(found)
+        self._count_turns(found)
+        return found
 
     def angle(self, link: str) -> float | None:
         """Direction of a link's x axis, rad; None where the drawing does not tell.
@@ -81,24 +85,24 @@ class Drawing:
                 return base[0] + c * dx - s * dy, base[1] + s * dx + c * dy
         return None
 
-    def _count_turns(self) -> None:
-        for name, angle in self._angles.items():
+    def _count_turns(self, angles: dict[str, float | None]) -> None:
+        for name, angle in angles.items():
             if angle is not None:
-                self._angles[name] = math.remainder(angle, 2 * math.pi)
+                angles[name] = math.remainder(angle, 2 * math.pi)
         for driver in self.mechanism.drivers.values():
-            turned, base = self._angles[driver.link], self._angles[driver.relative_to]
+            turned, base = angles[driver.link], angles[driver.relative_to]
             if driver.law.rotary and turned is not None and base is not None:
                 start = base + driver.law.at(0.0)
-                self._angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
+                angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
 
-    def _spread_along_guides(self) -> None:
+    def _spread_along_guides(self, angles: dict[str, float | None]) -> None:
         """A link without two drawn points takes its direction from a guide."""
         guides = self.mechanism.guides.values()
         for _ in guides:
             for joint in guides:
                 turn = joint.angle_of_guide(self.mechanism) - joint.block_angle
-                guide, block = self._angles[joint.guide], self._angles[joint.block]
+                guide, block = angles[joint.guide], angles[joint.block]
                 if block is None and guide is not None:
-                    self._angles[joint.block] = guide + turn
+                    angles[joint.block] = guide + turn
                 elif guide is None and block is not None:
-                    self._angles[joint.guide] = block - turn
+                    angles[joint.guide] = block - turn

@@ -184,10 +184,14 @@ class Mechanism(Frozen):
             for name, link in {"frame": self.frame, **self.links}.items()
         }
         joints = {
-            name: joint.with_dimensions(value).aligned(links[joint.joined[0]].points)
+            name: joint.with_dimensions(value) if ("joint", name) in moved else joint
+            for name, joint in self.joints.items()
+        }
+        joints = {
+            name: joint.aligned(links[joint.joined[0]].points)
             if {("joint", name), ("link", joint.joined[0])} & moved
             else joint
-            for name, joint in self.joints.items()
+            for name, joint in joints.items()
         }
         drivers = {
             name: driver.with_dimensions(value, parameters)
@@ -195,20 +199,21 @@ class Mechanism(Frozen):
             else driver
             for name, driver in self.drivers.items()
         }
+        loads = {
+            name: load.with_dimensions(value) if ("load", name) in moved else load
+            for name, load in self.loads.items()
+        }
         changed = replace(
             self,
             frame=links.pop("frame"),
             links=links,
-            joints=joints,
-            drivers=drivers,
-            loads={
-                name: load.with_dimensions(value) if ("load", name) in moved else load
-                for name, load in self.loads.items()
-            },
+            joints=_unchanged(self.joints, joints),
+            drivers=_unchanged(self.drivers, drivers),
+            loads=_unchanged(self.loads, loads),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=parameters,
-            expressions=kept,
+            expressions=_unchanged(self.expressions, kept),
         )
         vars(changed)["_dimensions"] = new
         return changed
@@ -325,3 +330,9 @@ class Mechanism(Frozen):
 
     def __getstate__(self) -> dict[str, Any]:
         return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+def _unchanged(old: Mapping[str, Any], new: dict[str, Any]) -> Mapping[str, Any]:
+    """The old mapping itself where the new one holds the same elements, so that what is kept by it stays known."""
+    same = len(old) == len(new) and all(a is b for a, b in zip(old.values(), new.values(), strict=True))
+    return old if same else new
