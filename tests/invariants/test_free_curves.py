@@ -196,6 +196,8 @@ def test_curves_from_files(tmp_path: Path) -> None:
     svg = tmp_path / "a.svg"
     svg.write_text('<svg xmlns="http://www.w3.org/2000/svg"><g><polygon points="0,0 2,0 2,1"/></g></svg>')
     assert list(read_curve(svg)) == [0, 2, 2 - 1j, 0]
+    svg.write_text('<svg><polyline points="0-1-2.5.5 1e1 0"/></svg>')
+    assert list(read_curve(svg)) == [1j, -2.5 - 0.5j, 10]
     table = tmp_path / "a.csv"
     table.write_text("x;y\n1;2\n\n3.5; 4e0\n")
     assert list(read_curve(table)) == [1 + 2j, 3.5 + 4j]

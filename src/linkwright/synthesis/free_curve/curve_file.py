@@ -41,7 +41,7 @@ def _columns(text: str, path: Path) -> Complexes:
                 continue
             raise refuse("free_curve.line", path=path, line=number, text=line.strip()[:40]) from None
         found.append(complex(x, y))
-    if len(found) < 2 or not np.isfinite(found).all():
+    if len(found) < 2:
         raise refuse("free_curve.few", path=path)
     return np.array(found)
 
@@ -59,9 +59,8 @@ def _svg(text: str, path: Path) -> Complexes:
         if name == "path" and element.get("d"):
             return path_points(str(element.get("d")), path).conj()
         if name in ("polyline", "polygon") and element.get("points"):
-            numbers = [float(each) for each in re.findall(r"[-+.\deE]+", str(element.get("points")))]
-            points = np.array(numbers[0 : len(numbers) // 2 * 2 : 2]) + 1j * np.array(numbers[1::2])
-            return np.append(points, points[0]).conj() if name == "polygon" else points.conj()
+            end = "Z" if name == "polygon" else ""
+            return path_points(f"M {element.get('points')} {end}", path).conj()
     raise refuse("free_curve.no_path", path=path)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.engine.machine_code import available
+from linkwright.synthesis.demands import whole
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import KINDS, Placed, linkage_of
@@ -17,10 +18,13 @@ from linkwright.synthesis.free_curve.nodes import Complexes, Design, node_paths
 from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
 from linkwright.synthesis.path_generation.generate import complex_points
+from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
 
 #: Positions of a turn at which the demands are examined, and of a candidate's curve.
 TURN, SHOWN = 1800, 721
+#: Coordinates of a curve lie below this, m; points nearer than this share of them (of 1 m at least) are one place.
+FARTHEST, LEAST = 1e9, 1e-12
 #: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
 ALIKE = 0.02, 0.03, 0.2
 
@@ -71,18 +75,20 @@ def free_curve(
             (``nearest``).
     """
     curve, closes = _curve(points, file, file_unit, closed)
-    if not 5 <= joints <= JOINTS[-1]:
+    whole(count=count)
+    whole(seed=seed, least=0)
+    whole(joints=joints, least=JOINTS[0])
+    if joints > JOINTS[-1]:
         raise refuse("free_curve.joints", given=joints, most=JOINTS[-1])
     if not 0 < transmission_angle < math.pi / 2:
         raise refuse("transmission_range", given=f"{math.degrees(transmission_angle):g}")
-    for name, value in (("size", size), ("seconds", seconds), ("count", count)):
-        if not 0 < value < math.inf:
-            raise refuse("not_positive", name=name, given=value)
+    positive(size=size, seconds=seconds)
+    not_negative(error=error)
     if not available():
         raise refuse("free_curve.compiler")
     target = Target(curve, closes, transmission_angle, size)
-    search = Search(target, joints, seconds, seed, progress)
-    return _ranked(target, search.run(), curve, error, count, search)
+    search = Search(target, int(joints), seconds, int(seed), progress)
+    return _ranked(target, search.run(), curve, error, int(count), search)
 
 
 def _curve(
@@ -91,8 +97,13 @@ def _curve(
     if (points is None) == (file is None):
         raise refuse("free_curve.no_curve")
     z = complex_points(points) if points is not None else unit * read_curve(Path(str(file)))
-    z = z[np.concatenate([[True], np.abs(np.diff(z)) > 0])]
-    if len(z) < 2 or not np.ptp(np.abs(z - z[0])) > 0:
+    if not len(z):
+        raise refuse("free_curve.no_curve")
+    far = float(np.abs([z.real, z.imag]).max())
+    if not far < FARTHEST:
+        raise refuse("free_curve.far", given=f"{far:.3g}", most=f"{FARTHEST:g}")
+    z = z[np.append(True, np.abs(np.diff(z)) > 0)]
+    if np.abs(z - z[0]).max() < LEAST * max(1.0, far):
         raise refuse("path.one_place")
     joined = abs(z[-1] - z[0]) < 1e-9 * np.abs(z - z[0]).max()
     closes = joined if closed is None else closed

@@ -124,12 +124,16 @@ def _demand(
 
 def complex_points(points: ArrayLike) -> Complexes:
     """Points (n, 2) or complex (n,) as complex (n,); raises SynthesisError for what is neither, or not finite."""
-    given = np.asarray(points)
-    if given.ndim == 2 and given.shape[1] == 2:
-        given = given[:, 0].astype(float) + 1j * given[:, 1].astype(float)
+    try:
+        given = np.asarray(points)
+        if given.ndim == 2 and given.shape[1] == 2:
+            given = given[:, 0].astype(float) + 1j * given[:, 1].astype(float)
+        given = given.astype(complex)
+    except (ValueError, TypeError):
+        raise refuse("points") from None
     if given.ndim != 1 or not np.isfinite(given).all():
         raise refuse("points")
-    return given.astype(complex)
+    return given
 
 
 def _candidates(found: Found) -> list[Candidate]:
