@@ -91,7 +91,7 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
     if (!Number.isFinite(x)) return;
     page.soon(() => {
       model.change({ ...model.values, [address]: x * factor });
-      session.touched();
+      session.moved();
     });
   };
   const done = (roughly: boolean) => {

@@ -1,55 +1,58 @@
-// Curves over the input, and hodographs, as SVG paths.
-import { element, put, thinned, write } from "./strokes";
+// Curves over the input, painted on a canvas; hodographs as SVG paths.
+import { colours, painted } from "./palette";
+import { element, thinned } from "./strokes";
 import { digits } from "./words";
 
-// Units of the picture are tenths of a pixel, so that paths are written in whole numbers.
-const W = 3600, H = 1320, LEFT = 500, RIGHT = 80, TOP = 80, BOTTOM = 200;
-// How far a curve may leave its places, in these units.
-const FLAT = 0.8;
+// The picture in its own units, about pixels.
+const W = 360, H = 132, LEFT = 50, RIGHT = 8, TOP = 8, BOTTOM = 20;
+// How far a curve may leave its places, in these units; units between two fitting numbers, and their size.
+const FLAT = 0.08;
+const FONT = "10px system-ui, sans-serif";
 
 export interface Curve {
-  style: string;
+  style: "now" | "original" | number;
   values: ArrayLike<number>;
+}
+
+interface Written {
+  values: ArrayLike<number>;
+  low: number;
+  high: number;
+  path: Path2D;
 }
 
 /** One diagram: curves over x, a scale of its own, a line at the position that is shown. */
 export class Chart {
-  readonly svg: SVGElement;
-  private readonly paths = new Map<number, SVGElement>();
-  private readonly marks: { grid: SVGElement; low: SVGElement; high: SVGElement; left: SVGElement; right: SVGElement; cursor: SVGElement; dot: SVGElement };
+  readonly end: () => void;
+  private readonly canvas: HTMLCanvasElement;
+  private readonly pen: CanvasRenderingContext2D;
   private low = 0;
   private high = 1;
   private x: ArrayLike<number> = [0, 1];
-  // Abscissas, also as text, and each curve with the scale it was drawn to: what stays is not written again.
   private places = new Float64Array();
-  private across: string[] = [];
-  private readonly written = new Map<number, { values: ArrayLike<number>; low: number; high: number }>();
+  private curves: Curve[] = [];
+  private ticks: string[] = [];
+  private at: [number, number] = [NaN, NaN];
+  // Each curve with the scale it was drawn to: what stays is not found again.
+  private written: Written[] = [];
 
   constructor(host: HTMLElement) {
-    this.svg = element("svg", { class: "chart", viewBox: `0 0 ${W} ${H}`, role: "img" }, host);
-    const text = (x: number, y: number, anchor: string) => element("text", { x, y, "text-anchor": anchor, class: "tick" }, this.svg);
-    this.marks = {
-      grid: element("path", { class: "grid" }, this.svg),
-      low: text(LEFT - 50, H - BOTTOM + 30, "end"),
-      high: text(LEFT - 50, TOP + 90, "end"),
-      left: text(LEFT, H - 50, "start"),
-      right: text(W - RIGHT, H - 50, "end"),
-      cursor: element("path", { class: "cursor" }, this.svg),
-      dot: element("circle", { class: "dot", r: 35 }, this.svg),
-    };
+    const { canvas, pen, end } = painted(host, () => this.paint());
+    [this.canvas, this.pen, this.end] = [canvas, pen, end];
+    canvas.className = "chart";
+    canvas.setAttribute("role", "img");
   }
 
   label(text: string): void {
-    this.svg.setAttribute("aria-label", text);
+    if (this.canvas.ariaLabel !== text) this.canvas.ariaLabel = text;
   }
 
-  /** The last curve is the current one; values are in units of `factor`. */
+  /** The last curve is the current one; values are in units of `factor`. Painted by `cursor`. */
   set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string]): void {
     if (this.x !== x) {
       this.x = x;
       this.places = Float64Array.from(x, (each) => this.u(each));
-      this.across = Array.from(this.places, (each) => `${Math.round(each)} `);
-      this.written.clear();
+      this.written = [];
     }
     let [low, high] = [Infinity, -Infinity];
     for (const { values } of curves)
@@ -59,50 +62,66 @@ export class Chart {
       }
     if (!(high >= low)) [low, high] = [0, 1];
     if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
-    [this.low, this.high] = [low, high];
-    curves.forEach(({ style, values }, k) => {
-      const path = this.paths.get(k) ?? this.added(k);
-      put(path, "class", `curve ${style}`);
-      const before = this.written.get(k);
-      if (before?.values === values && before.low === low && before.high === high) return;
-      this.written.set(k, { values, low, high });
-      path.setAttribute("d", this.data(values));
+    [this.low, this.high, this.curves] = [low, high, curves];
+    this.written = curves.map(({ values }, k) => {
+      const before = this.written[k];
+      return before?.values === values && before.low === low && before.high === high ? before : { values, low, high, path: this.path(values) };
     });
-    for (const [k, path] of this.paths)
-      if (k >= curves.length) {
-        path.remove();
-        this.paths.delete(k);
-        this.written.delete(k);
-      }
-    const zero = low < 0 && high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
-    put(this.marks.grid, "d", `M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`);
-    write(this.marks.low, digits(low / factor, 3));
-    write(this.marks.high, digits(high / factor, 3));
-    write(this.marks.left, ends[0]);
-    write(this.marks.right, ends[1]);
-  }
-
-  private added(k: number): SVGElement {
-    const path = element("path");
-    this.svg.insertBefore(path, this.marks.cursor);
-    this.paths.set(k, path);
-    return path;
+    this.ticks = [digits(low / factor, 3), digits(high / factor, 3), ...ends];
   }
 
   cursor(i: number, value: number): void {
-    const u = this.u(this.x[i]);
-    this.marks.cursor.setAttribute("d", `M${u.toFixed(1)} ${TOP}V${H - BOTTOM}`);
-    const seen = Number.isFinite(value);
-    this.marks.dot.setAttribute("visibility", seen ? "visible" : "hidden");
-    if (seen) {
-      this.marks.dot.setAttribute("cx", u.toFixed(1));
-      this.marks.dot.setAttribute("cy", this.v(value).toFixed(1));
+    this.at = [this.x[i], value];
+    this.paint();
+  }
+
+  private paint(): void {
+    const { pen, canvas } = this, colour = colours(), scale = canvas.width / W;
+    // Strokes are as wide on small pictures as on large ones.
+    const thick = (devicePixelRatio || 1) / scale;
+    const stroke = (path: Path2D, style: string, width: number, dashes: number[] = []) => {
+      [pen.strokeStyle, pen.lineWidth] = [style, width * thick];
+      pen.setLineDash(dashes.map((each) => each * thick));
+      pen.stroke(path);
+    };
+    pen.setTransform(scale, 0, 0, scale, 0, 0);
+    pen.clearRect(0, 0, W, H);
+    pen.lineJoin = "round";
+    const zero = this.low < 0 && this.high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
+    stroke(new Path2D(`M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`), colour.line, 1);
+    this.curves.forEach(({ style }, k) => {
+      const { path } = this.written[k];
+      if (style === "now") stroke(path, colour.accent, 1.8);
+      else if (style === "original") stroke(path, colour.soft, 1.2, [4, 3]);
+      else stroke(path, [colour.a, colour.b, colour.c, colour.d][style % 4], 1.2);
+    });
+    this.mark(stroke, colour.soft, colour.accent);
+    this.write(colour.soft);
+  }
+
+  /** The line at the position that is shown, and its dot. */
+  private mark(stroke: (path: Path2D, style: string, width: number) => void, soft: string, accent: string): void {
+    const [x, y] = this.at, u = this.u(x), { pen } = this;
+    stroke(new Path2D(`M${u} ${TOP}V${H - BOTTOM}`), soft, 0.8);
+    if (!Number.isFinite(y)) return;
+    pen.fillStyle = accent;
+    pen.beginPath();
+    pen.arc(u, this.v(y), 3.5, 0, 2 * Math.PI);
+    pen.fill();
+  }
+
+  private write(soft: string): void {
+    const { pen } = this, [low, high, left, right] = this.ticks;
+    [pen.fillStyle, pen.font] = [soft, FONT];
+    for (const [text, x, y, side] of [[low, LEFT - 5, H - BOTTOM + 3, "right"], [high, LEFT - 5, TOP + 9, "right"], [left, LEFT, H - 5, "left"], [right, W - RIGHT, H - 5, "right"]] as const) {
+      pen.textAlign = side;
+      pen.fillText(text ?? "", x, y);
     }
   }
 
   /** The place among n positions under a point of the screen. */
   index(clientX: number): number {
-    const box = this.svg.getBoundingClientRect(), u = ((clientX - box.left) * W) / box.width;
+    const box = this.canvas.getBoundingClientRect(), u = ((clientX - box.left) * W) / box.width;
     const share = (u - LEFT) / (W - LEFT - RIGHT);
     return Math.min(this.x.length - 1, Math.max(0, Math.round(share * (this.x.length - 1))));
   }
@@ -117,25 +136,25 @@ export class Chart {
   }
 
   /** Runs without gaps, each with as few corners as it takes. */
-  private data(values: ArrayLike<number>): string {
-    const n = values.length;
-    let d = "";
+  private path(values: ArrayLike<number>): Path2D {
+    const path = new Path2D(), n = values.length;
     for (let begin = 0; begin < n; ) {
       while (begin < n && !(values[begin] === values[begin])) begin++;
       let end = begin;
       while (end < n && values[end] === values[end]) end++;
-      d += this.run(values, begin, end);
+      this.run(path, values, begin, end);
       begin = end;
     }
-    return d;
+    return path;
   }
 
-  private run(values: ArrayLike<number>, begin: number, end: number): string {
-    const heights = new Float64Array(end - begin), { high } = this, scale = (H - TOP - BOTTOM) / (high - this.low);
-    for (let i = begin; i < end; i++) heights[i - begin] = TOP + (high - values[i]) * scale;
-    let d = "";
-    for (const i of thinned(this.places.subarray(begin, end), heights, FLAT)) d += `${i ? "L" : "M"}${this.across[begin + i]}${Math.round(heights[i])}`;
-    return d;
+  private run(path: Path2D, values: ArrayLike<number>, begin: number, end: number): void {
+    const places = this.places.subarray(begin, end), heights = new Float64Array(end - begin);
+    for (let i = begin; i < end; i++) heights[i - begin] = this.v(values[i]);
+    for (const i of thinned(places, heights, FLAT)) {
+      if (i) path.lineTo(places[i], heights[i]);
+      else path.moveTo(places[i], heights[i]);
+    }
   }
 }
 

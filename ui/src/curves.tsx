@@ -1,7 +1,7 @@
 // Curves over the input, and hodographs: drawn by effects when the machine changes or moves.
 import { effect } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { Chart, Hodograph } from "./chart";
+import { Chart, type Curve, Hodograph } from "./chart";
 import type { Page } from "./living";
 import type { Session } from "./session";
 import { write } from "./strokes";
@@ -31,7 +31,7 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
     return () => {
       stop();
       told();
-      drawn.svg.remove();
+      drawn.end();
     };
   }, []);
   const scrub = (event: PointerEvent) => {
@@ -68,8 +68,8 @@ function plot(chart: Chart, page: Page, session: Session, id: string, row: Float
   const { model } = session, { x, kind } = model.axis, signal = model.signals[id];
   const unit = unitFor(signal.kind, largest(session, id));
   const ends = [0, model.n - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
-  const kept = session.variants.value.map((each, k) => ({ style: `variant trace-${(k + 1) % 4}`, values: each.design.rows[id] }));
-  const old = model.differs ? [{ style: "original", values: model.original.rows[id] }] : [];
+  const kept = session.variants.value.map((each, k) => ({ style: k + 1, values: each.design.rows[id] }));
+  const old: Curve[] = model.differs ? [{ style: "original", values: model.original.rows[id] }] : [];
   chart.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends);
   chart.label(page.say("curve", { name: signal.name[page.language.value] }));
 }

@@ -44,6 +44,7 @@ export function Machine({ page, session }: { page: Page; session: Session }) {
       for (const stop of [drawn, told, named]) stop();
       window.clearTimeout(waiting);
       observer.disconnect();
+      view.end();
     };
   }, []);
   return (
@@ -80,7 +81,7 @@ function attach(page: Page, session: Session, view: View): void {
   let dragged: { key: string; base: Values; dx: number; dy: number } | null = null;
   const move = (key: string, base: Values, x: number, y: number) => {
     session.model.drag(base, key, view.index, ...view.world(x, y));
-    session.touched();
+    session.moved();
   };
   view.svg.addEventListener("pointerdown", (event) => {
     const handle = (event.target as Element).closest<SVGElement>(".handle");

@@ -49,7 +49,6 @@ export class Session {
   private future: Values[] = [];
   private counted = 0;
   private resting = 0;
-  private stale = false;
 
   constructor(readonly data: ModelData, code: Code, readonly number: number) {
     this.model = new Model(data, code);
@@ -61,20 +60,18 @@ export class Session {
     };
   }
 
+  /** Something has changed, and stays so. */
   touched(): void {
     this.version.value++;
-    this.stale = true;
-    if (this.resting) return;
-    this.calmed();
-    this.resting = window.setTimeout(() => {
-      this.resting = 0;
-      if (this.stale) this.calmed();
-    }, REST);
+    window.clearTimeout(this.resting);
+    this.resting = 0;
+    this.calm.value++;
   }
 
-  private calmed(): void {
-    this.stale = false;
-    this.calm.value++;
+  /** The machine is being moved: what the eye follows changes at once, the rest when the browser has time for it. */
+  moved(): void {
+    this.version.value++;
+    this.resting ||= window.setTimeout(() => idle(() => this.resting && this.touched()), REST);
   }
 
   /** A change begins: what was before can be had back. */
@@ -91,7 +88,6 @@ export class Session {
     if (this.view?.outside) this.view.fit();
     this.sweep(this.swept.value);
     this.touched();
-    if (this.stale) this.calmed();
     this.ended?.();
   }
 
@@ -239,6 +235,12 @@ export class Session {
     }
     return { text, missing };
   }
+}
+
+/** Runs work when the page has nothing else to do, at the latest after a rest. */
+function idle(work: () => void): void {
+  if ("requestIdleCallback" in window) requestIdleCallback(work, { timeout: REST });
+  else work();
 }
 
 /** Offsets count characters beyond the basic plane as one, as Python does. */

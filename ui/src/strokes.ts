@@ -19,8 +19,8 @@ export const line = (points: Vec[], closed = false) =>
 export const away = ([x, y]: Vec, [u, v]: Vec, far: number, side = 0): Vec => [x + far * u - side * v, y + far * v + side * u];
 
 export function place(of: SVGElement, a: string, b: string, [x, y]: Vec): void {
-  of.setAttribute(a, x.toFixed(2));
-  of.setAttribute(b, y.toFixed(2));
+  put(of, a, x.toFixed(2));
+  put(of, b, y.toFixed(2));
 }
 
 export const far = (a: Vec, b: Vec) => Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -32,8 +32,8 @@ export function unit(a: Vec, b: Vec): Vec {
 
 export function arrow(shaft: SVGElement, head: SVGElement, from: Vec, to: Vec): void {
   const length = far(from, to), u = unit(from, to), size = Math.min(9, length);
-  shaft.setAttribute("d", line([from, away(to, u, -0.7 * size)]));
-  head.setAttribute("d", line([to, away(to, u, -size, -0.38 * size), away(to, u, -size, 0.38 * size)], true));
+  put(shaft, "d", line([from, away(to, u, -0.7 * size)]));
+  put(head, "d", line([to, away(to, u, -size, -0.38 * size), away(to, u, -size, 0.38 * size)], true));
 }
 
 export function put(of: Element, name: string, value: string): void {

@@ -7,9 +7,23 @@ export interface Packed {
   data: PageData;
 }
 
+const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
+
+/** Bytes of a text in base 85, with a comma for the sign that opens tags; what lacks at its end are largest digits. */
+function bytes(text: string): Uint8Array<ArrayBuffer> {
+  const value = new Uint8Array(128), whole = text + "~~~~", found = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
+  for (let k = 0; k < 85; k++) value[DIGITS.charCodeAt(k)] = k;
+  for (let k = 0; k < text.length; k += 5) {
+    let sum = 0;
+    for (let j = 0; j < 5; j++) sum = 85 * sum + value[whole.charCodeAt(k + j)];
+    found.setUint32((4 * k) / 5, sum);
+  }
+  return new Uint8Array(found.buffer, 0, Math.floor((4 * text.length) / 5));
+}
+
 async function unpack(): Promise<void> {
   const text = document.getElementById("packed")!.textContent!;
-  const stream = new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]).stream();
+  const stream = new Blob([bytes(text)]).stream();
   const whole = await new Response(stream.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
   const length = new DataView(whole).getUint32(0, true);
   const found = JSON.parse(new TextDecoder().decode(new Uint8Array(whole, 4, length))) as Packed;

@@ -1,6 +1,7 @@
 // The machine drawn in the standard symbols: elements made once, moved at every frame.
 import type { Glyph } from "./data";
 import type { Model, Values } from "./model";
+import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
   arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, zigzag,
@@ -39,7 +40,8 @@ export class View {
   /** What is found again when the machine or the scale has changed, not at every position. */
   private readonly settled: (() => void)[] = [];
   private readonly shapes: Shapes;
-  private readonly canvas: HTMLCanvasElement;
+  private readonly pen: CanvasRenderingContext2D;
+  readonly end: () => void;
   private ghostly: Ghost[] = [];
   private seen: { values: Values | null; scale: number; paths: string } = { values: null, scale: 0, paths: "" };
   private readonly handles = new Map<string, SVGElement>();
@@ -55,8 +57,9 @@ export class View {
 
   constructor(readonly model: Model, host: HTMLElement, public shown: Shown) {
     this.shapes = new Shapes(model);
-    this.canvas = host.appendChild(document.createElement("canvas"));
-    this.canvas.setAttribute("aria-hidden", "true");
+    const { canvas, pen, end } = painted(host, () => this.drawGhosts());
+    canvas.setAttribute("aria-hidden", "true");
+    [this.pen, this.end] = [pen, end];
     this.svg = element("svg", { class: "machine", role: "group" }, host);
     for (const name of LAYERS) this.layers[name] = element("g", { class: `lw-${name}` }, this.svg);
     model.data.glyphs.forEach((glyph, number) => this.drawn.push(this.glyph(glyph, number)));
@@ -172,7 +175,7 @@ export class View {
       if (!free) continue;
       const [u, v] = [x + free[0], y + free[1]];
       used.push([u, v, u + wide]);
-      label.setAttribute("transform", `translate(${tenth(u)} ${tenth(v)})`);
+      put(label, "transform", `translate(${tenth(u)} ${tenth(v)})`);
     }
   }
 
@@ -185,32 +188,32 @@ export class View {
       case "stamp": return this.stamp(glyph, layer);
       case "bar": {
         const bar = path("lw-bar");
-        return (i) => bar.setAttribute("d", line(glyph.points!.map((key) => this.at(key, i))));
+        return (i) => put(bar, "d", line(glyph.points!.map((key) => this.at(key, i))));
       }
       case "plate": {
         const plate = path("lw-plate");
-        return (i) => plate.setAttribute("d", line(hull(glyph.points!.map((key) => this.at(key, i))), true));
+        return (i) => put(plate, "d", line(hull(glyph.points!.map((key) => this.at(key, i))), true));
       }
       case "spring": {
         const spring = path("lw-spring");
-        return (i) => spring.setAttribute("d", line(zigzag(this.at(glyph.points![0], i), this.at(glyph.points![1], i))));
+        return (i) => put(spring, "d", line(zigzag(this.at(glyph.points![0], i), this.at(glyph.points![1], i))));
       }
       case "damper": {
         const damper = path("lw-spring");
-        return (i) => damper.setAttribute("d", dashpot(this.at(glyph.points![0], i), this.at(glyph.points![1], i)));
+        return (i) => put(damper, "d", dashpot(this.at(glyph.points![0], i), this.at(glyph.points![1], i)));
       }
       case "passing": {
         const bar = path("lw-bar");
         return (i) => {
           const [a, b] = glyph.points!.map((key) => this.at(key, i)), at = this.at(glyph.at!, i), u = unit(a, b);
-          bar.setAttribute("d", line([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
+          put(bar, "d", line([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
         };
       }
       case "stub": {
         const bar = path("lw-bar");
         return (i) => {
           const at = this.at(glyph.at!, i);
-          bar.setAttribute("d", line([at, away(at, this.way(`d:${glyph.joint}`, i), glyph.shift!)]));
+          put(bar, "d", line([at, away(at, this.way(`d:${glyph.joint}`, i), glyph.shift!)]));
         };
       }
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
@@ -223,7 +226,7 @@ export class View {
         const strands = path("lw-spring");
         return (i) => {
           const [a, b] = glyph.points!.map((key) => this.at(key, i)), [r, s] = glyph.radii!.map((each) => amount(each, this.model.values) * this.scale);
-          strands.setAttribute("d", [1, -1].map((side) => strand(a, b, side * r, side * (glyph.crossed ? -s : s))).join(""));
+          put(strands, "d", [1, -1].map((side) => strand(a, b, side * r, side * (glyph.crossed ? -s : s))).join(""));
         };
       }
       case "load": return this.load(glyph, path("lw-load-line"), path("lw-load-head"));
@@ -237,7 +240,7 @@ export class View {
     return (i) => {
       const along = this.way(glyph.along!, i), [x, y] = away(this.at(glyph.at!, i), along, glyph.shift ?? 0);
       const turn = (Math.atan2(along[1], along[0]) * 180) / Math.PI;
-      made.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
+      put(made, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
     };
   }
 
@@ -261,13 +264,13 @@ export class View {
       const { base, u, low, high } = track(i), side = glyph.side!;
       const first = low + glyph.shift! - BLOCK - STUB, last = high + glyph.shift! + BLOCK + STUB;
       const y = side * (HALF_HEIGHT + 1.3), count = Math.max(2, Math.round((last - first) / 6));
-      rail.setAttribute("d", line([away(base, u, first, y), away(base, u, last, y)]));
+      put(rail, "d", line([away(base, u, first, y), away(base, u, last, y)]));
       let strokes = "";
       for (let k = 0; k < count; k++) {
         const x = first + ((k + 0.75) * (last - first)) / count;
         strokes += line([away(base, u, x, y), away(base, u, x - 5.25, y + 7 * side)]);
       }
-      hatch.setAttribute("d", strokes);
+      put(hatch, "d", strokes);
     };
   }
 
@@ -281,7 +284,7 @@ export class View {
       });
       const first = Math.min(low - BLOCK - STUB, ...along), last = Math.max(high + BLOCK + STUB, ...along);
       const tie = this.at(glyph.tie!, i);
-      rod.setAttribute("d", line([away(base, u, first), away(base, u, last)]) + (far(tie, base) > 1 ? line([tie, base]) : ""));
+      put(rod, "d", line([away(base, u, first), away(base, u, last)]) + (far(tie, base) > 1 ? line([tie, base]) : ""));
     };
   }
 
@@ -289,9 +292,9 @@ export class View {
     return (i) => {
       const u = this.way(`d:${glyph.joint}`, i), at = this.at(glyph.at!, i), from = this.at(glyph.through!, i);
       const back = away(at, u, -glyph.piston! * this.scale), length = glyph.barrel! * this.scale;
-      rod.setAttribute("d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
+      put(rod, "d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
       const box: Vec[] = [[8, -7.5], [length, -7.5], [length, 7.5], [8, 7.5]];
-      barrel.setAttribute("d", line(box.map(([x, y]) => away(from, u, x, y)), true));
+      put(barrel, "d", line(box.map(([x, y]) => away(from, u, x, y)), true));
     };
   }
 
@@ -301,7 +304,7 @@ export class View {
     this.settled.push(() => shape(paths));
     return (i) => {
       const [u, v] = this.way(glyph.along!, i), [x, y] = this.at(glyph.at!, i);
-      body.setAttribute("transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
+      put(body, "transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
     };
   }
 
@@ -309,10 +312,10 @@ export class View {
   private wheel(glyph: Glyph, number: number, layer: SVGElement): (i: number) => void {
     return this.carried(glyph, layer, ["lw-support", "lw-gear", "lw-pitch"], ([rim, teeth, pitch]) => {
       const r = this.shapes.radius(glyph) * this.scale, u: Vec = [1, 0], sign = glyph.inside ? -1 : 1;
-      pitch.setAttribute("d", round([0, 0], r));
-      rim.setAttribute("d", glyph.inside ? round([0, 0], r + 14) : "");
+      put(pitch, "d", round([0, 0], r));
+      put(rim, "d", glyph.inside ? round([0, 0], r + 14) : "");
       const mark = line([away([0, 0], u, glyph.inside ? r : 0.55 * r), away([0, 0], u, glyph.inside ? r + 12 : 0.9 * r)]);
-      teeth.setAttribute("d", (glyph.toothed ? toothed(r, glyph.teeth ?? null, -this.shapes.tooth(number), sign) : round([0, 0], r)) + mark);
+      put(teeth, "d", (glyph.toothed ? toothed(r, glyph.teeth ?? null, -this.shapes.tooth(number), sign) : round([0, 0], r)) + mark);
     });
   }
 
@@ -326,8 +329,8 @@ export class View {
       for (let x = first - step; x < end + step; x += step)
         for (const [share, up] of TOOTH) if (x + share * step > begin && x + share * step < end) outline.push([x + share * step, (up ? -TALL : DEEP) * height]);
       outline.push([end, DEEP * height], [end, 3 * DEEP]);
-      teeth.setAttribute("d", line(outline.map(([x, y]) => away([0, 0], u, x, -side * y)), true));
-      pitch.setAttribute("d", line([away([0, 0], u, begin), away([0, 0], u, end)]));
+      put(teeth, "d", line(outline.map(([x, y]) => away([0, 0], u, x, -side * y)), true));
+      put(pitch, "d", line([away([0, 0], u, begin), away([0, 0], u, end)]));
     });
   }
 
@@ -337,19 +340,19 @@ export class View {
     let face: Vec = [0, 0];
     const body = this.carried(glyph, layer, ["lw-support", "lw-plate", "lw-pitch"], ([wall, cam, curve]) => {
       const found = this.shapes.cam(glyph), outline = (points: Vec[]) => line(points.map(([x, y]) => [x * this.scale, -y * this.scale]), found.closed);
-      wall.setAttribute("d", outline(found.outer));
-      cam.setAttribute("d", outline(found.profile));
+      put(wall, "d", outline(found.outer));
+      put(cam, "d", outline(found.profile));
       cam.classList.toggle("open", !found.closed);
-      curve.setAttribute("d", outline(found.pitch));
+      put(curve, "d", outline(found.pitch));
       face = [found.face[0] * this.scale, found.face[1] * this.scale];
     });
     return (i) => {
       body(i);
       const at = this.at(glyph.trace!, i), [x, y] = this.shapes.line(glyph, i), u: Vec = [x, -y];
       const open = 14 * (glyph.joint ? glyph.side! : -glyph.side!);
-      if (glyph.touch === "roller") tip.setAttribute("d", round(at, amount(glyph.radius!, this.model.values) * this.scale));
-      else if (glyph.touch === "flat") tip.setAttribute("d", line([away(at, u, face[0]), away(at, u, face[1])]));
-      else tip.setAttribute("d", line([at, away(at, u, 4.5, open), away(at, u, -4.5, open)], true));
+      if (glyph.touch === "roller") put(tip, "d", round(at, amount(glyph.radius!, this.model.values) * this.scale));
+      else if (glyph.touch === "flat") put(tip, "d", line([away(at, u, face[0]), away(at, u, face[1])]));
+      else put(tip, "d", line([at, away(at, u, 4.5, open), away(at, u, -4.5, open)], true));
     };
   }
 
@@ -359,7 +362,7 @@ export class View {
       const [fx, fy] = ["x", "y"].map((axis) => main.row(`lf:${glyph.load}.${axis}`)[i]);
       const [px, py] = ["x", "y"].map((axis) => main.row(`lp:${glyph.load}.${axis}`)[i]);
       const size = Math.hypot(fx, fy), seen = size > 1e-12 && this.model.forces;
-      for (const each of [shaft, head]) each.setAttribute("visibility", seen ? "visible" : "hidden");
+      for (const each of [shaft, head]) put(each, "visibility", seen ? "visible" : "hidden");
       if (!seen) return;
       const u: Vec = [fx / size, -fy / size], tip = away(this.paper(px, py), u, -GAP);
       arrow(shaft, head, away(tip, u, -PUSH), tip);
@@ -373,10 +376,10 @@ export class View {
     while (this.paths.length > wanted.length) this.paths.pop()!.remove();
     wanted.forEach((key, k) => {
       this.paths[k] ??= element("path", {}, this.layers.paths);
-      this.paths[k].setAttribute("class", `lw-trace trace-${k % COLOURS}`);
+      put(this.paths[k], "class", `lw-trace trace-${k % COLOURS}`);
       const [xs, ys] = ["x", "y"].map((axis) => this.model.main.row(`p:${key}.${axis}`));
       const corners = thinned(xs, ys, NEAR / this.scale).map((i) => this.paper(xs[i], ys[i]));
-      this.paths[k].setAttribute("d", line(corners, this.model.data.positions.closed));
+      put(this.paths[k], "d", line(corners, this.model.data.positions.closed));
     });
   }
 
@@ -387,15 +390,12 @@ export class View {
   }
 
   private drawGhosts(): void {
-    const { canvas, width, height, ghostly } = this;
+    const { pen, ghostly } = this, { canvas } = pen, dense = canvas.width / this.width;
     canvas.hidden = !ghostly.length;
     if (!ghostly.length) return;
-    const dense = Math.min(devicePixelRatio || 1, 2) * this.zoom;
-    [canvas.width, canvas.height] = [Math.round(width * dense), Math.round(height * dense)];
-    const pen = canvas.getContext("2d")!;
-    pen.scale(dense, dense);
-    pen.strokeStyle = getComputedStyle(canvas).color;
-    pen.lineWidth = ghostly.length < FEW ? 1.8 : 0.7;
+    pen.setTransform(dense, 0, 0, dense, 0, 0);
+    pen.clearRect(0, 0, this.width, this.height);
+    [pen.strokeStyle, pen.globalAlpha, pen.lineWidth] = [colours().soft, 0.4, ghostly.length < FEW ? 1.8 : 0.7];
     pen.beginPath();
     for (const { x, y } of ghostly)
       for (let i = 0; i < x.length; i += 2) {
@@ -407,7 +407,8 @@ export class View {
   }
 
   private drawVectors(i: number): void {
-    const { data, main } = this.model;
+    const { data, main } = this.model, { velocities, accelerations, forces } = this.shown;
+    if (!(velocities || accelerations || forces || this.vectors.size)) return;
     const seen = new Set<string>();
     const family = (style: string, shown: boolean, list: { id: string; rows: string; at: string }[]) => {
       if (!shown || !list.length) return;
@@ -431,16 +432,16 @@ export class View {
       }
     };
     const moving = data.points.filter(({ fixed }) => !fixed).map(({ key }) => key);
-    family("velocity", this.shown.velocities, moving.map((key) => ({ id: key, rows: `v:${key}`, at: key })));
-    family("acceleration", this.shown.accelerations, moving.map((key) => ({ id: key, rows: `a:${key}`, at: key })));
+    family("velocity", velocities, moving.map((key) => ({ id: key, rows: `v:${key}`, at: key })));
+    family("acceleration", accelerations, moving.map((key) => ({ id: key, rows: `a:${key}`, at: key })));
     const reactions = data.signals.filter(({ id }) => id.startsWith("r:"));
     const places = new Map(data.glyphs.filter((g) => g.joint).map((g) => [g.joint!, g.at!]));
     const keys = new Set(data.points.map(({ key }) => key));
-    family("force", this.shown.forces && this.model.forces, reactions.flatMap(({ id }) => {
+    family("force", forces && this.model.forces, reactions.flatMap(({ id }) => {
       const joint = id.slice(2).split("|")[0], at = keys.has(joint) ? joint : places.get(joint);
       return at ? [{ id, rows: id, at }] : [];
     }));
     for (const [name, vector] of this.vectors)
-      for (const each of [vector.line, vector.head]) each.setAttribute("visibility", seen.has(name) ? "visible" : "hidden");
+      for (const each of [vector.line, vector.head]) put(each, "visibility", seen.has(name) ? "visible" : "hidden");
   }
 }
