@@ -246,7 +246,8 @@ class Analysis:
             reached = value(self.motion, output)
             values = [float(v) for v in reached[np.isfinite(reached)]]
             values += [limit.value for limit in self.limits(output)]
-            return Extreme(max(values) - min(values), float("nan"), float("nan"), self.resolver.possible)
+            exact = self.resolver.possible and bool(self.motion.ok.all())
+            return Extreme(max(values) - min(values), float("nan"), float("nan"), exact)
         ends = [limit for limit in outermost(self.limits(output)) if limit.kind == kind.removeprefix("arg")]
         return Extreme(ends[0].input, ends[0].time, ends[0].input, True)
 

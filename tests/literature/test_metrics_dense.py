@@ -1,0 +1,208 @@
+"""Design numbers against thousands of positions: values and places, of cranks turned either way, to and fro, through
+part of a turn, and up to dead points.
+
+What a number means is written here once more, from positions, rates and forces alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.metrics import MetricsTable, metrics
+
+DENSE = 7200
+FOURBAR = """
+format: 1
+frame: {points: {O: [0 m, 0 m], Q: [4 m, 0.5 m]}}
+links:
+  crank: {points: [O, A], length: CRANK, mass: 2 kg, inertia: 0.3 kg·m²}
+  coupler: {points: [A, B], length: 3.5 m, also: {P: [1.5 m, 1 m]}, mass: 3 kg, inertia: 0.2 kg·m²}
+  rocker: {points: [Q, B], length: 2.5 m, mass: 2 kg, inertia: 0.4 kg·m²}
+assembly: {B: left}
+driver: {turn: crank, about: O, LAW}
+gravity: [0, -9.81 m/s²]
+loads:
+  work: {kind: torque, on: rocker, magnitude: 90 N·m, phase: {moving: rocker, direction: decreasing}}
+"""
+SLIDER = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.7 m, also: {S: [0.3 m, 0.1 m]}, mass: 2 kg, inertia: 0.05 kg·m²}
+  piston: {points: [B], mass: 3 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B, offset: 0.05 m}}
+driver: {turn: crank, about: O, LAW}
+loads: {push: {kind: force, on: piston, at: B, direction: 180 deg, magnitude: 800 N}}
+"""
+MACHINES: Mapping[str, str] = {
+    "crank-rocker": FOURBAR.replace("CRANK", "1 m").replace("LAW", "speed: 12 rad/s"),
+    "clockwise": FOURBAR.replace("CRANK", "1 m").replace("LAW", "speed: -12 rad/s, start: 50 deg"),
+    "slider": SLIDER.replace("LAW", "speed: 120 rpm, start: 20 deg"),
+    "to and fro": SLIDER.replace("LAW", 'position: "70 deg*sin(2*pi*t/(2 s)) + 100 deg"')
+    + "cycle: {duration: 2 s}\n",
+    "part of a turn": SLIDER.replace("LAW", "speed: -120 rpm") + "cycle: {from: 30 deg, to: -200 deg}\n",
+}
+OUT_OF_REACH = FOURBAR.replace("CRANK", "2.2 m").replace("LAW", "speed: SPEED, start: 50 deg")
+Signal = Callable[[lw.Forces], np.ndarray]
+
+
+def size(vectors: np.ndarray) -> np.ndarray:
+    return np.hypot(*vectors.T)
+
+
+def signals(mechanism: lw.Mechanism) -> dict[tuple[str, str], tuple[str, Signal]]:
+    """By number and subject: kind of summary, and what is summarised."""
+    found: dict[tuple[str, str], tuple[str, Signal]] = {
+        ("peak_power", mechanism.name): ("max", lambda f: f.input_torque * rate(f)),
+        ("mean_power", mechanism.name): ("mean", lambda f: f.input_torque * rate(f)),
+        ("peak_input_torque", "driver"): ("peak", lambda f: f.input_torque),
+        ("rms_input_torque", "driver"): ("rms", lambda f: f.input_torque),
+        ("peak_shaking_force", "frame"): ("max", lambda f: size(f.shaking_force)),
+        ("peak_shaking_moment", "frame"): ("peak", lambda f: f.shaking_moment),
+    }
+    for name, joint in mechanism.joints.items():
+        link = joint.joined[1]
+        found["peak_reaction", name] = "max", lambda f, n=name, k=link: size(f.reaction(n, on=k))
+        found["rms_reaction", name] = "rms", lambda f, n=name, k=link: size(f.reaction(n, on=k))
+    if "rocker" in mechanism.links:
+        found["peak_acceleration", "rocker"] = "peak", lambda f: f.motion.link("rocker").angular_acceleration
+        found["swing_angle", "rocker"] = "range", lambda f: f.motion.link("rocker").angle
+        found["velocity_ratio", "rocker"] = (
+            "largest",
+            lambda f: f.motion.link("rocker").angular_velocity / rate(f),
+        )
+        point, group, guided = "coupler.P", "coupler+rocker", None
+    else:
+        found["peak_acceleration", "guide"] = "peak", lambda f: f.motion.joint("guide").acceleration
+        found["stroke", "guide"] = "range", lambda f: f.motion.joint("guide").displacement
+        found["velocity_ratio", "guide"] = "largest", lambda f: f.motion.joint("guide").velocity / rate(f)
+        point, group, guided = "rod.S", "rod+piston", "rod"
+    found["peak_acceleration", point] = "max", lambda f: size(f.motion.point(point).acceleration)
+    found["transmission_angle", group] = "min", lambda f: transmission(f.motion, guided)
+    found["pressure_angle", group] = "max", lambda f: 0.5 * np.pi - transmission(f.motion, guided)
+    found["singularity", group] = "min", lambda f: np.sin(transmission(f.motion, guided))
+    return found
+
+
+def rate(forces: lw.Forces) -> np.ndarray:
+    return forces.motion.link("crank").angular_velocity
+
+
+def transmission(motion: lw.Motion, guided: str | None) -> np.ndarray:
+    """Between coupler and rocker; of a slider between the rod and the normal of its way."""
+    if guided is not None:
+        return np.abs(0.5 * np.pi - np.abs(np.arcsin(motion.link(guided).direction[:, 1])))
+    a, b = (motion.point(p).position - motion.point("B").position for p in ("A", "Q"))
+    between = np.arccos((a * b).sum(axis=1) / (size(a) * size(b)))
+    return np.minimum(between, np.pi - between)
+
+
+def summary(kind: str, values: np.ndarray, weights: np.ndarray) -> tuple[float, int | None]:
+    good = np.isfinite(values)
+    if kind in ("mean", "rms"):
+        mean = float(((values**2 if kind == "rms" else values) * weights)[good].sum() / weights[good].sum())
+        return (mean**0.5 if kind == "rms" else mean), None
+    if kind == "range":
+        return float(np.ptp(values[good])), None
+    if kind in ("peak", "largest"):
+        place = int(np.nanargmax(np.abs(values)))
+        return float(abs(values[place]) if kind == "peak" else values[place]), place
+    place = int(np.nanargmax(values) if kind == "max" else np.nanargmin(values))
+    return float(values[place]), place
+
+
+@pytest.fixture(scope="module", params=MACHINES)
+def solved(request: pytest.FixtureRequest) -> tuple[MetricsTable, lw.Forces]:
+    mechanism = lw.loads(MACHINES[request.param])
+    table, dense = (lw.solve_forces(lw.solve_motion(mechanism, steps=steps)) for steps in (96, DENSE))
+    return metrics(table), dense
+
+
+def test_values_and_places_are_those_of_thousands_of_positions(
+    solved: tuple[MetricsTable, lw.Forces],
+) -> None:
+    table, dense = solved
+    weights = np.ones(dense.motion.steps)
+    if not dense.motion.positions.closed:
+        weights[[0, -1]] = 0.5
+    checked = 0
+    for (name, subject), (kind, signal) in signals(dense.mechanism).items():
+        if name not in table.names or subject not in [row.subject for row in table[name]]:
+            continue
+        values = signal(dense)
+        expected, place = summary(kind, values, weights)
+        found = table[name, subject]
+        scale = float(np.nanmax(np.abs(values)))
+        assert found.value == pytest.approx(expected, rel=2e-3, abs=3e-4 * scale), (name, subject)
+        checked += 1
+        if place is None or found.at is None:
+            continue
+        row = lw.solve_forces(lw.solve_motion(dense.mechanism, at=[found.at])) if one_turn(dense) else None
+        if row is not None:
+            there = float(signal(row)[0])
+            assert (abs(there) if kind == "peak" else there) == pytest.approx(
+                found.value, rel=1e-6, abs=1e-6 * scale
+            )
+    assert checked == len(signals(dense.mechanism)) - lacking(table)
+
+
+def lacking(table: MetricsTable) -> int:
+    """Ratios to the input's rate are asked only where that never stops."""
+    return int("velocity_ratio" in table.skipped)
+
+
+def test_energy_that_a_flywheel_takes_up(solved: tuple[MetricsTable, lw.Forces]) -> None:
+    """ΔE: the range of ∫ (mean - T) dφ; δ = 0.02 asks for ΔE/(δ ω²) less what turns with the crank already."""
+    table, dense = solved
+    whole = dense.motion.positions.closed and one_turn(dense)
+    does_work = "energy_fluctuation" in table.names
+    assert does_work == (whole and "rocker" in dense.mechanism.links)
+    if does_work:
+        torque, step = dense.input_torque * np.sign(rate(dense)), 2 * np.pi / DENSE
+        work = np.cumsum(torque.mean() - torque) * step
+        assert table.value("energy_fluctuation") == pytest.approx(np.ptp(work), rel=2e-3)
+        own = np.mean([inertia(dense.motion, k) for k in range(0, DENSE, 40)])
+        needed = max(np.ptp(work) / (0.02 * 12**2) - own, 0.0)
+        assert needed > 0 and table.value("flywheel") == pytest.approx(needed, rel=3e-3)
+
+
+def inertia(motion: lw.Motion, k: int) -> float:
+    """Twice the kinetic energy over the square of the crank's rate; links have their mass centres in their middle."""
+    ends = {"crank": ("O", "A"), "coupler": ("A", "B"), "rocker": ("Q", "B")}
+    twice = 0.0
+    for name, link in motion.mechanism.links.items():
+        velocity = sum(motion.point(f"{name}.{each}").velocity[k] for each in ends[name]) / 2
+        w = motion.link(name).angular_velocity[k]
+        twice += link.mass * float(velocity @ velocity) + link.inertia * w**2
+    return twice / motion.link("crank").angular_velocity[k] ** 2
+
+
+def one_turn(forces: lw.Forces) -> bool:
+    return bool(np.ptp(rate(forces)[np.isfinite(rate(forces))]) < 1e-9)
+
+
+@pytest.mark.parametrize("speed", [12.0, -12.0])
+@pytest.mark.parametrize("steps", [96, 961])
+def test_a_crank_whose_way_ends_where_coupler_and_rocker_are_stretched(speed: float, steps: int) -> None:
+    """At |AQ| = 3.5 m + 2.5 m both ways from the frame's direction; its ends are found between positions."""
+    frame, towards = np.hypot(4.0, 0.5), np.arctan2(0.5, 4.0)
+    end = float(np.arccos((frame**2 + 2.2**2 - 6.0**2) / (2 * frame * 2.2)))
+    mechanism = lw.loads(OUT_OF_REACH.replace("SPEED", f"{speed} rad/s"))
+    table = metrics(lw.solve_motion(mechanism, steps=steps, failures="mark"))
+    (way,) = table["range_of_motion"]
+    assert way.value == pytest.approx(2 * end, rel=1e-8)
+    first = towards - end if speed > 0 else towards + end
+    assert np.exp(1j * way.at) == pytest.approx(np.exp(1j * first), abs=1e-7)
+    stops = [row.value for row in table["dead_point"] if row.warnings]
+    expected = sorted(np.exp(1j * (towards + sign * end)).imag for sign in (1, -1))
+    assert sorted(np.exp(1j * np.array(stops)).imag) == pytest.approx(expected, abs=1e-7)
+    for name, limit in (("transmission_angle", 0.0), ("pressure_angle", 0.5 * np.pi), ("singularity", 0.0)):
+        (row,) = table[name]
+        assert row.value == pytest.approx(limit, abs=1e-3) and row.warnings
+    swing = table["swing_angle", "rocker"]
+    assert not swing.exact and 2.1 < swing.value < 2.276
