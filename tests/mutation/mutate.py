@@ -52,7 +52,10 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
 
 
 #: Functions whose arguments may change places.
-COMMUTATIVE = ("max", "min", "maximum", "minimum", "hypot", "gcd", "lcm")
+COMMUTATIVE = (
+    "max", "min", "maximum", "minimum", "lower", "higher", "hypot", "gcd", "lcm", "mul",
+    "t.add", "w.add", "trace.add", "_trace.add",
+)  # fmt: skip
 
 
 def mutants(path: str, source: str) -> list[Mutant]:
@@ -84,7 +87,8 @@ def _nodes(node: ast.AST) -> Iterator[ast.expr | ast.stmt]:
 
 
 def _silent(node: ast.AST) -> bool:
-    """Documentation, types, narrowing for the type checker, imports, and texts with their positions unknown."""
+    """Documentation, types, narrowing for the type checker, imports, texts with their positions unknown, and what is
+    asserted (zip's ``strict`` among it)."""
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return True
     if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
@@ -92,6 +96,8 @@ def _silent(node: ast.AST) -> bool:
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
         return node.targets[0].id in ("__all__", "__slots__")
     if isinstance(node, ast.FunctionDef) and node.name == "__repr__":
+        return True
+    if isinstance(node, ast.keyword) and node.arg == "strict":
         return True
     return isinstance(node, (ast.Import, ast.ImportFrom, ast.Assert, ast.JoinedStr, ast.Pass))
 
@@ -138,7 +144,9 @@ def _arguments(node: ast.Call) -> Iterator[tuple[str, str]]:
     plain = [k for k, a in enumerate(node.args) if not isinstance(a, ast.Starred)]
     if len(plain) >= 2 and plain[:2] == [0, 1] and not isinstance(node.args[0], ast.JoinedStr):
         first, second, *others = node.args
-        if ast.dump(first) != ast.dump(second) and ast.unparse(node.func).split(".")[-1] not in COMMUTATIVE:
+        name = ast.unparse(node.func).split(".")
+        alike = name[-1] in COMMUTATIVE or ".".join(name[-2:]) in COMMUTATIVE
+        if ast.dump(first) != ast.dump(second) and not alike:
             yield "arguments", _with(node, args=[second, first, *others])
 
 

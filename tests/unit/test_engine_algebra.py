@@ -22,7 +22,7 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.trace import Scalar, Trace, Value
 from linkwright.engine.vector import Vec, choose
 
-ONES = (0.0, 1.0, -1.0, 2.5)
+ONES = (0.0, 1.0, -1.0, 0.5, 2.5)
 
 
 def written(t: Trace, value: Scalar) -> str:

@@ -1,0 +1,295 @@
+"""Outputs in the user's words: each against the solved motion and forces, or textbook formulas of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tests.reference.test_friction_forces import SHAPER
+
+import linkwright as lw
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.programs import AS_IT_IS, motion_programs
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.named import Named, Quantity, output_names
+from linkwright.kinetostatics.programs import force_programs
+
+Floats = NDArray[np.float64]
+DRY = SHAPER.replace("PIN", "0").replace("SLOT", "0").replace("0.1}", "0}").replace("SPEED", "3")
+PUSHED = """
+format: 1
+name: slider-crank pushed by its slider
+frame: {points: {O: [0 m, 0 m], G: [0 m, 0.1 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 2 kg, inertia: 0.02 kg·m²}
+  rod: {points: [A, B], length: 0.7 m, also: {centre: [0.3 m, 0.05 m]}, mass: 3 kg, inertia: 0.1 kg·m²}
+  slide: {points: [B], mass: 5 kg}
+joints: {bed: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: slide, at: B}}
+drawing: {A: [0.1 m, 0.17320508 m], B: [0.79616305 m, 0.1 m]}
+driver: {slide: bed, speed: -0.2 m/s, start: 0.79616305 m}
+cycle: {duration: 0.5 s}
+gravity: [0, -9.81 m/s²]
+loads: {drag: {kind: torque, on: crank, magnitude: 4 N·m}}
+"""
+
+
+@dataclass
+class Solved:
+    motion: Motion
+    forces: Forces
+    named: Named
+
+    def row(self, quantity: Quantity) -> tuple[Floats, Floats, Floats]:
+        """Carrier and value over the positions as the program computes them, and the value from the carrier."""
+        trace = self.named.motion.motion.trace
+        program = Program.of(trace, {"carrier": quantity.carrier, "value": quantity.value})
+        numbers = self.motion.design.parameters
+        given = [numbers[name] for name in program.parameters]
+        rows = NumpyProgram(program).run(given, self.motion.positions.arrays, length=self.motion.steps)
+        return rows[0], rows[1], quantity.shown(rows[0])
+
+
+def solved(text: str, steps: int, times: Floats | None = None) -> Solved:
+    mechanism = lw.loads(text)
+    motion = (
+        lw.solve_motion(mechanism, steps=steps) if times is None else lw.solve_motion(mechanism, times=times)
+    )
+    programs = force_programs(motion_programs(mechanism, AS_IT_IS))
+    return Solved(motion, lw.solve_forces(motion), Named(programs, lambda link: 0.4))
+
+
+@pytest.fixture(scope="module")
+def shaper() -> Solved:
+    return solved(DRY, 24)
+
+
+@pytest.fixture(scope="module")
+def pushed() -> Solved:
+    return solved(PUSHED, 12)
+
+
+def size(vectors: Floats) -> Floats:
+    return np.asarray(np.hypot(*vectors.T))
+
+
+def kinetic(m: Motion) -> Floats:
+    total = np.zeros(m.steps)
+    for name, link in m.mechanism.links.items():
+        if not link.mass:
+            continue
+        v = m.point(f"{name}.centre").velocity
+        total = (
+            total
+            + link.mass * (v * v).sum(axis=1)
+            + (link.inertia or 0.0) * m.link(name).angular_velocity ** 2
+        )
+    return total
+
+
+def acute(a: Floats, b: Floats) -> Floats:
+    """The angle between two directions without sense, rad."""
+    across, along = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), np.abs((a * b).sum(axis=1))
+    return np.asarray(np.arctan2(across, along))
+
+
+def heat(m: Motion, f: Forces) -> Floats:
+    return np.asarray(
+        size(f.reaction("A", on="die"))
+        * 0.025
+        * (m.link("die").angular_velocity - m.link("crank").angular_velocity)
+    )
+
+
+def mu(m: Motion) -> Floats:
+    """Between the rod B–C and the normal of the horizontal bed."""
+    rod = m.point("C").position - m.point("B").position
+    return acute(rod, np.tile([0.0, 1.0], (m.steps, 1)))
+
+
+Reading = Callable[[Any, Any], Floats]
+OF_THE_SHAPER: list[tuple[str, str, Reading]] = [
+    ("B.x", "length", lambda m, f: m.point("B").position[:, 0]),
+    ("B.position.y", "length", lambda m, f: m.point("B").position[:, 1]),
+    ("B.velocity", "velocity", lambda m, f: size(m.point("B").velocity)),
+    ("B.velocity.x", "velocity", lambda m, f: m.point("B").velocity[:, 0]),
+    ("C.velocity", "velocity", lambda m, f: np.abs(m.point("C").velocity[:, 0])),
+    ("rod.centre.acceleration", "acceleration", lambda m, f: size(m.point("rod.centre").acceleration)),
+    ("rod.C.acceleration.x", "acceleration", lambda m, f: m.point("C").acceleration[:, 0]),
+    ("lever.angle", "angle", lambda m, f: m.link("lever").angle),
+    ("lever.angular_velocity", "angular_velocity", lambda m, f: m.link("lever").angular_velocity),
+    ("rod.angular_acceleration", "angular_acceleration", lambda m, f: m.link("rod").angular_acceleration),
+    ("slot.displacement", "length", lambda m, f: m.joint("slot").displacement),
+    ("slot.velocity", "velocity", lambda m, f: m.joint("slot").velocity),
+    ("bed.acceleration", "acceleration", lambda m, f: m.joint("bed").acceleration),
+    ("driver.effort", "torque", lambda m, f: f.input_torque),
+    ("input_torque", "torque", lambda m, f: f.input_torque),
+    ("power", "power", lambda m, f: f.input_torque * 3.0),
+    ("shaking_force", "force", lambda m, f: size(f.shaking_force)),
+    ("shaking_force.y", "force", lambda m, f: f.shaking_force[:, 1]),
+    ("shaking_moment", "torque", lambda m, f: f.shaking_moment),
+    ("reaction A on die", "force", lambda m, f: size(f.reaction("A", on="die"))),
+    ("reaction A on crank.y", "force", lambda m, f: -f.reaction("A", on="die")[:, 1]),
+    ("reaction Q.x", "force", lambda m, f: f.reaction("Q", on="lever")[:, 0]),
+    ("couple bed", "torque", lambda m, f: f.couple("bed", on="ram")),
+    ("couple slot on lever", "torque", lambda m, f: f.couple("slot", on="lever")),
+    ("load cutting", "force", lambda m, f: np.full(m.steps, 200.0)),
+    ("heat A on die", "power", heat),
+    ("heat A on crank", "power", lambda m, f: -heat(m, f)),
+    (
+        "heat Q",
+        "power",
+        lambda m, f: size(f.reaction("Q", on="lever")) * 0.03 * m.link("lever").angular_velocity,
+    ),
+    ("equivalent_inertia", "inertia", lambda m, f: kinetic(m) / 9.0),
+    ("velocity_ratio lever", "dimensionless", lambda m, f: m.link("lever").angular_velocity / 3.0),
+    ("velocity_ratio bed", "length_per_angle", lambda m, f: m.joint("bed").velocity / 3.0),
+    ("transmission_angle C", "angle", lambda m, f: mu(m)),
+    ("conditioning C", "dimensionless", lambda m, f: np.sin(mu(m))),
+    ("closeness C", "dimensionless", lambda m, f: np.sin(mu(m)) ** 2),
+]
+OF_THE_PUSHED: list[tuple[str, str, Reading]] = [
+    ("driver.effort", "force", lambda m, f: f.driver_effort("driver")),
+    ("input_torque", "force", lambda m, f: f.driver_effort("driver")),
+    ("power", "power", lambda m, f: f.driver_effort("driver") * -0.2),
+    ("velocity_ratio bed", "dimensionless", lambda m, f: np.ones(m.steps)),
+    ("velocity_ratio rod", "angle_per_length", lambda m, f: m.link("rod").angular_velocity / -0.2),
+    ("rod.centre.x", "length", lambda m, f: m.point("rod.centre").position[:, 0]),
+    ("equivalent_inertia", "inertia", None),
+    ("transmission_angle A", "angle", lambda m, f: acute(
+        m.point("A").position - m.point("O").position, m.point("B").position - m.point("A").position)),
+]  # fmt: skip
+
+
+def check(case: Solved, name: str, dimension: str, reading: Reading) -> None:
+    quantity = case.named.quantity(name)
+    assert (quantity.name, quantity.dimension) == (name, dimension)
+    carrier, value, shown = case.row(quantity)
+    wanted = reading(case.motion, case.forces)
+    assert value == pytest.approx(shown, rel=1e-12, abs=1e-12)
+    if dimension == "angle":
+        shown = shown + 2.0 * np.pi * np.round((wanted - shown) / (2.0 * np.pi))
+    assert shown == pytest.approx(wanted, rel=1e-9, abs=1e-9 * (1.0 + np.abs(wanted).max()))
+    step = 1e-6 * (1.0 + np.abs(carrier))
+    rise = (quantity.shown(carrier + step) - quantity.shown(carrier - step)) / (2.0 * step)
+    assert quantity.slope(carrier) == pytest.approx(rise, rel=1e-6)
+
+
+@pytest.mark.parametrize(("name", "dimension", "reading"), OF_THE_SHAPER)
+def test_words_give_what_the_solved_machine_does(
+    shaper: Solved, name: str, dimension: str, reading: Reading
+) -> None:
+    check(shaper, name, dimension, reading)
+
+
+@pytest.mark.parametrize(("name", "dimension", "reading"), OF_THE_PUSHED)
+def test_words_of_a_machine_that_a_sliding_driver_moves(
+    pushed: Solved, name: str, dimension: str, reading: Reading | None
+) -> None:
+    if reading is None:  # a mass on the first driver's guide
+        rate = 0.2**2
+        reading = lambda m, f: kinetic_with_own_centre(m) / rate  # noqa: E731
+    check(pushed, name, dimension, reading)
+
+
+def kinetic_with_own_centre(m: Motion) -> Floats:
+    """The rod's point ``centre`` is a point like others; its mass centre lies in the middle of A–B."""
+    total = 5.0 * (m.point("B").velocity ** 2).sum(axis=1)
+    for name, a, b, mass, inertia in (("crank", "O", "A", 2.0, 0.02), ("rod", "A", "B", 3.0, 0.1)):
+        v = 0.5 * (m.point(a).velocity + m.point(b).velocity)
+        total = total + mass * (v * v).sum(axis=1) + inertia * m.link(name).angular_velocity ** 2
+    return np.asarray(total)
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [(DRY, {"rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
+            "slot.jerk": lambda m: m.joint("slot").acceleration,
+            "B.jerk.x": lambda m: m.point("B").acceleration[:, 0]}),
+     (PUSHED, {"rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
+               "A.jerk.y": lambda m: m.point("A").acceleration[:, 1]})],
+)  # fmt: skip
+def test_jerks_are_the_rates_of_accelerations(
+    text: str, names: dict[str, Callable[[Motion], Floats]]
+) -> None:
+    h = 2e-3
+    case = solved(text, 0, np.array([0.1, 0.31]))
+    aside = {k: solved_motion(text, np.array([0.1, 0.31]) + k * h) for k in (-2, -1, 1, 2)}
+    for name, reading in names.items():
+        a = {k: reading(m) for k, m in aside.items()}
+        rate = (8.0 * (a[1] - a[-1]) - (a[2] - a[-2])) / (12.0 * h)
+        quantity = case.named.quantity(name)
+        assert case.row(quantity)[1] == pytest.approx(rate, rel=1e-5)
+    both = case.named.quantity("A.jerk")
+    x, y = (case.row(case.named.quantity(f"A.jerk.{axis}"))[1] for axis in "xy")
+    assert case.row(both)[1] == pytest.approx(np.hypot(x, y), rel=1e-12)
+
+
+def solved_motion(text: str, times: Floats) -> Motion:
+    return lw.solve_motion(lw.loads(text), times=times)
+
+
+def test_every_name_that_is_offered_is_an_output(shaper: Solved, pushed: Solved) -> None:
+    for case in (shaper, pushed):
+        names = list(output_names(case.motion.mechanism))
+        assert len(names) == len(set(names)) > 40
+        for name in names:
+            assert case.named.quantity(name).name == name
+    names = list(output_names(shaper.motion.mechanism))
+    assert names[:6] == [
+        "driver.effort",
+        "input_torque",
+        "power",
+        "shaking_force",
+        "shaking_moment",
+        "closeness",
+    ]
+    assert {
+        "couple slot on die",
+        "slot.jerk",
+        "reaction A on crank",
+        "reaction A on die",
+        "B.acceleration",
+    } < set(names)
+    assert "reaction bed on frame" not in names
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("reaction A", "which link"),
+        ("reaction A on rod", "crank"),
+        ("couple A at die", "couple A at die"),
+        ("reaction A on die now", "reaction A on die now"),
+        ("reaction Z", "reaction Z"),
+        ("heat bed", "heat bed"),
+        ("heat O", "heat O"),
+        ("power x", "power x"),
+        ("input_torque x", "input_torque x"),
+        ("shaking_moment x", "shaking_moment x"),
+        ("shaking_force x", "shaking_force x"),
+        ("load a b", "load a b"),
+        ("load none", "load none"),
+        ("velocity_ratio none", "velocity_ratio none"),
+        ("velocity_ratio lever rod", "velocity_ratio lever rod"),
+        ("equivalent_inertia x", "equivalent_inertia x"),
+        ("transmission_angle", "transmission_angle"),
+        ("conditioning", "conditioning"),
+        ("conditioning O", "inner joint"),
+        ("lever.speed", "lever.speed"),
+        ("driver.speed", "driver.speed"),
+        ("bed.speed", "bed.speed"),
+        ("B.position", "B.position"),
+        ("velocity", "velocity"),
+        ("x", "'x'"),
+    ],
+)
+def test_other_words_are_refused_with_what_was_meant(shaper: Solved, name: str, said: str) -> None:
+    with pytest.raises(lw.LinkwrightError) as caught:
+        shaper.named.quantity(name)
+    assert said in str(caught.value)
