@@ -9,6 +9,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics import programs
 from linkwright.kinematics.shape import shape
+from linkwright.kinetostatics.run import forces_at_once
 
 SIXBAR = "gallery:jaw_crusher_sixbar"
 
@@ -32,6 +33,33 @@ def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
     expected = alone(changed)
     alone(mechanism)
     assert np.array_equal(torque(changed), expected)
+
+
+@pytest.mark.parametrize("static", [False, True])
+@pytest.mark.parametrize(
+    ("name", "at_once"),
+    [
+        ("jaw_crusher_sixbar", True),
+        ("swing_conveyor", True),
+        ("toggle_press", True),
+        ("excavator", True),
+        ("parallelogram", False),
+        ("triad", False),
+        ("change_point_fourbar", False),
+    ],
+)
+def test_motion_and_forces_at_once_have_the_bits_of_one_after_the_other(name, at_once, static):
+    mechanism = lw.load(f"gallery:{name}")
+    assert (forces_at_once(mechanism, 144, static) is not None) == at_once
+    together = lw.solve_forces(mechanism, steps=144, static=static)
+    apart = lw.solve_forces(lw.solve_motion(mechanism, steps=144), static=static)
+    assert together.notes == apart.notes
+    assert together.motion.notes == apart.motion.notes
+    for name in apart.rows.index:
+        assert np.array_equal(*(each.fetch((name,))[0] for each in (together, apart)), equal_nan=True)
+    for name in apart.motion.rows.index:
+        pair = (each.motion.rows.row(name, each.motion.evaluate) for each in (together, apart))
+        assert np.array_equal(*pair, equal_nan=True)
 
 
 def test_an_edited_value_is_not_traced_again(monkeypatch):

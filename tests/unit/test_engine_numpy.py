@@ -56,6 +56,25 @@ def test_many_designs_equal_one_at_a_time(program: Program, designs: int, n: int
         np.testing.assert_allclose(got[d], evaluator.run(table[d], positions, {"f": f[d]}), rtol=1e-15)
 
 
+def test_fields_may_follow_from_the_outputs_that_need_none(program: Program) -> None:
+    rng = np.random.default_rng(5)
+    x, y = rng.normal(size=(2, 33))
+    p = [0.3, 1.7, -0.4]
+    evaluator = NumpyProgram(program.fields_last())
+
+    def fields(outputs):  # type: ignore[no-untyped-def]
+        inner = evaluator.run(p, {"x": x, "y": y}, {"f": 0.0 * x})
+        known = dict(zip(program.output_names, outputs, strict=True))
+        np.testing.assert_array_equal(known["r"], inner[0])
+        return {"f": known["r"] + 1.0}
+
+    got = evaluator.run_in_turn(p, {"x": x, "y": y}, fields)
+    r = np.sqrt(x * x + y * y + (math.sin(0.3) * 1.7 + 0.4) ** 2)
+    want = np.array([expected(p, *v) for v in zip(x, y, r + 1.0, strict=True)]).T
+    np.testing.assert_allclose(got, want, rtol=1e-14)
+    assert evaluator.run_in_turn(p, {"x": x, "y": y}, lambda _: None) is None
+
+
 def test_scalar_steps_agree_with_direct_evaluation(program: Program) -> None:
     scalar = ScalarProgram(program)
     for p in ([0.3, 1.7, -0.4], [0.1, 2.0, 5.0]):

@@ -61,8 +61,9 @@ class BoundPlan:
             i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
         }
         self._arrays = self._lay_out(registers)
-        self._calls = self._calls_for([i for i, x in enumerate(lines.lines) if x.varies and x.is_operation])
-        self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
+        first_field = next((i for i, x in enumerate(lines.lines) if x.op == "field"), len(lines.lines))
+        self._before = self._span(registers, range(first_field))
+        self._after = self._span(registers, range(first_field, len(lines.lines)))
         self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
 
     def _lay_out(self, registers: Registers) -> list[NDArray[Any]]:
@@ -89,6 +90,13 @@ class BoundPlan:
                 self.inputs[line.op].append(array)
             arrays.append(array)
         return arrays
+
+    def _span(self, registers: Registers, span: range) -> list[Call]:
+        """The calls of some lines per position, outputs that are copies among them."""
+        lines = self._lines.lines
+        calls = self._calls_for([i for i in span if lines[i].varies and lines[i].is_operation])
+        copies = [(row, i) for row, i in registers.copies if i in span]
+        return calls + [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in copies]
 
     def _calls_for(self, chosen: list[int]) -> list[Call]:
         calls: list[Call] = []
@@ -123,7 +131,17 @@ class BoundPlan:
 
     def run(self) -> None:
         """Evaluate the lines per position and fill the outputs."""
-        for function, args in self._calls:
+        self.run_before_fields()
+        self.run_after_fields()
+
+    def run_before_fields(self) -> None:
+        """Those that stand before the first field."""
+        for function, args in self._before:
+            function(*args)
+
+    def run_after_fields(self) -> None:
+        """The others."""
+        for function, args in self._after:
             function(*args)
 
     def carry(self) -> None:

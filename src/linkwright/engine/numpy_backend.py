@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -76,6 +76,38 @@ class NumpyProgram:
         with np.errstate(all="ignore"):
             plan.run()
         return plan.outputs.copy()
+
+    def run_in_turn(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Callable[[Floats], Arrays | None],
+        *,
+        length: int | None = None,
+    ) -> Floats | None:
+        """As :meth:`run` without states, of a program whose fields stand last (see ``Program.fields_last``).
+
+        ``fields`` takes the outputs (outputs, n), of which those that need fields are filled in later, and gives the
+        fields; with None the evaluation ends with None.
+        """
+        n = self._length(positions, {}, length)
+        plans, key = self._plans(), (None, n)
+        plan = plans.pop(key, None) or BoundPlan(self.lines, self.registers, None, n)
+        self._set_design(plan, _numbers(parameters), None)
+        for buffer, name in zip(plan.inputs["position"], self.program.positions, strict=True):
+            buffer[...] = positions[name]
+        with np.errstate(all="ignore"):
+            plan.run_before_fields()
+        found = plan.outputs.copy()
+        given = fields(found)
+        if given is not None:
+            for buffer, name in zip(plan.inputs["field"], self.program.fields, strict=True):
+                buffer[...] = given[name]
+            with np.errstate(all="ignore"):
+                plan.run_after_fields()
+            found[...] = plan.outputs
+        plans[key] = plan
+        return None if given is None else found
 
     def _set_design(self, plan: BoundPlan, numbers: list[float], tables: Tables | None) -> None:
         """The lines per design; those of the call before where the same numbers are given again."""
@@ -234,9 +266,12 @@ class NumpyProgram:
             raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
         return table
 
+    def _plans(self) -> dict[tuple[int | None, int], BoundPlan]:
+        """Of this thread."""
+        return self._own.__dict__.setdefault("plans", {})  # type: ignore[no-any-return]
+
     def _plan(self, designs: int | None, n: int) -> BoundPlan:
-        plans: dict[tuple[int | None, int], BoundPlan] = self._own.__dict__.setdefault("plans", {})
-        key = (designs, n)
+        plans, key = self._plans(), (designs, n)
         if key not in plans:
             if len(plans) >= _KEPT_PLANS:
                 plans.pop(next(iter(plans)))

@@ -63,6 +63,20 @@ class Program:
             tuple((name, number[i]) for name, i in self.next_states),
         )
 
+    def fields_last(self) -> Program:
+        """The same program with all lines that need no field before those that do."""
+        late: set[int] = set()
+        for index, node in enumerate(self.nodes):
+            if node.op == "field" or not late.isdisjoint(node.args):
+                late.add(index)
+        order = [i for i in range(len(self.nodes)) if i not in late] + sorted(late)
+        number = {old: new for new, old in enumerate(order)}
+        return Program(
+            tuple(_renumbered(self.nodes[old], number) for old in order),
+            tuple((name, number[i]) for name, i in self.outputs),
+            tuple((name, number[i]) for name, i in self.next_states),
+        )
+
     @cached_property
     def output_names(self) -> tuple[str, ...]:
         return tuple(name for name, _ in self.outputs)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -103,6 +104,21 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
                 )
             )
     return rows
+
+
+def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
+    """The programs' inputs at one time, s, by name, of drivers that all have constant speeds."""
+    found = {"time": time}
+    for name, driver in mechanism.drivers.items():
+        q, speed = driver.law.at(time), driver.law.constant_speed
+        assert speed is not None
+        if driver.law.rotary:
+            found |= {f"cos:{name}": cos(q), f"sin:{name}": sin(q), f"turn:{name}": q}
+        else:
+            found[f"slide:{name}"] = q
+        found |= {f"rate:{name}": speed, f"second:{name}": 0.0}
+        found.setdefault("input", q)
+    return found
 
 
 def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> Positions:

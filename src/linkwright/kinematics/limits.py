@@ -6,7 +6,8 @@ kept inside their brackets, refine all of them at once.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -15,12 +16,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.search import ends, zeros
+from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.signals import Output, resolve_output
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
-from linkwright.kinematics.cycle import Floats, Positions, at_times
+from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.solve import reached_modes
@@ -128,6 +129,23 @@ class Between:
         modes = motion.modes and self._modes(positions)
         states = self._states(positions, before)
         return motion.solver.evaluate(names, positions, states, modes, motion.design)
+
+    def on_plain_numbers(self, names: tuple[str, ...]) -> Callable[[float], list[float]] | None:
+        """The same at one time; None where more than constant speeds and closed forms decides."""
+        motion = self.motion
+        mechanism = motion.mechanism
+        constant = all(driver.law.constant_speed is not None for driver in mechanism.drivers.values())
+        if motion.states or motion.modes or not constant:
+            return None
+        scalar = motion.solver.programs.scalar_program(names)
+        program, parameters = scalar.program, motion.design.parameters
+        numbers = [parameters[name] for name in program.parameters]
+
+        def outputs(time: float) -> list[float]:
+            inputs = at_one_time(mechanism, time)
+            return scalar.step(numbers, [inputs[name] for name in program.positions])[0]
+
+        return outputs
 
     @cached_property
     def _one_way(self) -> bool:
@@ -327,6 +345,9 @@ class _Search:
         The output is that of the last step's beginning: as its rate is zero, it differs by the step's square.
         """
         a, b = brackets.rate_low, brackets.rate_high
+        plain = self.between.on_plain_numbers((*self.rate_names, *self.value_names))
+        if plain is not None:
+            return self._refined_plainly(brackets, plain)
         rows = np.empty(0)
 
         def rate_and_slope(share: Floats) -> tuple[Floats, Floats]:
@@ -343,6 +364,28 @@ class _Search:
         if len(touches):
             rows = self._rates(brackets, here)
         return here, self._output(rows[2:], brackets.before)
+
+    def _refined_plainly(
+        self, brackets: Brackets, outputs: Callable[[float], list[float]]
+    ) -> tuple[Floats, Floats]:
+        """The same one by one, where nothing is passed that could blur it."""
+        begins = self.motion.time[brackets.before].tolist()
+        columns = (brackets.span, brackets.low, brackets.high, brackets.rate_low, brackets.rate_high)
+        rows, here = [], []
+        for begin, start, span, low, high, a, b in zip(
+            begins, brackets.start.tolist(), *(each.tolist() for each in columns), strict=True
+        ):
+            row: list[float] = []
+
+            def rate_and_slope(share: float, begin: float = begin, span: float = span) -> tuple[float, float]:
+                nonlocal row
+                row = outputs(begin + share * span)
+                return row[0], row[1] * span
+
+            share = zero(rate_and_slope, low, high, a, start)
+            here.append(share if abs(row[0]) <= 10.0 * max(abs(a), abs(b)) else math.nan)
+            rows.append(row)
+        return np.array(here), self._output(np.array(rows).T[2:], brackets.before)
 
     def _at_touch(self, brackets: Brackets, k: int) -> float:
         """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 Evaluate = Callable[[tuple[str, ...]], Floats]
 
 
+TURN = 2.0 * np.pi
+
+
 class Rows:
     """``values`` (outputs, n) with the row number of every name in ``index``; ``extra`` rows by name."""
 
@@ -122,7 +125,7 @@ class LinkMotion:
             return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         good = np.isfinite(raw)
-        raw[good] = np.unwrap(raw[good])
+        raw[good] = _unwrapped(raw[good])
         return locked(raw)
 
     @property
@@ -175,7 +178,7 @@ class Motion:
         """Number of positions n."""
         return self.positions.count
 
-    @property
+    @cached_property
     def time(self) -> Floats:
         """Times of the positions, (n,) s."""
         return locked(self.positions.time)
@@ -314,3 +317,11 @@ class Motion:
             f"Motion({self.mechanism.name!r}: {self.steps} positions, {state}; "
             f"points {', '.join(self.point_names())}; links {', '.join(self.mechanism.links)})"
         )
+
+
+def _unwrapped(angle: Floats) -> Floats:
+    """Angles (n,) moved by whole turns, each next to the one before."""
+    laps = np.round(np.diff(angle) / TURN)
+    if laps.any():
+        angle[1:] -= TURN * np.cumsum(laps)
+    return angle

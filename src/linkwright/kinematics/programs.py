@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
+from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.shape import shape
@@ -69,6 +71,19 @@ class MotionPrograms:
                 values = {name: self.outputs.value(name) for name in names}
                 self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
             return self._programs[names]
+
+    def places(self, names: tuple[str, ...]) -> Mapping[str, int]:
+        """The row of every name among these."""
+        return _places.get(self, names, lambda: {name: i for i, name in enumerate(names)})
+
+    def scalar_program(self, names: tuple[str, ...]) -> ScalarProgram:
+        """The same for one position on plain numbers."""
+        program = self.program(names).program
+        return _scalars.get(program, None, lambda: ScalarProgram(program))
+
+
+_places: Recent[MotionPrograms, Mapping[str, int]] = Recent(64)
+_scalars: Recent[Program, ScalarProgram] = Recent(64)
 
 
 def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:

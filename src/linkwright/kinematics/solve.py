@@ -115,15 +115,31 @@ class MotionRun:
 
     def _at_once(self) -> Motion | None:
         """The motion where all positions are reached and show that nothing is passed between two of them."""
+        names = self.shown()
+        if names is None:
+            return None
+        values = self.solver.evaluate(names, self.positions, {}, {})
+        return self.seen(Rows(values, self.solver.programs.places(names)))
+
+    def shown(self) -> tuple[str, ...] | None:
+        """The outputs that a motion stores, those that show whether something is passed, the outcome; None where
+        these do not tell."""
         measures = signs_of_passages(self.solver, self.positions)
         if measures is None:
             return None
         *names, outcome = self.solver.outputs.standard()
-        stored = (*names, *measures, outcome)
-        values = self.solver.evaluate(stored, self.positions, {}, {})
-        if np.count_nonzero(values[-1]) or not _clear(measures, values[len(names) : -1]):
+        return (*names, *measures, outcome)
+
+    def seen(self, rows: Rows) -> Motion | None:
+        """The motion of rows with all these outputs, where they show that all positions are reached and nothing is
+        passed."""
+        measures = signs_of_passages(self.solver, self.positions) or ()
+        if np.count_nonzero(rows.values[rows.index["outcome"]]):
             return None
-        rows = Rows(values, {name: i for i, name in enumerate(stored)})
+        if measures:
+            first = rows.index[measures[0]]
+            if not _clear(measures, rows.values[first : first + len(measures)]):
+                return None
         motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)
         motion.notes = turn_notes(motion) + branch_notes(motion)
         return motion

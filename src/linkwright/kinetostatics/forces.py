@@ -254,7 +254,8 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
     Raises:
         LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
     """
-    motion = source if isinstance(source, Motion) else solve_motion(source, steps=steps)
-    from linkwright.kinetostatics.run import run_forces
+    from linkwright.kinetostatics.run import forces_at_once, run_forces
 
-    return run_forces(motion, static)
+    if isinstance(source, Motion):
+        return run_forces(source, static)
+    return forces_at_once(source, steps, static) or run_forces(solve_motion(source, steps=steps), static)

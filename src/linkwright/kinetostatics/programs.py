@@ -8,15 +8,17 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar
+from linkwright.kinematics.names import vector_names
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.named import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
+from linkwright.loads.along_input import followed_by
 
 #: Before an output in words among the names of outputs.
 _WORDS = "words:"
-_OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa"})
+_OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa", "quality", "fact", "outcome"})
 
 
 def words_name(words: str) -> str:
@@ -62,6 +64,26 @@ class ForcePrograms:
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
+    def at_once(self, shown: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
+        """The outputs of a motion, what its loads follow, and all that forces store, with the one program for them,
+        whose fields stand last."""
+        return _at_once.get(self, shown, lambda: self._at_once(shown))
+
+    def _at_once(self, shown: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
+        mechanism = self.motion.mechanism
+        followed = [each for load in mechanism.loads.values() for each in followed_by(load, mechanism)]
+        turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
+        moved = [
+            each.owner for each in followed if each.kind == "displacement" and each.owner in mechanism.guides
+        ]
+        more = [name for link in turned for name in vector_names("e", link)]
+        more += [f"{kind}:{guide}" for guide in moved for kind in ("s", "sv", "sa")]
+        names = tuple(dict.fromkeys((*shown, *more, *self.outputs.standard())))
+        with self.motion.lock:
+            values = {name: self._value(name) for name in names}
+            program = Program.of(self.motion.motion.trace, values).fields_last()
+        return names, NumpyProgram(program)
+
     @cached_property
     def named(self) -> Named:
         """Outputs in the user's words."""
@@ -83,3 +105,4 @@ def force_programs(
 
 
 _kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)
+_at_once: Recent[ForcePrograms, tuple[tuple[str, ...], NumpyProgram]] = Recent(48)

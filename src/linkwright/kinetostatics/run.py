@@ -7,13 +7,16 @@ from collections.abc import Iterable
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.cycle import Floats, over_cycle
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.units import format as shown
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.units import format as spelled
 from linkwright.words.sentence import Sentence, together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
@@ -33,10 +36,42 @@ def run_forces(
     ``signals``: what its loads follow, where more of its cycle is known than the motion tells.
     """
     solver = solver or ForceSolver(motion.solver, inertia=not static)
-    fields = _load_fields(motion, solver, signals)
+    fields = _load_fields(motion, solver.fields_needed(), signals)
     if solver.friction.terms:
         fields = _with_friction(motion, solver, fields)
     return _evaluated(motion, solver, fields, static)
+
+
+def forces_at_once(mechanism: Mechanism, steps: int, static: bool) -> Forces | None:
+    """Motion over the cycle and forces in one evaluation, of machines with closed forms and without friction; None
+    where positions are not reached, or something may be passed between two of them.
+
+    Raises as :func:`run_forces`.
+    """
+    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps))
+    solver = ForceSolver(run.solver, inertia=not static)
+    shown = None if run.solver.motion.next_states or solver.friction.terms else run.shown()
+    if shown is None:
+        return None
+    names, program = solver.programs.at_once(shown)
+    index, motions = run.solver.programs.places(names), list[Motion]()
+    fields: dict[str, Floats] = {}
+
+    def loads(values: Floats) -> dict[str, Floats] | None:
+        motion = run.seen(Rows(values, index))
+        if motion is None:
+            return None
+        motions.append(motion)
+        fields.update(_load_fields(motion, program.program.fields, None))
+        return fields
+
+    parameters = run.solver.nominal.parameters
+    numbers = [parameters[name] for name in program.program.parameters]
+    positions = run.positions
+    if program.run_in_turn(numbers, positions.arrays, loads, length=positions.count) is None:
+        return None
+    motion = motions[0]
+    return _with_notes(Forces(motion, solver, fields, static, motion.rows, _indeterminate(motion)))
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
@@ -45,7 +80,10 @@ def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], s
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: i for i, name in enumerate(names)})
-    forces = Forces(motion, solver, fields, static, rows, _indeterminate(motion))
+    return _with_notes(Forces(motion, solver, fields, static, rows, _indeterminate(motion)))
+
+
+def _with_notes(forces: Forces) -> Forces:
     forces.notes = (*forces.notes, *_contacts_lost(forces))
     return forces
 
@@ -63,7 +101,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
         runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
         ends = [motion.input[run[[0, -1]]].tolist() for run in runs]
         places = tuple(
-            Sentence("forces.from_to", first=shown(first, *unit), last=shown(last, *unit))
+            Sentence("forces.from_to", first=spelled(first, *unit), last=spelled(last, *unit))
             for first, last in ends
         )
         yield Sentence("forces.contact_lost", name=name, places=together(places))
@@ -78,13 +116,13 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _load_fields(motion: Motion, solver: ForceSolver, signals: MotionSignals | None) -> dict[str, Floats]:
+def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals | None) -> dict[str, Floats]:
     """Load magnitudes that depend on the position; friction starts from zero."""
     from linkwright.loads.magnitude import evaluate
 
     signals = signals or MotionSignals(motion)
     fields: dict[str, Floats] = {}
-    for name in solver.fields_needed():
+    for name in names:
         kind, _, key = name.partition(":")
         if kind == "load":
             fields[name] = evaluate(motion.mechanism.loads[key], signals)

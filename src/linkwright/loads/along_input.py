@@ -100,6 +100,13 @@ def outputs_of(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def followed_by(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
+    """The same, and the output by which its phase goes."""
+    phase = getattr(load, "phase", None)
+    own = (phase.output,) if isinstance(phase, MovingPhase | SwingPhase) else ()
+    return (*own, *outputs_of(load, mechanism))
+
+
 def constants(load: Load) -> dict[str, float]:
     """Numbers of a load that are no dimensions, by the names that ``Course.constant`` takes."""
     found: dict[str, float] = {}
