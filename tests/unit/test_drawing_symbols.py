@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+from linkwright.plot.drawing.style import CSS
 from linkwright.plot.svg.element import element, group, number
 from linkwright.plot.symbols.base import SYMBOLS, hatching, placed
 from linkwright.plot.symbols.bodies import convex_hull
@@ -76,3 +77,16 @@ def test_text_is_escaped() -> None:
 
 def test_numbers_are_short() -> None:
     assert [number(x) for x in (1.0, -0.001, 2.346, 1e3)] == ["1", "0", "2.35", "1000"]
+
+
+def test_a_ring_is_filled_between_its_teeth_and_its_rim_alone() -> None:
+    shape = SYMBOLS["gear"](radius=100.0, inside=True, teeth=40)
+    rim, teeth, pitch = (dict(each.attributes) for each in shape.elements)
+    assert float(rim["r"]) > 100.0 == float(pitch["r"])
+    assert (rim["class"], teeth["class"]) == ("lw-gear", "lw-rim")
+
+
+def test_a_plate_lets_what_lies_beneath_it_be_seen() -> None:
+    (rule,) = [each for each in CSS.split("}") if ".lw-plate{" in each]
+    (opacity,) = [each for each in rule.split(";") if each.startswith("fill-opacity:")]
+    assert 0.3 < float(opacity.removeprefix("fill-opacity:")) < 0.8

@@ -20,13 +20,16 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
     "sqrt": math.sqrt,
     "cos": lambda x: math.cos(math.radians(x)),
     "sin": lambda x: math.sin(math.radians(x)),
+    "tan": lambda x: math.tan(math.radians(x)),
+    "abs": abs,
     "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
 }
 
 
 def reckon(numbers: str) -> float:
     """What a line of numbers amounts to; angles in degrees."""
-    plain = numbers.replace("·", "*").replace("²", "**2").replace("√", "sqrt").replace("°", "")
+    plain = re.sub(r"\|([^|]*)\|", r"abs(\1)", numbers)
+    plain = plain.replace("·", "*").replace("²", "**2").replace("√", "sqrt").replace("°", "")
     return _value(ast.parse(plain, mode="eval").body)
 
 

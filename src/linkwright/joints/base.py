@@ -129,19 +129,20 @@ class Cut(ABC):
 class Contact:
     """The force T of a higher pair on its first link, T being the multiplier of ``scale`` times the row of its sums.
 
-    With the unit vector e at ``angle`` in the axes of ``link``, e⊥ left of it: force e⊥ ``across`` T + e (``press``
-    |T| + ``steady``), N, in the point ``at`` (link, name) + ``reach`` e, m, and the couple ``couple`` T, N·m.
+    With the unit vector e at ``angle`` in the axes of ``link``, e⊥ left of it, and the angle ``lean`` of teeth or of
+    ``strands``: force e⊥ T + e ``press`` |T| tan lean, or e⊥ T sin lean + e (``press`` |T| + 2 ``pull``) cos lean, N
+    (``pull``: that each strand has without load). With the lever arm r of its first link, m, its row's factor: teeth
+    touch in the point ``at`` (link, name) + r e, strands give ``at`` the couple r T, N·m.
     """
 
     scale: float
     link: str
     angle: float
     at: tuple[str, str]
-    reach: float = 0.0
-    across: float = 1.0
+    lean: float = 0.0
+    strands: bool = False
     press: float = 0.0
-    steady: float = 0.0
-    couple: float = 0.0
+    pull: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import asin
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -123,17 +124,15 @@ class BeltPair(WheelPair):
 
     def contact(self, mechanism: Mechanism) -> Contact:
         line, (first, other) = self.line(mechanism), self.arms(mechanism)
-        sine = (first + other) / abs(line)
-        cosine = sqrt_of(1.0 - sine * sine)
         return Contact(
             -other,
             self.carrier,
             cmath.phase(line),
             (self.carrier, self.centres[0]),
-            across=sine,
-            press=0.0 if self.pretension else cosine,
-            steady=2.0 * self.pretension * cosine,
-            couple=first,
+            lean=asin((first + other) / abs(line)),
+            strands=True,
+            press=0.0 if self.pretension else 1.0,
+            pull=self.pretension,
         )
 
     def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import atan2, dist, pi
+from math import atan, atan2, dist, pi
 from math import cos as cos_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -244,11 +244,11 @@ class GearPair(WheelPair):
         return tooth[a], tooth[b]
 
     def contact(self, mechanism: Mechanism) -> Contact:
-        reach, other = self.arms(mechanism)
+        _, other = self.arms(mechanism)
         angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
         slope = self._slope(self.pressure_angle, self.asked, abs(self.line(mechanism)) ** 2)
         assert isinstance(slope, float)
-        return Contact(-other, self.carrier, angle, at, reach, press=self.sense * slope)
+        return Contact(-other, self.carrier, angle, at, atan(slope), press=self.sense)
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)

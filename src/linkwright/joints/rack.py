@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from math import cos as cos_of
 from math import pi
 from math import sin as sin_of
-from math import tan as tan_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.engine.trace import Mask, Scalar, absolute, tan
@@ -251,10 +250,8 @@ class RackPair(HigherPair):
         return carried_steadily(group, cut)
 
     def contact(self, mechanism: Mechanism) -> Contact:
-        angle, press = self.direction - 0.5 * pi, -self.side * tan_of(self.pressure_angle)
-        return Contact(
-            1.0, self.rack, angle, (self.pinion, self.centre), self.side * self.radius, press=press
-        )
+        angle, at = self.direction - 0.5 * pi, (self.pinion, self.centre)
+        return Contact(1.0, self.rack, angle, at, self.pressure_angle, press=-self.side)
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> RackCut:
         name = self.name

@@ -79,6 +79,10 @@ def error_of(term: Term) -> float:
             return 2.0 * abs(values[0]) * errors[0]
         case "root":
             return errors[0] / (2.0 * math.sqrt(values[0])) if values[0] > 0.0 else math.inf
+        case "size":
+            return errors[0]
+        case "tan":
+            return math.radians(errors[0]) * (1.0 + term.value**2)
         case "atan2":
             size = values[0] ** 2 + values[1] ** 2
             turn = abs(values[0]) * errors[1] + abs(values[1]) * errors[0]

@@ -56,15 +56,11 @@ class PairClosure(Closure):
     # symbols ----------------------------------------------------------------------------------
     def arm(self, part: Turned) -> Term:
         """r: how far the pitch point moves with a link's rotation."""
-        return self._named("r", "r", part.link, part.factor)
+        return lever(self.book, self.cut.joint, part.link, part.factor)
 
     def ratio(self, part: Turned, target: Turned) -> Term:
         """i: how the target turns with a link."""
-        return self._named("i", "i", part.link, -part.factor / target.factor)
-
-    def _named(self, plain: str, latex: str, link: str, value: float) -> Term:
-        joint, n = self.cut.joint, self.book.numbers[link]
-        return symbol(f"{plain}_{joint},{n}", rf"{latex}_{{{tex(joint)},{n}}}", value)
+        return _named(self.book, "i", self.cut.joint, part.link, -part.factor / target.factor)
 
     def _constant(self, letter: str, latex: str, value: float, *, degrees: bool = False) -> Term:
         joint = self.cut.joint
@@ -190,6 +186,16 @@ def pair_closures(book: Book, group: Group, chains: Sequence[ChainClosure]) -> l
         shifts = (Slid(k, scale * f, free.get(k), cut_guides.get(k)) for k, f in slides.items() if f)
         found.append(PairClosure(cut, tuple(turns), tuple(shifts), scale * rest, book, group))
     return found
+
+
+def lever(book: Book, joint: str, link: str, value: float) -> Term:
+    """r: the lever arm of a link in the row of a pair, m."""
+    return _named(book, "r", joint, link, value)
+
+
+def _named(book: Book, letter: str, joint: str, link: str, value: float) -> Term:
+    n = book.numbers[link]
+    return symbol(f"{letter}_{joint},{n}", rf"{letter}_{{{tex(joint)},{n}}}", value)
 
 
 def closures(book: Book, group: Group) -> list[Closure]:

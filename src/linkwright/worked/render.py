@@ -69,6 +69,9 @@ class _Plain:
     def show_root(self, term: Term) -> str:
         return f"√({self.show(term.args[0])})"
 
+    def show_size(self, term: Term) -> str:
+        return f"|{self.show(term.args[0])}|"
+
     def function(self, term: Term) -> str:
         return f"{term.op}({', '.join(self.show(each) for each in term.args)})"
 
@@ -102,6 +105,9 @@ class _Latex(_Plain):
 
     def show_root(self, term: Term) -> str:
         return rf"\sqrt{{{self.show(term.args[0])}}}"
+
+    def show_size(self, term: Term) -> str:
+        return rf"\left|{self.show(term.args[0])}\right|"
 
     def function(self, term: Term) -> str:
         name = r"\operatorname{atan2}" if term.op == "atan2" else rf"\{term.op}"

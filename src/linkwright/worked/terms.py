@@ -15,7 +15,7 @@ Leaf = Callable[["Term"], float]
 class Term:
     """A symbol, a number, or an operation on terms; angles are counted in degrees.
 
-    ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, cos, sin, atan2.
+    ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, size, cos, sin, tan, atan2.
     """
 
     op: str
@@ -98,6 +98,8 @@ APPLY: dict[str, Callable[[Term, list[float]], float]] = {
     "root": lambda _, v: math.sqrt(v[0]),
     "cos": lambda _, v: math.cos(math.radians(v[0])),
     "sin": lambda _, v: math.sin(math.radians(v[0])),
+    "tan": lambda _, v: math.tan(math.radians(v[0])),
+    "size": lambda _, v: abs(v[0]),
     "atan2": lambda _, v: math.degrees(math.atan2(v[0], v[1])),
 }
 
@@ -140,6 +142,11 @@ def root(term: Term) -> Term:
     return Term("root", (term,))
 
 
+def size(term: Term) -> Term:
+    """The term without its sign."""
+    return Term("size", (term,))
+
+
 def cosine(angle: Term) -> Term:
     """Cosine of an angle in degrees."""
     return ONE if angle.is_zero else Term("cos", (angle,))
@@ -148,6 +155,11 @@ def cosine(angle: Term) -> Term:
 def sine(angle: Term) -> Term:
     """Sine of an angle in degrees."""
     return ZERO if angle.is_zero else Term("sin", (angle,))
+
+
+def tangent(angle: Term) -> Term:
+    """Tangent of an angle in degrees."""
+    return ZERO if angle.is_zero else Term("tan", (angle,))
 
 
 def direction(y: Term, x: Term) -> Term:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from linkwright.joints.base import Contact
 from linkwright.structure.group import Connection, Group, TreeJoint
-from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, one_by_one, pair_closures
+from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import ZERO, Pair, Term, cosine, number, root, sine, symbol, total
+from linkwright.worked.terms import TWO, ZERO, Pair, Term, cosine, number, sine, size, symbol, tangent, total
 
 if TYPE_CHECKING:
     from linkwright.joints.cam import CamJoint
@@ -186,13 +188,41 @@ class Wheels:
         along = self._along(step, cut, contact)
         link, point = contact.at
         place = book.spot(link, point).place
-        pushed = along.perp.times(number(contact.across) * force)
-        if contact.press or contact.steady:
-            size = number(contact.press) * root(force.squared) + number(contact.steady)
-            named = symbol(f"S_{cut.joint}", f"S_{{{tex(cut.joint)}}}", size.value)
-            pushed = pushed + along.times(step.find(named, size, "N"))
-        couple = number(contact.couple) * force if contact.couple else ZERO
-        return pushed, place + along.times(number(contact.reach)) if contact.reach else place, couple
+        across, pressed = self._parts(step, cut, contact, force)
+        pushed = along.perp.times(across)
+        if not pressed.is_zero:
+            named = symbol(f"S_{cut.joint}", f"S_{{{tex(cut.joint)}}}", pressed.value)
+            pushed = pushed + along.times(step.find(named, pressed, "N"))
+        arm = self._arm(step, cut, contact)
+        if contact.strands:
+            return pushed, place, arm * force
+        return pushed, place + along.times(arm), ZERO
+
+    def _arm(self, step: Step, cut: Connection, contact: Contact) -> Term:
+        """The lever arm of the pair's first link, m."""
+        book = self.book
+        joint = book.mechanism.joints[cut.joint]
+        first, rotations = joint.joined[0], joint.sums(book.mechanism)[0]
+        arm = lever(book, cut.joint, first, contact.scale * rotations[first])
+        if arm.plain not in book.given:
+            book.given.add(arm.plain)
+            step.give(arm, "m")
+        return arm
+
+    def _parts(self, step: Step, cut: Connection, contact: Contact, force: Term) -> tuple[Term, Term]:
+        """The force square to e and along it."""
+        letter, latex = ("ψ", r"\psi") if contact.strands else ("α", r"\alpha")
+        lean = ZERO
+        if contact.lean:
+            name = symbol(f"{letter}_{cut.joint}", f"{latex}_{{{tex(cut.joint)}}}", 0.0)
+            lean = step.give(replace(name, amount=math.degrees(contact.lean), degrees=True), "°")
+        press = {0.0: ZERO, 1.0: size(force), -1.0: -size(force)}[contact.press]
+        if not contact.strands:
+            return force, press * tangent(lean)
+        if contact.pull:
+            pull = symbol(f"F0_{cut.joint}", f"F_{{0,{tex(cut.joint)}}}", contact.pull)
+            press = press + TWO * step.give(pull, "N")
+        return force * sine(lean), press * cosine(lean)
 
     def _along(self, step: Step, cut: Connection, contact: Contact) -> Pair:
         """Unit vector along the line of centres, or square to a rack, away from which S presses."""

@@ -72,8 +72,8 @@ def gear(
     height = small * np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
     r = radius + height
     outline = np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
-    rim = (circle(at, radius + 4 * DEEP, "lw-rim"),) if inside else ()
-    wheel = path(outline, "lw-gear", closed=True)
+    rim = (circle(at, radius + 4 * DEEP, "lw-gear"),) if inside else ()
+    wheel = path(outline, "lw-rim" if inside else "lw-gear", closed=True)
     return Shape((*rim, wheel, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
 
 

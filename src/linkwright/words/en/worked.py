@@ -27,7 +27,8 @@ WORDS = {
     "arm; β, c: from the drawing or the file):",
     "wheel_rates": "The rows of {joints}, differentiated:",
     "wheel_forces": "Moments about the wheels' centres give T, the tangential force of each of {joints}. S acts "
-    "along the line of centres (direction: γ): T tan α, which presses teeth apart, or the pull of a belt's strands.",
+    "along the line of centres (direction: γ): it presses teeth apart, |T| tan α with the pressure angle α, or is "
+    "the pull of a belt's strands, which lie at the angle ψ to it.",
     "newton_pairs": "The pairs {joints} tie rotations, counted with their turns, and displacements to each other, "
     "as the closure equations have them (i: ratio to each link, r: lever arm; β, c: from the drawing or the file):",
     "newton_chains": "Closure equations of the chains, cut at {joints}:",
@@ -35,7 +36,8 @@ WORDS = {
     "own_form": "The closed form {form} of a package gives",
     "pair_rates": "The rows of {joints}, differentiated (r: lever arms of the rotations):",
     "pair_forces": "T: tangential force of a pair. S acts along the line of centres (its direction: γ), does no work "
-    "and follows from T: T tan α, which presses teeth apart, or the pull of a belt's strands.",
+    "and follows from T: it presses teeth apart, |T| tan α with the pressure angle α, or is the pull of a belt's "
+    "strands, which lie at the angle ψ to it.",
     "passive": "Passive pairs {joints}",
     "passive_share": "How they share the load with others is not determined by rigid links; they count as unloaded.",
     "title": "{name}: worked solution of one position",
