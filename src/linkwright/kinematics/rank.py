@@ -7,6 +7,7 @@ mechanism, so that rows and columns compare. Drivers are left out: what is found
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -136,26 +137,23 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
 
 # equations ----------------------------------------------------------------------------------------
 class ConstraintSystem:
-    """Equations of the joints of a mechanism, perhaps ``without`` some links, over (x, y, θ) of every link.
+    """Equations of the joints of a mechanism over (x, y, θ) of every link.
 
     A pin of several links holds each of them to the first one, in the ``order`` given or that of the file.
 
-    Works on complex numbers as well, for exact derivatives by complex steps.
+    ``rows`` and ``residual`` take complex numbers as well, for exact derivatives by complex steps.
     """
 
-    def __init__(
-        self, mechanism: Mechanism, without: Iterable[str] = (), order: Mapping[str, int] | None = None
-    ) -> None:
-        left, number = frozenset(without), order or {}
+    def __init__(self, mechanism: Mechanism, order: Mapping[str, int] | None = None) -> None:
+        number = order or {}
         self.mechanism = mechanism
-        self.links = [name for name in mechanism.links if name not in left]
+        self.links = list(mechanism.links)
         self.size = mechanism_size(mechanism)
         self._rest: dict[str, float] = {}
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
         self._joints = [
-            (joint, tuple(sorted(kept, key=lambda link: number.get(link, 0))))
+            (joint, tuple(sorted(joint.joined, key=lambda link: number.get(link, 0))))
             for joint in mechanism.joints.values()
-            if len(kept := [link for link in joint.joined if link not in left]) > 1
         ]
 
     @property
@@ -173,20 +171,18 @@ class ConstraintSystem:
         """Values of the equations; lengths over the size."""
         return np.array([row.value for row in self.rows(x)])
 
-    def jacobian(self, x: Numbers) -> Numbers:
+    def jacobian(self, x: Floats) -> Floats:
         """Derivatives of the equations, (equations, freedoms)."""
         return self.matrix(self.rows(x))
 
-    def matrix(self, rows: Sequence[Row]) -> Numbers:
+    def matrix(self, rows: Sequence[Row]) -> Floats:
         """The derivatives of some equations as a matrix."""
-        entries = [[0.0] * self.freedoms for _ in rows]
+        entries = np.zeros((len(rows), self.freedoms))
         for entry, row in zip(entries, rows, strict=True):
             for link, part in row.parts.items():
                 if link in self._first:
-                    i = self._first[link]
-                    for k in range(3):
-                        entry[i + k] = entry[i + k] + part[k]
-        return np.array(entries) if rows else np.zeros((0, self.freedoms))
+                    entry[self._first[link] : self._first[link] + 3] += part
+        return entries
 
     def driver_row(self, name: str, x: Numbers) -> Row:
         """A driver's coordinate (rad, or m over the size) with its derivatives."""
@@ -327,19 +323,19 @@ def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[
     """Rank, and the equations that those before them imply (the last ones of each dependence)."""
     rows = system.rows(x)
     matrix = system.matrix(rows)
-    independent: list[Floats] = []
     redundant = []
     rank = _numeric_rank(matrix, zero)
     if rank == len(rows):
         return rank, ()
+    independent, found = np.empty((rank, system.freedoms)), 0
     for row, vector in zip(rows, matrix, strict=True):
-        left = vector.copy()
+        left = vector
         for _ in range(2):
-            for unit in independent:
-                left = left - unit.dot(left) * unit
+            left = left - (independent[:found] @ left) @ independent[:found]
         length = float(np.linalg.norm(left))
-        if length > math.sqrt(zero) * float(np.linalg.norm(vector)) and len(independent) < rank:
-            independent.append(left / length)
+        if length > math.sqrt(zero) * float(np.linalg.norm(vector)) and found < rank:
+            independent[found] = left / length
+            found += 1
         else:
             redundant.append(Sentence(f"rank.{row.holds}", joint=row.joint))
     return rank, tuple(redundant)
@@ -352,6 +348,14 @@ def _numeric_rank(matrix: Floats, zero: float) -> int:
     return int((values > zero * values[0]).sum())
 
 
+def _null_space(matrix: Floats, rank: int) -> Floats:
+    """Orthonormal vectors that a matrix of this rank takes to zero, as columns."""
+    from scipy.linalg import qr
+
+    full: Floats = qr(matrix.T, pivoting=True)[0]
+    return full[:, rank:]
+
+
 def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...]:
     """Links without which the mobility stays the same and Grübler's count comes up to it; last ones first.
 
@@ -360,10 +364,10 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
     """
     full = ConstraintSystem(mechanism)
     rows = full.rows(x)
-    left, values, _ = np.linalg.svd(full.matrix(rows))
-    rank = int((values > zero * values[0]).sum()) if len(values) else 0
+    matrix = full.matrix(rows)
+    rank = _numeric_rank(matrix, zero)
     mobility, states = full.freedoms - rank, np.eye(len(rows) - rank)
-    forces = _forces_on_links(full, rows, left[:, rank:])
+    forces = _forces_on_links(full, rows, _null_space(matrix.T, rank))
     keep = {name for driver in mechanism.drivers.values() for name in (driver.link, driver.relative_to)}
     spare: list[str] = []
     for name in reversed(list(mechanism.links)):
@@ -372,7 +376,7 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
         _, sizes, directions = np.linalg.svd(forces[name] @ states)
         needed = int((sizes > math.sqrt(zero)).sum())
         trial, remaining = [*spare, name], states @ directions[needed:].T
-        if needed and _freedoms_without(full, x, trial) + remaining.shape[1] == mobility:
+        if needed and _freedoms_without(full, rows, trial) + remaining.shape[1] == mobility:
             spare, states = trial, remaining
     return tuple(spare)
 
@@ -389,30 +393,41 @@ def _forces_on_links(system: ConstraintSystem, rows: Sequence[Row], states: Floa
     return {link: np.concatenate([*by_joint.values(), none]) for link, by_joint in found.items()}
 
 
-def _freedoms_without(full: ConstraintSystem, x: Floats, without: Sequence[str]) -> int:
+def _freedoms_without(full: ConstraintSystem, rows: Sequence[Row], without: Sequence[str]) -> int:
     """Freedoms by Grübler's count, the equations that are redundant counted as the others."""
-    system = ConstraintSystem(full.mechanism, without)
-    chosen = [k for i, name in enumerate(full.links) if name not in without for k in range(3 * i, 3 * i + 3)]
-    return system.freedoms - len(system.rows(x[chosen]))
+    equations, left = Counter(row.joint for row in rows), frozenset(without)
+    lost = 0
+    for joint in full.mechanism.joints.values():
+        kept = sum(link not in left for link in joint.joined)
+        each = equations[joint.name] // (len(joint.joined) - 1)
+        lost += each * max(kept - 1, 0)
+    return 3 * (len(full.links) - len(left)) - lost
 
 
 # drawings -----------------------------------------------------------------------------------------
 def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
-    """The nearest coordinates that satisfy the joints (Gauss and Newton, shortest steps), and what still gapes."""
+    """The nearest coordinates that satisfy the joints (Gauss and Newton, shortest steps), and what still gapes.
+
+    Ends where steps are zero, or so short that only rounding is left of them: they do not become shorter.
+    """
+    from scipy.linalg import lstsq
+
+    before = math.inf
     for _ in range(60):
-        gap = system.residual(x)
-        step = np.linalg.lstsq(system.jacobian(x), gap, rcond=1e-9)[0]
+        rows = system.rows(x)
+        gap = np.array([row.value for row in rows])
+        step = lstsq(system.matrix(rows), gap, cond=1e-9, lapack_driver="gelsy")[0] if rows else 0.0 * x
         length = float(np.linalg.norm(step))
         x = x - step * min(1.0, 0.5 / max(length, 1e-300))
-        if length < 1e-15:
+        if length < 1e-15 or (length < 1e-10 and length > 0.5 * before):
             break
+        before = length
     return x, float(np.abs(system.residual(x)).max(initial=0.0))
 
 
 def _moves(system: ConstraintSystem, x: Floats, rank: int) -> bool:
     """Whether a small finite motion along one of the free directions exists at the same rank."""
-    directions = np.linalg.svd(system.jacobian(x))[2][rank:]
-    for direction in directions:
+    for direction in _null_space(system.jacobian(x), rank).T:
         there, gap = _closed(system, x + 0.03 * direction)
         moved = float(np.linalg.norm(there - x))
         if gap <= CLOSED and moved > 0.015 and _numeric_rank(system.jacobian(there), ZERO_DRAWN) <= rank:
