@@ -13,22 +13,24 @@ from __future__ import annotations
 from math import cos, log, sin, sqrt
 
 from linkwright.engine.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
-from linkwright.synthesis.free_curve.kernels import (
-    DYAD,
-    PIVOT,
-    POINT,
-    TURN,
+from linkwright.synthesis.free_curve.distances import (
     WIDE,
     align,
     curve_to_target,
     middle,
     one_after,
     one_before,
+    target_to_curve,
+    weigh,
+)
+from linkwright.synthesis.free_curve.kernels import (
+    DYAD,
+    PIVOT,
+    POINT,
+    TURN,
     place,
     place_dyad,
     place_point,
-    target_to_curve,
-    weigh,
 )
 from linkwright.synthesis.free_curve.sample import spans
 
@@ -229,6 +231,26 @@ def drawn_dyad(
     return at + new + 1
 
 
+def own_columns(nodes: Wholes, count: int, n: int, closed: int, x: Reals, m: int, s: Reals, Q: Reals) -> int:
+    """The linkage's own columns J, orthonormal, in Q; gives their number. ``s``: the blocks of :func:`promises`."""
+    rows, known, d = n + m, 0, 2 * (count - 2) + 1
+    if closed == 0:
+        d += 2
+    bx, by, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE
+    steps, w, ux, uy, scale = s + 4 * WIDE, s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 8 * WIDE
+    for p in range(d):
+        before = x[p]
+        x[p] = before + STEP
+        closes = lay(nodes, count, n, closed, x, Q + 28 * rows, steps, w, s + 10 * WIDE + 8, yx, yy)
+        x[p] = before
+        if closes > 0.0:
+            one = Q + known * rows
+            column(yx, yy, bx, by, n, closed, m, ux, uy, s + 11 * WIDE, scale, one)
+            if remainder(one, Q, known, rows) > 0.0:
+                known += 1
+    return known
+
+
 def promises(
     nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
     options: Reals, room: Reals, draws: int, r: Reals, most: int, made: Wholes, numbers: Reals, counts: Wholes,
@@ -239,9 +261,7 @@ def promises(
     ``made`` (draws, ROWS), ``numbers`` (draws, NUMBERS), ``counts``: the linkages with them; ``gains`` -1: none.
     ``n``, ``N``, ``m``: multiples of 8.
     """
-    rows, d = n + m, 2 * (count - 2) + 1
-    if closed == 0:
-        d += 2
+    rows = n + m
     X, Y, s = room, room + count * N, room + 2 * count * N + 8
     bx, by, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE
     steps, w, ux, uy, scale = s + 4 * WIDE, s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 8 * WIDE
@@ -262,17 +282,8 @@ def promises(
         far = load(work, 8 * WIDE + j)
         store(scale, n + j, root((1.0 / m) / root(far * far + SOFT)))
         store(rest, n + j, load(scale, n + j) * far)
-    whole, known = dot(rest, rest, rows), 0
-    for p in range(d):
-        before = x[p]
-        x[p] = before + STEP
-        closes = lay(nodes, count, n, closed, x, free, steps, w, gat, yx, yy)
-        x[p] = before
-        if closes > 0.0:
-            one = Q + known * rows
-            column(yx, yy, bx, by, n, closed, m, ux, uy, work, scale, one)
-            if remainder(one, Q, known, rows) > 0.0:
-                known += 1
+    whole = dot(rest, rest, rows)
+    known = own_columns(nodes, count, n, closed, x, m, s, Q)
     for k in range(known):
         take_off(rest, dot(rest, Q + k * rows, rows), Q + k * rows, rows)
     place(nodes, count, n, N, closed, x, X, Y)
@@ -312,5 +323,6 @@ def misses(
 
 
 PROMISES = (
-    dot, take_off, lay, misses, column, remainder, first_use, grow, lengths, drawn_dyad, promises,
+    dot, take_off, lay, misses, column, remainder, first_use, grow, lengths, drawn_dyad,
+    own_columns, promises,
 )  # fmt: skip

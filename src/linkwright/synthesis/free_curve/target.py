@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.free_curve.kernels import FAR, GRID, HALF, kernels
+from linkwright.synthesis.free_curve.distances import GRID, HALF
+from linkwright.synthesis.free_curve.kernels import FAR, kernels
 from linkwright.synthesis.free_curve.nodes import Complexes, Design, Floats, Whole, node_paths
 from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
 
