@@ -262,8 +262,8 @@ def test_every_name_that_is_offered_is_an_output(shaper: Solved, pushed: Solved)
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("reaction A", "which link"),
-        ("reaction A on rod", "crank"),
+        ("reaction A", "joint 'A' joins crank, die; say on which link: \"reaction A on crank\""),
+        ("reaction A on rod", "joint 'A' does not touch 'rod'; it joins crank, die"),
         ("couple A at die", "couple A at die"),
         ("reaction A on die now", "reaction A on die now"),
         ("reaction Z", "reaction Z"),
@@ -293,3 +293,9 @@ def test_other_words_are_refused_with_what_was_meant(shaper: Solved, name: str, 
     with pytest.raises(lw.LinkwrightError) as caught:
         shaper.named.quantity(name)
     assert said in str(caught.value)
+
+
+def test_no_jerk_is_known_of_a_driver_with_a_law_of_its_own() -> None:
+    law = DRY.replace("speed: 3 rad/s}", "position: 1 rad*sin(t/(1 s))}\ncycle: {duration: 1 s}")
+    with pytest.raises(lw.LinkwrightError, match=r"'rod\.angular_jerk'.*driver"):
+        solved(law, 6).named.quantity("rod.angular_jerk")

@@ -51,36 +51,27 @@ RATIO = {
 class Quantity:
     """An output that a program computes.
 
-    ``name`` as the user wrote it; ``dimension``: name of its dimension; ``values``: what the program computes,
-    a number, or for an angle the (cosine, sine) of ``reference`` + angle. ``rising``: ``angle_of`` a tangent.
+    ``name`` as the user wrote it; ``dimension``: name of its dimension; ``carrier``: what the program computes, the
+    number itself, or the tangent of half a link's angle from the direction ``reference`` (rad).
     """
 
     name: str
     dimension: str
     carrier: Scalar
-    form: str = "plain"
-    reference: float = 0.0
+    reference: float | None = None
 
     def shown(self, values: Floats) -> Floats:
         """The quantity from its carrier: both grow together, so extremes of one are extremes of the other."""
-        if self.form == "plain":
-            return values
-        factor = 2.0 if self.form == "half tangent" else 1.0
-        return np.asarray(self.reference + factor * np.arctan(values))
+        return values if self.reference is None else np.asarray(self.reference + 2.0 * np.arctan(values))
 
     @property
     def value(self) -> Scalar:
         """The quantity itself as a traced value."""
-        if self.form == "plain":
-            return self.carrier
-        return self.reference + (2.0 if self.form == "half tangent" else 1.0) * atan(self.carrier)
+        return self.carrier if self.reference is None else self.reference + 2.0 * atan(self.carrier)
 
     def slope(self, values: Floats) -> Floats:
         """Derivative of the quantity by its carrier."""
-        if self.form == "plain":
-            return np.ones_like(values)
-        factor = 2.0 if self.form == "half tangent" else 1.0
-        return np.asarray(factor / (1.0 + values * values))
+        return np.ones_like(values) if self.reference is None else np.asarray(2.0 / (1.0 + values * values))
 
 
 class Traces(Protocol):
@@ -201,7 +192,7 @@ class Named:
         e = self.motion.motion.poses[link].direction
         c, s = float(np.cos(middle)), float(np.sin(middle))
         along, across = e.x * c + e.y * s, e.y * c - e.x * s
-        return Quantity(name, "angle", across / (1.0 + along), "half tangent", middle)
+        return Quantity(name, "angle", across / (1.0 + along), middle)
 
     def _effort_dimension(self, driver: str) -> str:
         joint = self.mechanism.joints[self.mechanism.drivers[driver].joint]

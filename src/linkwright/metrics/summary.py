@@ -105,7 +105,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
     """The engine's reductions; raises LinkwrightError for a mean of what is known by its tangent only."""
     found: dict[Reduction, None] = {}
     for summary in summaries:
-        if quantities[summary.output].form != "plain" and summary.kind not in _GROWING:
+        if quantities[summary.output].reference is not None and summary.kind not in _GROWING:
             raise RequestError(
                 Sentence("study.angle_summary", name=summary.name, kinds=tuple(sorted(_GROWING)))
             )
