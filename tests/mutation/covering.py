@@ -38,7 +38,8 @@ class Covering:
 
     def of(self, path: str, lines: range) -> list[str]:
         """Tests that run one of the lines, or, for what importing runs, any line of the module."""
-        found = {test for line in lines for test in self.tests.get(f"{path}:{line}", ())}
+        places = {compiled_at(path).get(line, line) for line in lines}
+        found = {test for line in places for test in self.tests.get(f"{path}:{line}", ())}
         if found == {""} or not within_functions(path).intersection(lines):
             found = {t for place, tests in self.tests.items() if place.startswith(f"{path}:") for t in tests}
         return sorted(found - {""})
@@ -75,6 +76,23 @@ def within_functions(path: str) -> set[int]:
     tree = ast.parse((SOURCE / path).read_text("utf-8"))
     functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
     return {k for each in functions for k in range(each.body[0].lineno, (each.end_lineno or 0) + 1)}
+
+
+@cache
+def compiled_at(path: str) -> dict[int, int]:
+    """Lines of functions whose source is compiled, with the line that has it compiled: nothing else shows that they
+    run."""
+    tree = ast.parse((SOURCE / path).read_text("utf-8"))
+    calls = [
+        each for each in ast.walk(tree) if isinstance(each, ast.Call) and ast.unparse(each.func) == "Kernels"
+    ]
+    given = {each.id: call.lineno for call in calls for each in ast.walk(call) if isinstance(each, ast.Name)}
+    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef) and each.name in given]
+    return {
+        k: given[each.name]
+        for each in functions
+        for k in range(each.body[0].lineno, (each.end_lineno or 0) + 1)
+    }
 
 
 class Recorder:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.abc
 import importlib.util
+import linecache
 import os
 import signal
 import sys
@@ -66,6 +67,9 @@ class _Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         return None
 
     def exec_module(self, module: ModuleType) -> None:
+        """What reads the source, as kernels that are compiled from it, sees the other text as well."""
+        lines = self.text.splitlines(keepends=True)
+        linecache.cache[str(self.path)] = len(self.text), None, lines, str(self.path)
         exec(compile(self.text, str(self.path), "exec"), module.__dict__)
 
 
