@@ -10,3 +10,4 @@ if ROOT not in sys.path:
     sys.path.insert(0, ROOT)
 
 os.environ.setdefault("LINKWRIGHT_CACHE", str(Path(tempfile.gettempdir()) / "linkwright-tests-cache"))
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores; threads that wait spin

@@ -16,6 +16,7 @@ AGAIN = 0.01
 def main() -> int:
     """Runs the command of the process's arguments and returns its exit code."""
     signal.signal(signal.SIGINT, _leave)  # nothing to tidy up before the command runs
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, and threads that wait spin
     _open_streams()
     from linkwright.cli.start import run
 
