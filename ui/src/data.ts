@@ -101,6 +101,26 @@ export interface FrictionTerm {
   on: string[];
 }
 
+/** When a load acts: while an output moves, or goes from one of its limits to the other, or in a part of that way. */
+export interface Phase {
+  load: string;
+  /** The output: its row, or the two of a direction; its rate. */
+  rows: string[];
+  rate: string;
+  moving: boolean;
+  ramp: boolean;
+  ends: ("max" | "min")[];
+  part: { word: "first" | "last" | "free"; amounts: [number, boolean][] } | null;
+}
+
+/** The angle of link b against a, which begins within half a turn of a dimension's value, or of a number. */
+export interface AngleField {
+  field: string;
+  a: string;
+  b: string;
+  near: [string, number] | null;
+}
+
 export interface Steady {
   driver: string;
   turns: boolean;
@@ -140,6 +160,8 @@ export interface ModelData {
   uncertain: number | null;
   /** Loads whose course is that of the original. */
   held: string[];
+  phases: Phase[];
+  angles: AngleField[];
   friction: FrictionTerm[];
   groups: Group[];
   signals: Signal[];

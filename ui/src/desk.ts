@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { bytes, type ModelData } from "./data";
 import { save, type Page } from "./living";
-import { code, type Values } from "./model";
+import { code, type Values } from "./solver";
 import type { Action, Picture } from "./paper";
 import { Session } from "./session";
 

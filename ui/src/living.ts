@@ -1,7 +1,7 @@
 // What the whole page shares: its machines, the position that is shown, its language and sentences.
 import { signal } from "@preact/signals";
 import type { Group, PageData } from "./data";
-import type { Values, Wall } from "./model";
+import type { Values, Wall } from "./solver";
 import type { Session } from "./session";
 import { digits, quantity, Words } from "./words";
 

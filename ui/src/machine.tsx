@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Page } from "./living";
-import type { Values } from "./model";
+import type { Values } from "./solver";
 import type { Session } from "./session";
 import { put, write } from "./strokes";
 import { View } from "./view";

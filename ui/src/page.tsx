@@ -3,7 +3,7 @@ import { render } from "preact";
 import { App, keys } from "./app";
 import type { PageData } from "./data";
 import { Page } from "./living";
-import { code } from "./model";
+import { code } from "./solver";
 import { Session } from "./session";
 
 async function open(): Promise<void> {

@@ -1,7 +1,8 @@
 // One machine with what its user has done to it: history, variants, what is shown.
 import { signal } from "@preact/signals";
 import type { ModelData } from "./data";
-import { type Design, Model, type Values } from "./model";
+import { type Design, Model } from "./model";
+import type { Values } from "./solver";
 import type { Code } from "./engine";
 import type { Shown, View } from "./view";
 

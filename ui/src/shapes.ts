@@ -1,7 +1,8 @@
 // Shapes that follow from the motion, in metres and in the axes of the link that carries them: cams by the contacts
 // of their followers, teeth that mesh, racks by the way of their pinions.
 import type { Amount, Glyph } from "./data";
-import type { Model, Values } from "./model";
+import type { Model } from "./model";
+import type { Values } from "./solver";
 
 export type Vec = [number, number];
 

@@ -1,6 +1,7 @@
 // The machine drawn in the standard symbols: elements made once, moved at every frame.
 import type { Glyph } from "./data";
-import type { Model, Values } from "./model";
+import type { Model } from "./model";
+import type { Values } from "./solver";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {

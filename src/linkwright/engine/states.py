@@ -1,10 +1,11 @@
-"""Programs whose states are known beforehand."""
+"""Programs whose states, or some of whose parameters, are given per position."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
 from linkwright.engine.program import Program
+from linkwright.engine.trace import Node
 
 
 def states_as_fields(program: Program, names: Collection[str] | None = None) -> Program:
@@ -23,3 +24,14 @@ def states_as_fields(program: Program, names: Collection[str] | None = None) -> 
     )
     following = tuple((name, index) for name, index in program.next_states if not given(name))
     return Program(nodes, program.outputs, following)
+
+
+def parameters_as_fields(program: Program, names: Collection[str]) -> Program:
+    """The same program with parameters of some ``names`` taken per position, as fields of the same names."""
+    nodes: list[Node] = []
+    for node in program.nodes:
+        if node.op == "parameter" and node.name in names:
+            nodes.append(node._replace(op="field", varies=True))
+        else:
+            nodes.append(node._replace(varies=node.varies or any(nodes[each].varies for each in node.args)))
+    return Program(tuple(nodes), program.outputs, program.next_states)

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
+from linkwright.engine.states import parameters_as_fields
+from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, vector_names
@@ -19,14 +21,17 @@ from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.kinetostatics.site import guide_state
+from linkwright.kinetostatics.site import TracedSite, guide_state
+from linkwright.loads.along_input import magnitude
+from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
+from linkwright.page.loads import angles, fields, found_again, phases, traced_names
 from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group
 from linkwright.study.iterated_groups import ITERATIONS
 from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import SIZES, AlongInput, along_input
+from linkwright.study.loaded_cycle import SIZES, AlongInput, along_input, numbers_of_loads
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -49,9 +54,37 @@ class PagePrograms:
     @cached_property
     def held(self) -> list[str]:
         """Loads that a page cannot find again after a change: their course is that of the original."""
+        return [name for name in self._varying if name not in self.followed.names | self.positional.names]
+
+    @cached_property
+    def _varying(self) -> list[str]:
+        """The loads whose magnitudes are no numbers."""
         fields = self._plain.forces.fields_needed() if self.forces is not None else ()
-        loads = [name.removeprefix("load:") for name in fields if name.startswith("load:")]
-        return [name for name in loads if name not in self.followed.names]
+        return [name.removeprefix("load:") for name in fields if name.startswith("load:")]
+
+    @cached_property
+    def positional(self) -> AlongInput:
+        """Loads that are traced but for what the page finds at every position, and the numbers that they take."""
+        left = [self.mechanism.loads[name] for name in self._varying if name not in self.followed.names]
+        return numbers_of_loads([each for each in left if found_again(each, self.motion)])
+
+    @property
+    def tables(self) -> Tables:
+        """The tables of the loads."""
+        return {**self.positional.tables, **self.followed.tables}
+
+    @cached_property
+    def found_per_position(self) -> dict[str, list[dict[str, object]]]:
+        """``phases`` and ``angles`` that the page finds at every position."""
+        key = self.traced.named.point_key
+        return {
+            "phases": phases(self._positional_loads, self.motion, key),
+            "angles": angles(self._positional_loads, self.motion, self.followed.constants),
+        }
+
+    @property
+    def _positional_loads(self) -> list[Load]:
+        return [self.mechanism.loads[name] for name in sorted(self.positional.names)]
 
     def friction(self) -> list[dict[str, object]]:
         """The friction that the page finds again, with the links whose stored reactions add up to that on ``b``."""
@@ -75,7 +108,7 @@ class PagePrograms:
         none = AlongInput(frozenset())
         if self.forces is None or self.iterated:
             return none
-        names = [name for name in self._plain.forces.fields_needed() if name.startswith("load:")]
+        names = [f"load:{name}" for name in self._varying]
         found = [name for name in names if along_input(self._plain, self.free, [name]) is not None]
         return along_input(self._plain, self.free, found) or none
 
@@ -97,7 +130,7 @@ class PagePrograms:
             self.motion.positions,
             iterations=self._iterations,
             turning=True,
-            along_input=self.followed.names,
+            along_input=self.followed.names | traced_names(self._positional_loads, self.motion),
         )
         if self.motion.modes:
             groups = frozenset(name.removeprefix("mode:") for name in self.motion.modes)
@@ -120,7 +153,7 @@ class PagePrograms:
         motion = self.traced.solver.motion
         outputs = self._outputs(motion)
         if not self.iterated:
-            return Program.of(motion.trace, {**outputs, "ok": motion.valid})
+            return self._with_angles(Program.of(motion.trace, {**outputs, "ok": motion.valid}))
         trace = motion.trace
         rule = StepRule(motion, trace.position("step"))
         passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
@@ -130,7 +163,15 @@ class PagePrograms:
                     if placed.coordinates}  # fmt: skip
         following = {**rule.following, "alive": select(passed, 1.0, 0.0)}
         self.begin = {**rule.begin, "alive": 1.0}
-        return Program.of(trace, {**outputs, "margin": rule.margin, "ok": passed}, following)
+        return self._with_angles(
+            Program.of(trace, {**outputs, "margin": rule.margin, "ok": passed}, following)
+        )
+
+    def _with_angles(self, program: Program) -> Program:
+        """The program with the angles near which angles stay, where these turn through, taken per position."""
+        return parameters_as_fields(
+            program, [str(each["field"]) for each in self.found_per_position["angles"]]
+        )
 
     @cached_property
     def starts(self) -> dict[str, float | str]:
@@ -173,7 +214,19 @@ class PagePrograms:
             names += [*vector_names("lf", load), *vector_names("lp", load)]
         names += ["shake.x", "shake.y", "shake_moment"]
         found: dict[str, Scalar | bool] = {name: forces.value(name) for name in names}
-        return {**found, SIZES: self.followed.sizes(self.traced)} if self.followed.fallible else found
+        return found if (sizes := self._sizes()) is None else {**found, SIZES: sizes}
+
+    def _sizes(self) -> Scalar | None:
+        """Sum of the magnitudes that may not exist; None where there are none."""
+        if not (self.followed.fallible or self.positional.fallible):
+            return None
+        total, motion = self.followed.sizes(self.traced), self.traced.solver.motion
+        partly = traced_names(self._positional_loads, self.motion)
+        for name in self.positional.fallible:
+            load = self.mechanism.loads[name]
+            site = TracedSite(motion, load, along_input=True, phase_known=name not in partly)
+            total = total + magnitude(load, site)
+        return total
 
     @cached_property
     def dyads(self) -> tuple[Group, ...]:
@@ -182,7 +235,8 @@ class PagePrograms:
 
     def values(self) -> dict[str, float]:
         """Every parameter that a program takes, but those that the stages find."""
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.followed.constants}
+        loads = {**self.positional.constants, **self.followed.constants}
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **loads}
         wanted = dict.fromkeys([*self.main.parameters, *(self.cycle.dimensions if self.stages else ())])
         return {name: known[name] for name in wanted if name in known}
 
@@ -190,7 +244,10 @@ class PagePrograms:
         """The course of what is held."""
         if self.forces is None:
             return {}
-        return {name: self.forces.fields[name] for name in self.main.fields}
+        own = [str(each["field"]) for each in self.found_per_position["angles"]]
+        empty = dict.fromkeys(own, np.zeros(self.motion.positions.count))
+        known = {**self.forces.fields, **fields(self._positional_loads, self.motion), **empty}
+        return {name: known[name] for name in self.main.fields}
 
     def arrays(self) -> dict[str, Floats]:
         """The inputs per position of all programs."""

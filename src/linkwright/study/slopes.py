@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.states import parameters_as_fields, states_as_fields
 from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.named import Quantity
@@ -123,10 +124,5 @@ class Slopes:
 def _known_as_fields(program: Program) -> Program:
     """The program with states, and the angles near which angles stay, taken per position."""
     known = middle_name("", "").partition(":")[0]
-    nodes = tuple(
-        node._replace(op="field", varies=True)
-        if node.op == "state" or (node.op == "parameter" and node.name.startswith(f"{known}:"))
-        else node
-        for node in program.nodes
-    )
-    return Program(nodes, program.outputs)
+    angles = [name for name in program.parameters if name.startswith(f"{known}:")]
+    return states_as_fields(parameters_as_fields(program, angles))

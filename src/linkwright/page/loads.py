@@ -1,0 +1,121 @@
+"""Loads whose phases, or angles of links that turn through, a page finds at every position once it has the motion.
+
+What no cycle program finds beforehand: several reversals in a cycle of many turns, groups without closed form,
+several drivers. The magnitudes themselves are traced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import ACTS, middle_name
+from linkwright.loads.along_input import outputs_of
+from linkwright.loads.base import Load
+from linkwright.loads.phases import activity
+
+Plain = dict[str, Any]
+Floats = NDArray[np.float64]
+
+
+def found_again(load: Load, motion: Motion) -> bool:
+    """Whether a page finds it: its kind traces its magnitude, and limits that it takes lie in a steady cycle."""
+    if type(load).from_cycle is not Load.from_cycle and type(load).traced is Load.traced:
+        return False
+    phase = getattr(load, "phase", None)
+    limits = isinstance(phase, SwingPhase) or (isinstance(phase, MovingPhase) and _ramp(load))
+    drivers = list(motion.mechanism.drivers.values())
+    steady = len(drivers) == 1 and drivers[0].law.constant_speed is not None and motion.positions.closed
+    return steady or not limits
+
+
+def _ramp(load: Load) -> bool:
+    return getattr(load, "ramp", None) is not None
+
+
+def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
+    """The loads as :class:`linkwright.study.traced.Traced` takes them: wholly traced, or but for their phases."""
+    return frozenset(
+        f"{ACTS}:{each.name}" if _phase_per_position(each, motion) else each.name for each in loads
+    )
+
+
+def _phase_per_position(load: Load, motion: Motion) -> bool:
+    """All phases but those of the coordinate of a driver that turns steadily, which are formulas."""
+    phase = getattr(load, "phase", None)
+    if not isinstance(phase, InputPhase):
+        return phase is not None
+    first = next(iter(motion.mechanism.drivers.values()))
+    return first.law.constant_speed is None or not motion.positions.rotary[first.name]
+
+
+def phases(loads: Iterable[Load], motion: Motion, point_key: Callable[[str], str]) -> list[Plain]:
+    """The phases that follow the motion: their outputs by rows of a page's main program."""
+    found: list[Plain] = []
+    for load in loads:
+        phase = getattr(load, "phase", None)
+        if isinstance(phase, MovingPhase):
+            ends = ("min", "max") if phase.direction == "increasing" else ("max", "min")
+            found.append({**_rows(load, phase.output, point_key), "moving": True, "part": None, "ends": ends})
+        elif isinstance(phase, SwingPhase):
+            part = phase.part and {
+                "word": phase.part.word, "amounts": [[a.value, a.share] for a in phase.part.amounts],
+            }  # fmt: skip
+            ends = (phase.start, phase.end)
+            found.append(
+                {**_rows(load, phase.output, point_key), "moving": False, "part": part, "ends": ends}
+            )
+    return found
+
+
+def _rows(load: Load, output: Output, point_key: Callable[[str], str]) -> Plain:
+    owner = output.owner
+    if output.kind in ("x", "y"):
+        key = point_key(owner)
+        rows, rate = [f"p:{key}.{output.kind}"], f"v:{key}.{output.kind}"
+    elif output.kind == "angle":
+        rows, rate = [f"e:{owner}.x", f"e:{owner}.y"], f"w:{owner}"
+    else:
+        rows, rate = [f"s:{owner}"], f"sv:{owner}"
+    return {"load": load.name, "rows": rows, "rate": rate, "ramp": _ramp(load)}
+
+
+def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> list[Plain]:
+    """The angles that loads take at every position: of link b against a.
+
+    ``near``: where given, a dimension's address, and its value where it is no parameter; the angle begins within half
+    a turn of it. ``constants``: those that stay near a number.
+    """
+    found: dict[str, Plain] = {}
+    for load in loads:
+        pairs: list[tuple[str, str, list[Any] | None]] = [
+            ("frame", output.owner, None)
+            for output in outputs_of(load, motion.mechanism)
+            if output.kind == "angle"
+        ]
+        if load.twist is not None:
+            pairs.append((*load.twist[0], [f"loads.{load.name}.free_angle", load.twist[1]]))
+        for a, b, near in pairs:
+            found[middle_name(a, b)] = {"field": middle_name(a, b), "a": a, "b": b, "near": near}
+    return [each for name, each in found.items() if name not in set(constants)]
+
+
+def fields(loads: Iterable[Load], motion: Motion) -> dict[str, Floats]:
+    """Phases of the input, which no change of a page moves, per position; zeros for what the page finds."""
+    signals = MotionSignals(motion)
+    found: dict[str, Floats] = {}
+    for load in loads:
+        if not _phase_per_position(load, motion):
+            continue
+        acts = share = np.zeros(motion.positions.count)
+        if isinstance(phase := load.phase, InputPhase):  # type: ignore[attr-defined]
+            active = activity(phase, signals, ramp=_ramp(load))
+            acts, share = active.where.astype(float), share if active.share is None else active.share
+        found |= {f"{ACTS}:{load.name}": acts, f"share:{load.name}": share}
+    return found

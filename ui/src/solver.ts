@@ -1,0 +1,346 @@
+// One machine solved at all its positions by its programs, and what is in the way where it cannot be.
+import { bytes, floats, type Group, type ModelData } from "./data";
+import { Call, Cycle, Kernels, type Code } from "./engine";
+import { settle } from "./friction";
+import { type Course, follow } from "./loads";
+import { least } from "./search";
+
+export type Values = Record<string, number>;
+
+/** Why a change stops: a group at a position, or a dimension. */
+export interface Wall {
+  kind: "apart" | "singular" | "change" | "lost" | "length" | "locked" | "still";
+  name: string;
+  group: Group | null;
+  input: number;
+  facts: Values;
+}
+
+// Least squares of sines of transmission angles: worth a closer look; a change point.
+const NEAR = 0.02;
+const TOUCH = 1e-10;
+// Largest change of a chain coordinate in one step towards other dimensions, and the most halvings of the way.
+const LARGEST = 0.1;
+const HALVINGS = 12;
+
+export class Solver {
+  readonly main: Call;
+  readonly n: number;
+  readonly inputs: Float64Array;
+  /** Limits or magnitudes of loads that are not certain to be right. */
+  doubtful = false;
+  /** Friction for which no finite effort is found. */
+  locking = false;
+  private readonly one: Call;
+  private readonly cycle: Cycle | null;
+  private readonly arrays: Record<string, Float64Array> = {};
+  private found: Values = {};
+  private states: Values = {};
+  private drawn: Values = {};
+  private determinants: Values = {};
+
+  constructor(readonly data: ModelData, code: Code) {
+    const { positions } = data;
+    this.n = positions.count;
+    const kernels = new Kernels(data.programs, code, data.tables, size(data));
+    this.main = kernels.call(data.main, this.n);
+    this.one = kernels.call(data.main, 1);
+    this.cycle = data.stages.length ? new Cycle(kernels, data.stages, this.n) : null;
+    for (const name in positions.arrays) this.arrays[name] = floats(positions.arrays[name]);
+    const { inputs, steady } = positions, given = inputs[0]?.values;
+    this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
+    for (const name in data.fields) this.main.give({ [name]: floats(data.fields[name]) });
+    for (const name of this.main.program.states) {
+      const start = data.starts[name];
+      if (typeof start === "number") this.states[name] = start;
+    }
+    this.drawn = this.states;
+  }
+
+  get iterated(): boolean {
+    return this.main.program.states.length > 0;
+  }
+
+  get margin(): number | null {
+    return this.iterated ? this.main.row("margin").reduce((a, b) => Math.min(a, b), 1) : null;
+  }
+
+  private steady(values: Values): void {
+    const law = this.data.positions.steady;
+    if (!law) return;
+    const speed = values[`${law.driver}.speed`] ?? law.speed, ratio = law.speed / speed;
+    const put = (name: string, of: (q: number, i: number) => number) => {
+      const row = (this.arrays[name] ??= new Float64Array(this.n));
+      for (let i = 0; i < this.n; i++) row[i] = of(law.start + i * law.step, i);
+    };
+    const dt = (law.step / law.speed) * ratio;
+    if (!this.arrays.input) {
+      put("input", (q) => q);
+      put(`cos:${law.driver}`, Math.cos);
+      put(`sin:${law.driver}`, Math.sin);
+      put(`slide:${law.driver}`, (q) => q);
+      put(`turn:${law.driver}`, (q) => q);
+    }
+    put("time", (_, i) => law.begin * ratio + i * dt);
+    put("step", () => dt);
+  }
+
+  /** Fills the rows for these values; returns the wall in the way, or null where every position is reached. */
+  evaluate(values: Values): Wall | null {
+    this.steady(values);
+    if (Object.keys(this.data.positions.modes).length) this.setModes(values);
+    this.doubtful = false;
+    if (this.cycle) {
+      this.found = this.cycle.run(values, this.arrays);
+      this.doubtful = Object.entries(this.found).some(([name, x]) => name.startsWith("doubt:") && !(x === 0));
+    }
+    this.main.set({ ...values, ...this.found });
+    this.main.give(this.arrays);
+    if (this.iterated && !this.approach(values)) return this.lost(0);
+    this.main.run();
+    const wall = this.reached(values), { friction, phases, angles } = this.data;
+    if (wall) return wall;
+    if (phases.length + angles.length) {
+      this.doubtful ||= !follow(this.main, phases, angles, values, this.course);
+      this.main.run();
+    }
+    this.locking = friction.length > 0 && !settle(this.main, friction);
+    if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
+    return null;
+  }
+
+  /** The cycle as the phases of loads see it. */
+  private get course(): Course {
+    const { steady, time, closed } = this.data.positions, { inputs, n } = this, drift = n * (steady?.step ?? 0);
+    const given = time === null ? null : floats(time);
+    return {
+      inputs, closed, drift,
+      time: (i) => given?.[i] ?? (steady ? (steady.begin * steady.speed + i * steady.step) / this.speed : 0),
+      period: steady ? drift / this.speed : 0,
+      at: (input, value) => this.valueAt(input, value),
+    };
+  }
+
+  /** Signs of assembly modes pass change points only in the original, where they are known. */
+  private setModes(values: Values): void {
+    const same = this.data.dimensions.every((d) => !d.geometry || values[d.address] === d.value);
+    for (const name in this.data.positions.modes) {
+      const sign = this.data.positions.modes[name];
+      this.arrays[name] = same ? floats(this.data.positions.arrays[name]) : new Float64Array(this.n).fill(sign);
+    }
+  }
+
+  private reached(values: Values): Wall | null {
+    const ok = this.main.row("ok");
+    for (let i = 0; i < this.n; i++) if (ok[i] === 0) return this.failure(i);
+    if (values === this.data.values || this.n < 3) return null;
+    return this.changePoint();
+  }
+
+  private failure(i: number): Wall {
+    const code = this.main.row("outcome")[i];
+    if (code === 0) return this.lost(i);
+    const group = this.data.groups[Math.abs(code) - 1];
+    const facts: Values = {};
+    for (const fact of group.facts) facts[fact] = this.main.row(`fact:${group.name}|${fact}`)[i];
+    return { kind: code < 0 ? "singular" : "apart", name: group.name, group, input: this.inputs[i], facts };
+  }
+
+  private lost(i: number): Wall {
+    const group = this.data.groups.find((each) => !each.dyad && each.links.length > 1) ?? this.data.groups[0];
+    return { kind: "lost", name: group.name, group, input: this.inputs[i], facts: {} };
+  }
+
+  /** What lies between two positions: the square under a dyad's root falls to zero (change point) or below it. */
+  private changePoint(): Wall | null {
+    if (Object.keys(this.data.positions.modes).length) return null;
+    for (const group of this.data.groups) {
+      if (!group.dyad) continue;
+      const name = `quality:${group.name}`, row = this.main.row(name), { closed } = this.data.positions;
+      for (let i = 0; i < this.n; i++) {
+        const before = row[i > 0 ? i - 1 : closed ? this.n - 1 : 0], after = row[i < this.n - 1 ? i + 1 : closed ? 0 : i];
+        const here = row[i], change = Math.max(before, after) - here;
+        if (here > before || here > after || here > Math.max(NEAR, change)) continue;
+        const found = this.between(name, i, before, here, after);
+        if (found.value >= TOUCH) continue;
+        const facts = Object.fromEntries(group.facts.map((fact) => [fact, this.one.row(`fact:${group.name}|${fact}`)[0]]));
+        return { kind: found.value < -TOUCH && found.exact ? "apart" : "change", name: group.name, group, input: found.at, facts };
+      }
+    }
+    return null;
+  }
+
+  /** The least value near position i: found with the program, or by a parabola where the input's law is data. */
+  private between(name: string, i: number, before: number, here: number, after: number) {
+    if (!this.data.positions.steady || this.iterated) {
+      const bend = before - 2 * here + after, slope = 0.5 * (after - before);
+      return { at: this.inputs[i], value: bend > 0 ? here - (0.5 * slope * slope) / bend : here, exact: false };
+    }
+    const found = this.refined((call) => call.row(name)[0], i, here);
+    this.valueAt(found.at, () => 0);
+    return { ...found, exact: true };
+  }
+
+  // groups without closed form -------------------------------------------------------------
+
+  /** Chain coordinates at the first position for other dimensions, in steps small enough to keep the assembly. */
+  private approach(values: Values): boolean {
+    const same = this.data.dimensions.every(({ address }) => values[address] === this.data.values[address]);
+    // The original's assembly is known, whatever came between.
+    const from = same ? values : (this.reachedAt ?? values);
+    let states = same ? this.drawn : this.states, done = 0, share = 1;
+    while (done < 1) {
+      const ahead = Math.min(done + share, 1);
+      const next = this.corrected(mixed(from, values, ahead), states);
+      if (next) {
+        [states, done, share] = [next, ahead, 2 * share];
+      } else {
+        share /= 2;
+        if (share < 2 ** -HALVINGS) return false;
+      }
+    }
+    this.main.program.states.forEach((name, k) => (this.main.starts[k] = this.start(name, states)));
+    this.pending = states;
+    return true;
+  }
+
+  private pending: Values = {};
+  private reachedAt: Values | null = null;
+
+  private start(name: string, states: Values): number {
+    const given = this.data.starts[name];
+    return typeof given === "string" ? states[given] : (states[name] ?? given);
+  }
+
+  private corrected(values: Values, states: Values): Values | null {
+    const call = this.one;
+    call.set({ ...values, ...this.found });
+    call.give(Object.fromEntries(Object.entries(this.arrays).map(([name, row]) => [name, row.subarray(0, 1)])));
+    let now = states, moved = Infinity;
+    for (let k = 0; k < 4 && moved > 1e-13; k++) {
+      call.program.states.forEach((name, j) => (call.starts[j] = this.start(name, now)));
+      call.run();
+      const next = { ...now };
+      moved = 0;
+      for (const name in now)
+        if (call.has(`next:${name}`)) {
+          next[name] = call.row(`next:${name}`)[0];
+          moved = Math.max(moved, Math.abs(next[name] - now[name]));
+        }
+      now = next;
+    }
+    const change = Object.keys(now).reduce((most, name) => Math.max(most, Math.abs(now[name] - states[name])), 0);
+    const signs = call.program.outputs.filter((name) => name.startsWith("determinant:"));
+    const kept = signs.every((name) => !(name in this.determinants) || call.row(name)[0] * this.determinants[name] > 0);
+    return moved < 1e-9 && change < LARGEST && kept ? now : null;
+  }
+
+  /** The machine with these values, which the rows are of, is where the next change begins. */
+  keep(values: Values): void {
+    if (!this.iterated) return;
+    this.states = this.pending;
+    this.reachedAt = { ...values };
+    for (const name of this.main.program.outputs)
+      if (name.startsWith("determinant:")) this.determinants[name] = this.main.row(name)[0];
+  }
+
+  // single positions -----------------------------------------------------------------------
+
+  /** Where a point is at position i; not a number where the machine does not close. */
+  place(values: Values, key: string, i: number): [number, number] {
+    this.at(values, i);
+    if (this.one.row("outcome")[0] !== 0) return [NaN, NaN];
+    return [this.one.row(`p:${key}.x`)[0], this.one.row(`p:${key}.y`)[0]];
+  }
+
+  /** Evaluates one position; groups without closed form start from the rows that are there. */
+  private at(values: Values, i: number): void {
+    const call = this.one;
+    call.set({ ...values, ...this.found });
+    for (const name in call.positions) {
+      const row = this.arrays[name];
+      if (row) call.positions[name].fill(row[Math.min(i, row.length - 1)]);
+    }
+    for (const name in call.fields) call.fields[name].fill(this.main.fields[name][i]);
+    if (this.iterated) this.settle(call, this.statesAt(i));
+    else call.run();
+  }
+
+  /** Chain coordinates at a position that has been solved. */
+  private statesAt(i: number): Values {
+    const states: Values = {};
+    for (const name in this.states) {
+      const row = `next:${name}`;
+      states[name] = this.main.has(row) ? this.main.row(row)[i] : this.states[name];
+    }
+    return states;
+  }
+
+  /** Runs one position twice, so that Newton's steps from chain coordinates near it come to their end. */
+  private settle(call: Call, states: Values): void {
+    for (const again of [false, true]) {
+      if (again) for (const name in states) if (call.has(`next:${name}`)) states[name] = call.row(`next:${name}`)[0];
+      call.program.states.forEach((name, k) => (call.starts[k] = this.start(name, states)));
+      call.run();
+    }
+  }
+
+  /** The least value near position i, at most one step away; at the position where the input's law is data. */
+  refined(value: (call: Call) => number, i: number, here: number): { at: number; value: number } {
+    const law = this.data.positions.steady, q = this.inputs[i];
+    if (!law || this.n < 3) return { at: q, value: here };
+    const open = !this.data.positions.closed, last = this.n - 1, h = Math.abs(law.step);
+    const low = q - (open && (law.step > 0 ? i === 0 : i === last) ? 0 : h);
+    const high = q + (open && (law.step > 0 ? i === last : i === 0) ? 0 : h);
+    const found = least((x) => this.valueAt(x, value), low, 0.5 * (low + high), high);
+    return found.value < here ? found : { at: q, value: here };
+  }
+
+  /** A value of the present machine at any input of a steady driver. */
+  valueAt(q: number, value: (call: Call) => number): number {
+    const law = this.data.positions.steady!, call = this.one;
+    call.parameters.set(this.main.parameters);
+    const speed = this.main.program.parameters.includes(`${law.driver}.speed`) ? this.speed : law.speed;
+    const put = (name: string, x: number) => call.positions[name]?.fill(x);
+    put("input", q);
+    put(`cos:${law.driver}`, Math.cos(q));
+    put(`sin:${law.driver}`, Math.sin(q));
+    put(`slide:${law.driver}`, q);
+    put(`turn:${law.driver}`, q);
+    put("time", law.begin * (law.speed / speed) + (q - law.start) / speed);
+    const near = this.index(q);
+    for (const name in this.data.positions.modes) put(name, this.arrays[name][near]);
+    for (const name in call.fields) call.fields[name].fill(this.main.fields[name][near]);
+    if (this.iterated) this.settle(call, this.statesAt(near));
+    else call.run();
+    return value(call);
+  }
+
+  private get speed(): number {
+    const { driver } = this.data.positions.steady!;
+    return this.main.parameters[this.main.program.parameters.indexOf(`${driver}.speed`)];
+  }
+
+  private index(q: number): number {
+    const law = this.data.positions.steady!;
+    return ((Math.round((q - law.start) / law.step) % this.n) + this.n) % this.n;
+  }
+}
+
+export function mixed(from: Values, to: Values, share: number): Values {
+  if (share >= 1) return { ...to };
+  return Object.fromEntries(Object.keys(to).map((name) => [name, (from[name] ?? to[name]) + share * (to[name] - (from[name] ?? to[name]))]));
+}
+
+/** Memory that a model's calls take, MB. */
+function size(data: ModelData): number {
+  const rows = data.programs.reduce((sum, p) => sum + p.outputs.length + p.positions.length + p.fields.length + 8, 0);
+  return Math.ceil((3 * 8 * rows * (data.positions.count + 16)) / 1048576) + 2;
+}
+
+export async function code(data: ModelData, number: number): Promise<Code> {
+  const { module } = data;
+  if (typeof module === "string") return { module: await WebAssembly.compile(bytes(module)) };
+  if (module instanceof Uint8Array) return { module: await WebAssembly.compile(module) };
+  return { functions: (globalThis as unknown as { kernels: never[][] }).kernels[number] };
+}
