@@ -60,7 +60,7 @@ def gallery_work(name: str) -> tuple[dict[str, Any], dict[str, Any]] | None:
     motion = lw.solve_motion(mechanism, steps=24, failures="mark")
     solver = ForceSolver(motion.solver)
     forces = run_forces(motion, False, solver)
-    names = tuple(motion.solver.outputs.standard()[:-1]) + tuple(solver.outputs.standard())
+    names = tuple(motion.solver.outputs.standard[:-1]) + solver.outputs.standard
     program = states_as_fields(solver.program(names).program)
     fields = {**forces.fields, **motion.states}
     values = {each: motion.design.parameters[each] for each in program.parameters}
@@ -143,7 +143,7 @@ def test_the_crushers_limits_and_torque(tmp_path: Path) -> None:
 def test_a_module_is_small() -> None:
     """The six-bar with all reactions."""
     solver = ForceSolver(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar")).solver)
-    program = solver.program(tuple(solver.outputs.standard())).program
+    program = solver.program(solver.outputs.standard).program
     module = wasm_module([program])
     assert module is not None
     assert module[:8] == b"\0asm\1\0\0\0"

@@ -59,4 +59,6 @@ class Frozen:
 
     def __post_init__(self) -> None:
         for each in fields(self):  # type: ignore[arg-type]
-            object.__setattr__(self, each.name, frozen(getattr(self, each.name)))
+            given = getattr(self, each.name)
+            if (kept := frozen(given)) is not given:
+                object.__setattr__(self, each.name, kept)

@@ -166,8 +166,10 @@ class ScalarProgram:
         )
 
     def _design_values(self, parameters: Sequence[float]) -> list[Any]:
-        given = tuple(float(p) for p in parameters)
         known, values = self._prepared
+        if parameters is known:
+            return list(values)
+        given = tuple(float(p) for p in parameters)
         if given != known:
             values = list(self._start)
             self._put(values, "parameter", given)

@@ -7,11 +7,11 @@ kept inside their brackets, refine all of them at once.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.signals import Output, resolve_output
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
-from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.solve import reached_modes
 from linkwright.mechanism.geometry import mechanism_size
@@ -212,30 +212,36 @@ class Between:
         return motion.solver.follower(motion.design).moved(motion.followed, index, way)
 
 
-@dataclass
-class Brackets:
-    """Stretches after the positions ``before``, from ``low`` to ``high`` (shares of ``span`` s), with their rates;
-    near ``start`` the rate is zero."""
+class Bracket(NamedTuple):
+    """A stretch after the position ``before``, at ``begin`` s, from ``low`` to ``high`` (shares of ``span`` s), with
+    its rates; near ``start`` the rate is zero."""
 
-    before: Indices
-    span: Floats
-    low: Floats
-    high: Floats
-    rate_low: Floats
-    rate_high: Floats
-    start: Floats
+    before: int
+    begin: float
+    span: float
+    low: float
+    high: float
+    rate_low: float
+    rate_high: float
+    start: float
 
-    def of(self, chosen: NDArray[np.bool_] | Indices) -> Brackets:
-        """Some of them."""
-        return Brackets(
-            self.before[chosen],
-            self.span[chosen],
-            self.low[chosen],
-            self.high[chosen],
-            self.rate_low[chosen],
-            self.rate_high[chosen],
-            self.start[chosen],
-        )
+
+class _Columns:
+    """Brackets side by side."""
+
+    def __init__(self, brackets: Sequence[Bracket]) -> None:
+        self.before = np.array([each.before for each in brackets])
+        rows = np.array([each[1:] for each in brackets]).T
+        self.begin, self.span, self.low, self.high, self.rate_low, self.rate_high, self.start = rows
+
+
+#: Numbers of the stored rows that are angular velocities, and velocities.
+_speeds: Recent[Mapping[str, int], tuple[list[int], list[int]]] = Recent(64)
+
+
+def _rows_of(index: Mapping[str, int]) -> tuple[list[int], list[int]]:
+    turning, moving = ([k for name, k in index.items() if name.startswith(kind)] for kind in ("w:", "v:"))
+    return turning, moving
 
 
 class _Search:
@@ -264,52 +270,50 @@ class _Search:
         if still is None:
             return ()
         brackets = self._brackets(np.where(np.abs(rate) <= still, 0.0, rate), second, still)
-        if not len(brackets.before):
-            return ()
-        return self._positions(brackets, *self._refined(brackets))
+        return self._positions(brackets, *self._refined(brackets)) if brackets else ()
 
     def _still(self, rate: Floats) -> float | None:
         """Rates that count as zero; None where the output does not move."""
-        largest, size = _largest(rate), mechanism_size(self.motion.mechanism)
-        speed = max(_largest(self._stored("w:")), _largest(self._stored("v:")) / size)
+        rows, size = self.motion.rows, mechanism_size(self.motion.mechanism)
+        turning, moving = _speeds.get(rows.index, None, lambda: _rows_of(rows.index))
+        largest = _largest(rate)
+        speed = max(_largest(rows.values[turning]), _largest(rows.values[moving]) / size)
         if self.output.kind != "angle":
             speed *= size
         return None if largest <= CONSTANT * speed else max(STILL * largest, 1e-3 * STILL * speed)
 
-    def _stored(self, prefix: str) -> Floats:
-        rows = self.motion.rows
-        chosen = [row for name, row in rows.index.items() if name.startswith(prefix)]
-        return rows.values[chosen]
-
     # where the rate changes its sign --------------------------------------------------------------
-    def _brackets(self, rate: Floats, second: Floats, still: float) -> Brackets:
+    def _brackets(self, rate: Floats, second: Floats, still: float) -> list[Bracket]:
         first, last = self._neighbours(rate)
         after = last % self.count
-        a, b = rate[first], rate[after]
-        turning = np.flatnonzero(np.sign(a) != np.sign(b))
-        span = self._time(last) - self.motion.time[first]
-        slopes = second[first] * span, second[after] * span
-        dips = np.flatnonzero(_dips(a, b, *slopes))
+        a, b, second_a, second_b = rate[first], rate[after], second[first], second[after]
+        same = (a > 0.0) == (b > 0.0)
+        time = self.motion.time
 
-        def bracket(chosen: Indices) -> Brackets:
-            rests = last[chosen] - first[chosen] > 2
-            low, high = np.where(rests, 0.5, 0.0), np.where(rests, 0.5, 1.0)
-            ends = a[chosen], b[chosen]
-            start = np.where(rests, 0.5, _zero(*ends, *(each[chosen] for each in slopes)))
-            return Brackets(first[chosen], span[chosen], low, high, *ends, start)
+        def bracket(k: int) -> Bracket:
+            before, begin = int(first[k]), float(time[first[k]])
+            span = float(self._time(last[k])) - begin
+            ends, rests = (float(a[k]), float(b[k])), last[k] - before > 2
+            low, high = (0.5, 0.5) if rests else (0.0, 1.0)
+            slopes = float(second_a[k]) * span, float(second_b[k]) * span
+            start = 0.5 if rests or same[k] else _zero(*ends, *slopes)
+            return Bracket(before, begin, span, low, high, *ends, start)
 
-        halves = self._split(bracket(dips), still) if len(dips) else []
-        return _joined([bracket(turning), *halves]) if halves else bracket(turning)
+        found = [bracket(k) for k in np.flatnonzero(~same).tolist()]
+        sense = 1.0 if time[self.count - 1] >= time[0] else -1.0
+        dips = np.flatnonzero(same & (sense * a * second_a < 0.0) & (sense * b * second_b > 0.0)).tolist()
+        return found + self._split([bracket(k) for k in dips], second_a[dips], second_b[dips], still)
 
     def _neighbours(self, rate: Floats) -> tuple[Indices, Indices]:
         """Pairs of positions next to each other with a rate; the second may be counted past the last one."""
+        whole = bool(np.isfinite(rate.sum()))
         known = np.isfinite(rate)
-        moving = np.flatnonzero(known & (rate != 0.0))
+        moving = np.flatnonzero(rate if whole else known & (rate != 0.0))
         if self.period is not None and len(moving):
             moving = np.append(moving, moving[0] + self.count)
         first, last = moving[:-1], moving[1:]
         there = known | self.singular[: self.count]
-        if there.all():
+        if whole or there.all():
             return first, last
         gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
         beside = gaps[last + 1] == gaps[first]
@@ -319,35 +323,59 @@ class _Search:
         lap = (index >= self.count) * (self.period or 0.0)
         return np.asarray(self.motion.time[index % self.count] + lap)
 
-    def _split(self, dips: Brackets, still: float) -> list[Brackets]:
-        """Where the rate dips below zero between two positions: both halves."""
-        second = np.sign(self._rates(dips, dips.low)[1])
-        middle = ends(lambda share: np.sign(self._rates(dips, share)[1]) == second, dips.low, dips.high)
-        rate = self._rates(dips, middle)[0]
-        found = (np.abs(rate) > still) & (np.sign(rate) != np.sign(dips.rate_low)) & np.isfinite(rate)
-        some, middle, rate = dips.of(found), middle[found], rate[found]
-
-        def half(low: Floats, high: Floats, a: Floats, b: Floats) -> Brackets:
-            return Brackets(some.before, some.span, low, high, a, b, low + (high - low) * a / (a - b))
-
-        return [half(some.low, middle, some.rate_low, rate), half(middle, some.high, rate, some.rate_high)]
+    def _split(self, dips: list[Bracket], second_a: Floats, second_b: Floats, still: float) -> list[Bracket]:
+        """Stretches in which the rate dips below zero and comes back, between two positions: both halves of each."""
+        dips = [dip for dip, is_one in zip(dips, _dips(dips, second_a, second_b), strict=True) if is_one]
+        if not dips:
+            return []
+        columns = _Columns(dips)
+        second = np.sign(self._rates(columns, columns.low)[1])
+        middle = ends(
+            lambda share: np.sign(self._rates(columns, share)[1]) == second, columns.low, columns.high
+        )
+        rates = self._rates(columns, middle)[0]
+        found = []
+        for dip, share, rate in zip(dips, middle.tolist(), rates.tolist(), strict=True):
+            if abs(rate) > still and rate * dip.rate_low < 0.0:
+                found += [
+                    _part(dip, dip.low, share, dip.rate_low, rate),
+                    _part(dip, share, dip.high, rate, dip.rate_high),
+                ]
+        return found
 
     # refinement -------------------------------------------------------------------------------------
-    def _rates(self, brackets: Brackets, share: Floats) -> Floats:
+    def _rates(self, brackets: _Columns, share: Floats) -> Floats:
         """At shares of the brackets' spans the output's rate and second derivative, then what gives its value."""
-        time = self.motion.time[brackets.before] + share * brackets.span
+        time = brackets.begin + share * brackets.span
         return self.between.evaluate((*self.rate_names, *self.value_names), brackets.before, time)
 
-    def _refined(self, brackets: Brackets) -> tuple[Floats, Floats]:
+    def _refined(self, brackets: list[Bracket]) -> tuple[list[float], list[float]]:
         """Shares where the rate is zero, by Newton's steps inside the brackets, and the output there; NaN where the
         rate is not zero (a pole).
 
         The output is that of the last step's beginning: as its rate is zero, it differs by the step's square.
         """
+        outputs = self.between.on_plain_numbers((*self.rate_names, *self.value_names))
+        if outputs is None:
+            return self._refined_together(_Columns(brackets))
+        row: list[float] = []
+        here, rows = [], []
+        for each in brackets:
+
+            def rate_and_slope(share: float, each: Bracket = each) -> tuple[float, float]:
+                nonlocal row
+                row = outputs(each.begin + share * each.span)
+                return row[0], row[1] * each.span
+
+            share = zero(rate_and_slope, each.low, each.high, each.rate_low, each.start)
+            lost = not abs(row[0]) <= 10.0 * max(abs(each.rate_low), abs(each.rate_high))
+            here.append(math.nan if lost else share)
+            rows.append(row[2:])
+        return here, self._output(rows, [each.before for each in brackets])
+
+    def _refined_together(self, brackets: _Columns) -> tuple[list[float], list[float]]:
+        """The same side by side, where change points may be passed and groups are followed."""
         a, b = brackets.rate_low, brackets.rate_high
-        plain = self.between.on_plain_numbers((*self.rate_names, *self.value_names))
-        if plain is not None:
-            return self._refined_plainly(brackets, plain)
         rows = np.empty(0)
 
         def rate_and_slope(share: Floats) -> tuple[Floats, Floats]:
@@ -357,64 +385,48 @@ class _Search:
 
         here = zeros(rate_and_slope, brackets.low, brackets.high, a, brackets.start)
         lost = ~(np.abs(rows[0]) <= 10.0 * np.maximum(np.abs(a), np.abs(b)))
-        time = self.motion.time[brackets.before] + here * brackets.span
+        time = brackets.begin + here * brackets.span
         touches = np.flatnonzero(lost | (self.between.quality(brackets.before, time) < BLURRED))
         for k in touches:
             here[k] = self._at_touch(brackets, int(k))
         if len(touches):
             rows = self._rates(brackets, here)
-        return here, self._output(rows[2:], brackets.before)
+        return here.tolist(), self._output(rows[2:].T.tolist(), brackets.before.tolist())
 
-    def _refined_plainly(
-        self, brackets: Brackets, outputs: Callable[[float], list[float]]
-    ) -> tuple[Floats, Floats]:
-        """The same one by one, where nothing is passed that could blur it."""
-        begins = self.motion.time[brackets.before].tolist()
-        columns = (brackets.span, brackets.low, brackets.high, brackets.rate_low, brackets.rate_high)
-        rows, here = [], []
-        for begin, start, span, low, high, a, b in zip(
-            begins, brackets.start.tolist(), *(each.tolist() for each in columns), strict=True
-        ):
-            row: list[float] = []
-
-            def rate_and_slope(share: float, begin: float = begin, span: float = span) -> tuple[float, float]:
-                nonlocal row
-                row = outputs(begin + share * span)
-                return row[0], row[1] * span
-
-            share = zero(rate_and_slope, low, high, a, start)
-            here.append(share if abs(row[0]) <= 10.0 * max(abs(a), abs(b)) else math.nan)
-            rows.append(row)
-        return np.array(here), self._output(np.array(rows).T[2:], brackets.before)
-
-    def _at_touch(self, brackets: Brackets, k: int) -> float:
+    def _at_touch(self, brackets: _Columns, k: int) -> float:
         """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""
-        start, span = float(self.motion.time[brackets.before[k]]), float(brackets.span[k])
+        start, span = float(brackets.begin[k]), float(brackets.span[k])
         touch = self.between.touch(start + span * brackets.low[k], start + span * brackets.high[k])
         return np.nan if touch is None else (touch - start) / span
 
-    def _positions(self, brackets: Brackets, share: Floats, values: Floats) -> tuple[LimitPosition, ...]:
-        found = np.isfinite(share)
-        brackets, share, values = brackets.of(found), share[found], values[found]
-        time = self.motion.time[brackets.before] + share * brackets.span
-        if not np.isfinite(values).all():
-            beside = [self._values(brackets.before, time + s * brackets.span) for s in (-BESIDE, BESIDE)]
-            values = np.where(np.isfinite(values), values, 0.5 * (beside[0] + beside[1]))
-        grows = brackets.rate_low * brackets.span > 0.0
-        start = self.motion.time[0]
-        if self.period is not None:
-            late = time - start >= self.period * (1.0 - 1e-15)
-            time = np.where(late, np.maximum(time - self.period, start), time)
+    def _positions(
+        self, brackets: list[Bracket], shares: list[float], values: list[float]
+    ) -> tuple[LimitPosition, ...]:
+        known = self.motion.time
+        start, last = float(known[0]), float(known[self.count - 1])
+        direction = 1.0 if last >= start else -1.0
         law = next(iter(self.motion.mechanism.drivers.values())).law
-        inputs = law.coordinate(time)[0]
-        direction = 1.0 if self.motion.time[self.count - 1] >= start else -1.0
-        index = np.searchsorted(direction * self.motion.time[: self.count], direction * time, "right") - 1
-        limits = [
-            LimitPosition(float(q), float(t), float(v), "max" if up else "min", int(i))
-            for q, t, v, up, i in zip(inputs, time, values, grows, index, strict=True)
-        ]
+        limits = []
+        for each, share, value in zip(brackets, shares, values, strict=True):
+            if not math.isfinite(share):
+                continue
+            time = each.begin + share * each.span
+            if not math.isfinite(value):
+                value = self._beside(each.before, time, BESIDE * each.span)
+            if self.period is not None and time - start >= self.period * (1.0 - 1e-15):
+                time = max(time - self.period, start)
+            index = int(np.searchsorted(direction * known[: self.count], direction * time, "right")) - 1
+            kind: Literal["max", "min"] = "max" if each.rate_low * each.span > 0.0 else "min"
+            limits.append(LimitPosition(law.at(time), time, value, kind, index))
         limits.sort(key=lambda each: direction * each.time)
         return self._without_ripple(limits) if len(limits) > 2 else tuple(limits)
+
+    def _beside(self, before: int, time: float, way: float) -> float:
+        """The output from both sides of a time at which it cannot be computed."""
+        rows = self.between.evaluate(
+            self.value_names, np.array([before] * 2), np.array([time - way, time + way])
+        )
+        return 0.5 * sum(self._output(rows.T.tolist(), [before] * 2))
 
     def _without_ripple(self, found: list[LimitPosition]) -> tuple[LimitPosition, ...]:
         """Without the pairs of reversals between which the output goes next to nowhere."""
@@ -428,16 +440,13 @@ class _Search:
             del found[k], found[k % len(found)]
         return tuple(found)
 
-    def _values(self, before: Indices, time: Floats) -> Floats:
-        """The output at these times; angles continuous from the positions before them."""
-        return self._output(self.between.evaluate(self.value_names, before, time), before)
-
-    def _output(self, values: Floats, before: Indices) -> Floats:
+    def _output(self, rows: list[list[float]], before: list[int]) -> list[float]:
+        """The output from the rows that give its value, angles continuous from the positions ``before``."""
         if self.output.kind != "angle":
-            return np.asarray(values[0])
-        raw = np.arctan2(values[1], values[0])
-        near = self.motion.link(self.output.owner).angle[before]
-        return np.asarray(raw + 2 * np.pi * np.round((near - raw) / (2 * np.pi)))
+            return [row[0] for row in rows]
+        near = self.motion.link(self.output.owner).angle[before].tolist()
+        raw = [math.atan2(y, x) for x, y in rows]
+        return [angle + TURN * round((at - angle) / TURN) for angle, at in zip(raw, near, strict=True)]
 
 
 def _program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...], tuple[str, str]]:
@@ -456,36 +465,31 @@ def _largest(values: Floats) -> float:
     return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
 
 
-def _zero(a: Floats, b: Floats, slope_a: Floats, slope_b: Floats) -> Floats:
+def _zero(a: float, b: float, slope_a: float, slope_b: float) -> float:
     """Share at which a rate is about zero, from rates of unlike signs and slopes at both ends: by the cubic of the
     share over the rate, exact to fourth order; by the straight line where that one leaves the stretch."""
-    with np.errstate(all="ignore"):
-        straight = a / (a - b)
-        at, rest, rise = straight, 1.0 - straight, b - a
-        cubic = at * at * (3.0 - 2.0 * at) + at * rest * rise * (rest / slope_a - at / slope_b)
-    return np.where((cubic > 0.0) & (cubic < 1.0), cubic, straight)
+    at = a / (a - b)
+    if slope_a == 0.0 or slope_b == 0.0:
+        return at
+    rest, rise = 1.0 - at, b - a
+    cubic = at * at * (3.0 - 2.0 * at) + at * rest * rise * (rest / slope_a - at / slope_b)
+    return cubic if 0.0 < cubic < 1.0 else at
 
 
-def _dips(a: Floats, b: Floats, second_a: Floats, second_b: Floats) -> NDArray[np.bool_]:
-    """Whether a rate of one sign at both ends may cross zero in between, by the cubic through rates and seconds."""
-    sign = np.sign(a)
-    found: NDArray[np.bool_] = (sign * second_a < 0) & (sign * second_b > 0) & (sign == np.sign(b))
-    some = np.flatnonzero(found)
-    if not len(some):
-        return found
+def _part(dip: Bracket, low: float, high: float, a: float, b: float) -> Bracket:
+    """A part of a stretch at whose ends the rate has unlike signs."""
+    return Bracket(dip.before, dip.begin, dip.span, low, high, a, b, low + (high - low) * a / (a - b))
+
+
+def _dips(brackets: list[Bracket], second_a: Floats, second_b: Floats) -> list[bool]:
+    """Whether a rate of one sign at both ends of a stretch may cross zero within, by the cubic through the rates and
+    second derivatives (per s) there."""
+    if not brackets:
+        return []
+    columns = _Columns(brackets)
+    a, b = columns.rate_low, columns.rate_high
     u = np.linspace(0.0, 1.0, 33)[:, None]
     h00, h10 = (1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2
-    a, b, second_a, second_b = (each[some] for each in (a, b, second_a, second_b))
-    cubic = h00 * a + h10 * second_a + (1 - h00) * b - u**2 * (1 - u) * second_b
-    lowest = (sign[some] * cubic).min(axis=0)
-    found[some] = lowest < 0.5 * np.minimum(np.abs(a), np.abs(b))
-    return found
-
-
-def _joined(parts: list[Brackets]) -> Brackets:
-    def column(name: str) -> Floats:
-        return np.concatenate([getattr(part, name) for part in parts])
-
-    names = ("span", "low", "high", "rate_low", "rate_high", "start")
-    before = np.concatenate([part.before for part in parts])
-    return Brackets(before, *(column(name) for name in names))
+    cubic = h00 * a + (1 - h00) * b + columns.span * (h10 * second_a - u**2 * (1 - u) * second_b)
+    lowest = (np.sign(a) * cubic).min(axis=0)
+    return (lowest < 0.5 * np.minimum(np.abs(a), np.abs(b))).tolist()  # type: ignore[no-any-return]

@@ -321,7 +321,6 @@ class Motion:
 
 def _unwrapped(angle: Floats) -> Floats:
     """Angles (n,) moved by whole turns, each next to the one before."""
-    laps = np.round(np.diff(angle) / TURN)
-    if laps.any():
-        angle[1:] -= TURN * np.cumsum(laps)
+    if len(angle) and angle.max() - angle.min() >= np.pi:
+        angle[1:] -= TURN * np.cumsum(np.round(np.diff(angle) / TURN))
     return angle

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
 from typing import Any
 
 from linkwright.engine.trace import Scalar
@@ -95,7 +96,8 @@ class MotionOutputs:
         second = n.dot(block.acceleration_of(at) - guide.acceleration_at(gap))
         return n.dot(gap - start), rate, second
 
-    def standard(self) -> list[str]:
+    @cached_property
+    def standard(self) -> tuple[str, ...]:
         """What every motion result stores: pins and points with rates, rotation rates, the outcome."""
         names: list[str] = []
         for key in self.point_keys():
@@ -103,7 +105,7 @@ class MotionOutputs:
                 names += vector_names(prefix, key)
         for link in self.mechanism.links:
             names += [f"w:{link}", f"g:{link}"]
-        return [*names, "outcome"]
+        return (*names, "outcome")
 
     def point_keys(self) -> Iterable[str]:
         """Canonical names of all points of the moving links that the frame does not carry."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -105,7 +106,7 @@ class MotionRun:
         if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
         breaks = frozenset() if followed is None else followed.breaks
-        names = stored or tuple(self.solver.outputs.standard())
+        names = stored or self.solver.outputs.standard
         motion = self._evaluate(states, modes, found, breaks, names)
         motion.followed = followed
         motion.notes += said + turn_notes(motion) + branch_notes(motion)
@@ -115,25 +116,22 @@ class MotionRun:
 
     def _at_once(self) -> Motion | None:
         """The motion where all positions are reached and show that nothing is passed between two of them."""
-        names = self.shown()
-        if names is None:
+        measures = self.measures
+        if measures is None:
             return None
+        names = (*self.solver.outputs.standard, *measures)
         values = self.solver.evaluate(names, self.positions, {}, {})
         return self.seen(Rows(values, self.solver.programs.places(names)))
 
-    def shown(self) -> tuple[str, ...] | None:
-        """The outputs that a motion stores, those that show whether something is passed, the outcome; None where
-        these do not tell."""
-        measures = signs_of_passages(self.solver, self.positions)
-        if measures is None:
-            return None
-        *names, outcome = self.solver.outputs.standard()
-        return (*names, *measures, outcome)
+    @cached_property
+    def measures(self) -> tuple[str, ...] | None:
+        """The outputs that show whether something is passed between two positions; None where these do not tell."""
+        return signs_of_passages(self.solver, self.positions)
 
     def seen(self, rows: Rows) -> Motion | None:
-        """The motion of rows with all these outputs, where they show that all positions are reached and nothing is
-        passed."""
-        measures = signs_of_passages(self.solver, self.positions) or ()
+        """The motion of rows with all that motions store and the measures, where these show that all positions are
+        reached and nothing is passed."""
+        measures = self.measures or ()
         if np.count_nonzero(rows.values[rows.index["outcome"]]):
             return None
         if measures:

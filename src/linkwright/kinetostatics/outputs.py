@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinetostatics.trace import ForceTrace
@@ -86,14 +88,15 @@ class ForceOutputs:
             )
         return force, moment
 
-    def standard(self) -> list[str]:
+    @cached_property
+    def standard(self) -> tuple[str, ...]:
         """What every result stores: reactions on every link, couples, efforts."""
         names = []
         for joint, link, couple in self.reaction_keys():
             names += [f"r:{joint}|{link}.x", f"r:{joint}|{link}.y"]
             if couple:
                 names.append(f"c:{joint}|{link}")
-        return [*names, *(f"effort:{name}" for name in self.forces.efforts)]
+        return (*names, *(f"effort:{name}" for name in self.forces.efforts))
 
     def reaction_keys(self) -> list[tuple[str, str, bool]]:
         """Joint, link, and whether it carries a couple; one link per pair, the others follow by reaction."""

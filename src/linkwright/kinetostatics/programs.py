@@ -64,12 +64,12 @@ class ForcePrograms:
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
-    def at_once(self, shown: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
-        """The outputs of a motion, what its loads follow, and all that forces store, with the one program for them,
-        whose fields stand last."""
-        return _at_once.get(self, shown, lambda: self._at_once(shown))
+    def at_once(self, measures: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
+        """What motions store and some measures, what the loads follow, and what forces store, with the one program
+        for them, whose fields stand last."""
+        return _at_once.get(self, measures, lambda: self._at_once(measures))
 
-    def _at_once(self, shown: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
+    def _at_once(self, measures: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
         mechanism = self.motion.mechanism
         followed = [each for load in mechanism.loads.values() for each in followed_by(load, mechanism)]
         turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
@@ -78,7 +78,9 @@ class ForcePrograms:
         ]
         more = [name for link in turned for name in vector_names("e", link)]
         more += [f"{kind}:{guide}" for guide in moved for kind in ("s", "sv", "sa")]
-        names = tuple(dict.fromkeys((*shown, *more, *self.outputs.standard())))
+        names = tuple(
+            dict.fromkeys((*self.motion.outputs.standard, *measures, *more, *self.outputs.standard))
+        )
         with self.motion.lock:
             values = {name: self._value(name) for name in names}
             program = Program.of(self.motion.motion.trace, values).fields_last()

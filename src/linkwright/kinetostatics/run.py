@@ -50,10 +50,9 @@ def forces_at_once(mechanism: Mechanism, steps: int, static: bool) -> Forces | N
     """
     run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps))
     solver = ForceSolver(run.solver, inertia=not static)
-    shown = None if run.solver.motion.next_states or solver.friction.terms else run.shown()
-    if shown is None:
+    if run.solver.motion.next_states or solver.friction.terms or run.measures is None:
         return None
-    names, program = solver.programs.at_once(shown)
+    names, program = solver.programs.at_once(run.measures)
     index, motions = run.solver.programs.places(names), list[Motion]()
     fields: dict[str, Floats] = {}
 
@@ -75,7 +74,7 @@ def forces_at_once(mechanism: Mechanism, steps: int, static: bool) -> Forces | N
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
-    names = tuple(solver.outputs.standard())
+    names = solver.outputs.standard
     values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan

@@ -58,7 +58,7 @@ class ForceSolver:
 
     def fields_needed(self) -> tuple[str, ...]:
         """Inputs per position that are found from the motion: load magnitudes, angles, friction."""
-        names = tuple(self.outputs.standard())
+        names = self.outputs.standard
         return self.program(names).program.fields
 
     def evaluate(

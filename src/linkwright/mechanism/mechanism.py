@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 
 Vec = tuple[float, float]
+#: What has dimensions of its own.
+_SORTS = ("link", "joint", "driver", "load")
 Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
 
 
@@ -179,41 +181,31 @@ class Mechanism(Frozen):
             new[address] = self._checked(address, expression.evaluate(new))
         moved = {self._owners.get(each) for each in (*changes, *kept) if new[each] != known[each]}
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
-        links = {
-            name: link.with_dimensions(value) if ("link", name) in moved else link
-            for name, link in {"frame": self.frame, **self.links}.items()
-        }
-        joints = {
-            name: joint.with_dimensions(value) if ("joint", name) in moved else joint
-            for name, joint in self.joints.items()
-        }
-        joints = {
-            name: joint.aligned(links[joint.joined[0]].points)
-            if {("joint", name), ("link", joint.joined[0])} & moved
-            else joint
-            for name, joint in joints.items()
-        }
-        drivers = {
-            name: driver.with_dimensions(value, parameters)
-            if ("driver", name) in moved or parameters != self.parameters
-            else driver
-            for name, driver in self.drivers.items()
-        }
-        loads = {
-            name: load.with_dimensions(value) if ("load", name) in moved else load
-            for name, load in self.loads.items()
-        }
+        renewed = {sort: {name for kind, name in filter(None, moved) if kind == sort} for sort in _SORTS}
+        links = {"frame": self.frame, **self.links}
+        links |= {name: links[name].with_dimensions(value) for name in renewed["link"]}
+        joints = {name: self.joints[name].with_dimensions(value) for name in renewed["joint"]}
+        for name, joint in self.joints.items():
+            if name in joints or joint.joined[0] in renewed["link"]:
+                new_joint = joints.get(name, joint)
+                joints[name] = new_joint.aligned(links[joint.joined[0]].points)
+        drivers = self.drivers if parameters != self.parameters else renewed["driver"]
         changed = replace(
             self,
             frame=links.pop("frame"),
             links=links,
-            joints=_unchanged(self.joints, joints),
-            drivers=_unchanged(self.drivers, drivers),
-            loads=_unchanged(self.loads, loads),
+            joints=_with(self.joints, joints),
+            drivers=_with(
+                self.drivers,
+                {name: self.drivers[name].with_dimensions(value, parameters) for name in drivers},
+            ),
+            loads=_with(
+                self.loads, {name: self.loads[name].with_dimensions(value) for name in renewed["load"]}
+            ),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=parameters,
-            expressions=_unchanged(self.expressions, kept),
+            expressions=self.expressions if len(kept) == len(self.expressions) else kept,
         )
         vars(changed)["_dimensions"] = new
         return changed
@@ -332,7 +324,7 @@ class Mechanism(Frozen):
         return {each.name: getattr(self, each.name) for each in fields(self)}
 
 
-def _unchanged(old: Mapping[str, Any], new: dict[str, Any]) -> Mapping[str, Any]:
-    """The old mapping itself where the new one holds the same elements, so that what is kept by it stays known."""
-    same = len(old) == len(new) and all(a is b for a, b in zip(old.values(), new.values(), strict=True))
-    return old if same else new
+def _with(old: Mapping[str, Any], new: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A mapping with new elements in their places; where nothing is new the old one itself, by which what was found
+    for its elements is known again."""
+    return {**old, **new} if any(each is not old[name] for name, each in new.items()) else old

@@ -65,7 +65,7 @@ class Resolver:
         before = self._before(positions.time)
         states = self._between._states(positions, before)
         modes = {name: row[before] for name, row in known.modes.items()}
-        names = tuple(known.solver.outputs.standard())
+        names = known.solver.outputs.standard
         values = known.solver.evaluate(names, positions, states, modes, known.design)
         barred = np.zeros(positions.count)
         for row in states.values():

@@ -182,7 +182,7 @@ class PagePrograms:
 
     def _outputs(self, motion: MotionTrace) -> dict[str, Scalar | bool]:
         solver = self.traced.solver
-        names = [name for name in solver.outputs.standard() if name != "outcome"]
+        names = [name for name in solver.outputs.standard if name != "outcome"]
         frame = [canonical(self.mechanism, "frame", point) for point in self.mechanism.frame.points]
         names += [each for key in frame for each in vector_names("p", key)]
         names += [each for link in self.mechanism.links for each in vector_names("e", link)]
@@ -209,7 +209,7 @@ class PagePrograms:
 
     def _of_forces(self) -> dict[str, Scalar | bool]:
         forces = self.traced.forces.outputs
-        names = forces.standard()
+        names = list(forces.standard)
         for load in self.mechanism.loads:
             names += [*vector_names("lf", load), *vector_names("lp", load)]
         names += ["shake.x", "shake.y", "shake_moment"]

@@ -82,7 +82,7 @@ def evaluated(solver: MotionSolver, design: Design, traced: Traced) -> Motion:
     positions = traced.positions
     followed = solver.follow(positions, design)
     states = {} if followed is None else followed.states
-    names = tuple(solver.outputs.standard())
+    names = solver.outputs.standard
     values = solver.evaluate(names, positions, states, {}, design)
     barred = np.zeros(positions.count)
     for row in states.values():

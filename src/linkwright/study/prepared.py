@@ -84,7 +84,7 @@ class Prepared:
         self._loads = _Followed.of(self)
         self.solver = self._loads.traced.solver
         self.force_solver = ForceSolver(self.solver)
-        motion, forces = self.solver.outputs.standard(), self.force_solver.outputs.standard()
+        motion, forces = self.solver.outputs.standard, self.force_solver.outputs.standard
         more = (name for name in self._loads.rates.values() if name not in motion)
         self._names = (*motion[:-1], *forces, *self._loads.fields, *more, NEAREST, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
@@ -102,7 +102,7 @@ class Prepared:
 
     def _trace(self) -> Program:
         motion, forces = self.solver.outputs, self._loads.traced.forces.outputs
-        stored = {*motion.standard(), *self._loads.rates.values()}
+        stored = {*motion.standard, *self._loads.rates.values()}
         sizes = self._loads.sizes
         values = {
             name: sizes[name] if name in sizes else (motion if name in stored else forces).value(name)

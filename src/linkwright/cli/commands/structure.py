@@ -56,13 +56,13 @@ def _program(mechanism: Mechanism, forces: bool) -> Program:
     from linkwright.kinematics.solver import MotionSolver
 
     solver = MotionSolver(mechanism)
-    names = tuple(solver.outputs.standard())
+    names = solver.outputs.standard
     if not forces:
         return solver.program(names).program
     from linkwright.kinetostatics.solver import ForceSolver
 
     whole = ForceSolver(solver)
-    return whole.program((*names[:-1], *whole.outputs.standard())).program
+    return whole.program((*names[:-1], *whole.outputs.standard)).program
 
 
 def _counts(program: Program, say: Say) -> str:
