@@ -201,3 +201,48 @@ def test_loads_that_follow_the_motion_are_differentiated(load: str) -> None:
         # positions that enter or leave the phase, or cross a kink of the table, between the differences may differ
         assert np.sort(gap)[:-4].max() <= 1e-6 * np.abs(expected).max()
         assert np.abs(expected).max() > 1.0
+
+
+ITERATED = {
+    "ramp over the input": "ramp: [10 N, 200 N], phase: {input: [40 deg, 190 deg]}",
+    "while it moves": "magnitude: 150 N, phase: {moving: bar_2, direction: increasing}",
+    "between limits": "magnitude: 150 N, phase: {of: bar_2, from: max, to: min}",
+    "angle": 'magnitude: "100 N*(1 + bar_2/(1 rad))"',
+}
+
+
+def iterated(load: str) -> lw.Mechanism:
+    """A triad, which Newton's method solves: where a load acts is known per position."""
+    text = lw.dump(lw.load("gallery:triad")).split("\nloads:")[0]
+    return lw.loads(
+        text + f"\nloads: {{push: {{kind: force, on: bar_2, at: Q, direction: 20 deg, {load}}}}}\n"
+    )
+
+
+@pytest.mark.parametrize("load", ITERATED.values(), ids=ITERATED)
+def test_loads_of_a_machine_without_closed_form_go_on_acting_where_they_act(load: str) -> None:
+    mechanism, steps = iterated(load), 30
+    address = "plate.R.y"
+    value = mechanism.dimension(address)
+    step = 1e-6 * abs(value)
+    ends = [
+        lw.solve_forces(mechanism.with_dimensions({address: value + k * step}), steps=steps).input_torque
+        for k in (-1, 1)
+    ]
+    expected = (ends[1] - ends[0]) / (2 * step)
+    assert np.abs(expected).max() > 1.0
+    found = sensitivity(mechanism, of=["input_torque"], by=[address], steps=steps)
+    gap = np.abs(found.slope("input_torque", address) - expected)
+    assert np.sort(gap)[:-2].max() <= 2e-6 * np.abs(expected).max()
+    alone = lw.solve_forces(mechanism, steps=steps).input_torque
+    assert found.curve("input_torque") == pytest.approx(alone, rel=1e-9, abs=1e-9)
+
+
+def test_what_moves_without_a_closed_form_or_rubs_has_no_derivative() -> None:
+    ramp = iterated("ramp: [10 N, 200 N], phase: {of: bar_2, from: max, to: min}")
+    with pytest.raises(lw.LinkwrightError, match="push"):
+        sensitivity(ramp, of=["input_torque"], by=["plate.R.y"], steps=60)
+    text = lw.dump(lw.load("gallery:shaper_quick_return"))
+    rubbing = lw.loads(text.replace("kind: prismatic,", "kind: prismatic, friction: 0.1,"))
+    with pytest.raises(lw.LinkwrightError, match="friction"):
+        sensitivity(rubbing, of=["input_torque"], by=["crank.length"], steps=24)
