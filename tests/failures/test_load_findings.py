@@ -79,7 +79,7 @@ def finding(load: str, text: str = CRANK_ROCKER) -> str:
         ("{kind: damper, between: [coupler.E, O], damping: -1 N·s/m}", "is negative"),
         ("{kind: damper, between: [coupler.E, Z], damping: 1 N·s/m}", 'there is no point "Z"'),
         ("{kind: torsion_spring, links: [crank, crank], stiffness: 1 N·m/rad}", 'both links are "crank"'),
-        ("{kind: torsion_damper, links: [crank], damping: 1 N·m·s/rad}", "1 values stand where 2"),
+        ("{kind: torsion_damper, links: [crank], damping: 1 N·m·s/rad}", "the number of values is 1, not 2"),
         ("{kind: pressure, joint: B, bore: 80 mm, magnitude: 2 bar}", "B"),
     ],
 )

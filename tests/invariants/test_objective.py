@@ -1,5 +1,7 @@
 """Values of objectives are those of the machine solved alone, gradients the differences of such solutions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -213,3 +215,57 @@ def test_wheels_and_racks_on_a_link_that_a_dyad_places(term, number):
 def test_turns_that_cannot_be_counted_are_refused():
     with pytest.raises(lw.LinkwrightError, match="follower turns so far between two positions"):
         lw.objective(lw.loads(DRAG_LINK), "driver.effort rms", vary=["crank.length"], steps=4)
+
+
+def rack_cutting_one_way() -> lw.Mechanism:
+    """The gallery's rack on a rocker, its cutting force between the rack's limit positions alone."""
+    machine = lw.load("gallery:rack_and_rocker")
+    text = lw.dump(replace(machine, loads={}))
+    phase = "phase: {of: slide, from: min, to: max}"
+    return lw.loads(
+        f"{text}\nloads: {{cut: {{kind: force, on: rack, at: R, direction: 180 deg, magnitude: 200 N, {phase}}}}}\n"
+    )
+
+
+def drag_link_of_one_turn() -> lw.Mechanism:
+    """The drag link with a wheel as large as its driven crank's, without the rack: all are back after a turn."""
+    left_out = ("rack:", "guide:", "teeth:", "cycle:", "loads:")
+    lines = [line for line in DRAG_LINK.splitlines() if not line.strip().startswith(left_out)]
+    return lw.loads("\n".join(lines).replace("ratio: -0.7", "ratio: -1"))
+
+
+@pytest.mark.parametrize(
+    ("machine", "names", "number"),
+    [
+        (rack_cutting_one_way, ["coupler.length", "frame.O2.x"], "rms_input_torque"),
+        (rack_cutting_one_way, ["coupler.length", "rocker.length"], "peak_reaction mesh"),
+        (rack_cutting_one_way, ["coupler.length", "rocker.length"], "quick_return_ratio slide"),
+        (rack_cutting_one_way, ["rocker.length", "frame.O2.x"], "stroke slide"),
+        (drag_link_of_one_turn, ["coupler.length", "wheel.mass"], "peak_input_torque"),
+        (drag_link_of_one_turn, ["coupler.length", "wheel.inertia"], "peak_reaction B"),
+    ],
+)
+def test_design_numbers_go_through_wheels_on_links_that_a_dyad_places(machine, names, number):
+    """Against the numbers of each changed machine alone, and their differences."""
+    mechanism = machine()
+    f = lw.objective(mechanism, number, vary=names)
+    value, gradient = f(f.start)
+    name, _, subject = number.partition(" ")
+
+    def alone(x):
+        changed = mechanism.with_dimensions(dict(zip(f.names, x, strict=True)))
+        found = lw.metrics(lw.solve_forces(changed), [name])
+        return found.value(name, subject) if subject else found.value(name)
+
+    assert value == pytest.approx(alone(f.start), rel=1e-10)
+    assert gradient == pytest.approx(differences(alone, f.start), rel=2e-6, abs=2e-6 * np.abs(gradient).max())
+    away = f.start * np.array([0.97, 1.03])
+    assert f.values(away[None, :])[0] == pytest.approx(alone(away), rel=1e-9)
+
+
+def test_a_force_between_limits_of_a_rack_on_a_rocker_has_its_gradient():
+    mechanism = rack_cutting_one_way()
+    f = lw.objective(mechanism, "driver.effort rms", vary=["coupler.length", "rocker.length"])
+    value, gradient = f(f.start)
+    assert value == pytest.approx(torque_rms(lw.solve_forces(mechanism)), rel=1e-12)
+    assert gradient == pytest.approx(differences(lambda x: f(x)[0], f.start), rel=1e-6)

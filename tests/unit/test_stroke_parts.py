@@ -127,7 +127,7 @@ def test_more_than_the_stroke_is_refused_with_its_length() -> None:
         ("last: 0", '"0" is no part'),
         ("first: -10 mm", '"-10 mm" is no part'),
         ("last: 10 deg", "length"),
-        ("free: [0.1]", "1 values stand where 2 are needed"),
+        ("free: [0.1]", "the number of values is 1, not 2 as needed"),
         ("first: 0.1, last: 0.1", "several parts of the stroke are given: first, last"),
     ],
 )

@@ -19,9 +19,8 @@ from linkwright.core.expressions import Expression
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, cos, floor, maximum, minimum, sign, sin
+from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import limit_name
@@ -161,7 +160,7 @@ class GaussCycle:
         """A trace over the Gauss points with the quantities, whether they are valid, and the share of the time."""
         motion = self.traced.solver.motion
         outputs = {name: each.value for name, each in quantities.items()}
-        source = Program.of(motion.trace, {**outputs, VALID: motion.valid})
+        source = Program.of(motion.trace, {**outputs, VALID: self.traced.counted_for_certain})
         t = Trace()
         (driver,) = self.traced.mechanism.drivers
         place: Scalar = t.position("place after")
@@ -174,14 +173,8 @@ class GaussCycle:
         share = place - floor(place)
         way = sign(t.parameter(f"{driver}.speed")) * TURN * share
         angle = t.parameter(FIRST) + way
-        given = {
-            f"cos:{driver}": cos(angle),
-            f"sin:{driver}": sin(angle),
-            f"turn:{driver}": angle,
-            "input": angle,
-        }
-        given["time"] = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
-        found = inlined(source, t, given)
+        time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
+        found = self.traced.at_input(source, t, angle, {"input": angle, "time": time})
         return t, {**found, SHARE: width}
 
 

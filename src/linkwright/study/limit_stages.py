@@ -11,9 +11,8 @@ import numpy as np
 
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, absolute, cos, select, sign, sin, sqrt
+from linkwright.engine.trace import Scalar, Trace, absolute, select, sign, sin, sqrt
 from linkwright.fields.signals import Output, SwingPhase
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
@@ -74,7 +73,7 @@ def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
     growing value, and the sum of their directions on the circle of inputs."""
     trace = traced.solver.motion.trace
     (driver,) = traced.mechanism.drivers
-    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.solver.motion.valid}
+    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.counted_for_certain}
     wanted: dict[str, Reduction] = {}
     for each in outputs:
         found[f"{each}"] = traced.named.quantity(f"{each.owner}.{each.kind}").carrier
@@ -89,8 +88,11 @@ def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
             }
             found |= {f"{part}:{each}": value for part, value in sums.items()}
             wanted |= {f"sum {part}:{each}": Reduction(f"{part}:{each}", "sum") for part in sums}
-    count = ASSEMBLED if judged else ""
-    return Stage(Program.of(trace, found), wanted, valid=VALID, count=count)
+    program, count = Program.of(trace, found), ASSEMBLED if judged else ""
+    if traced.lines:
+        t = Trace()
+        program = Program.of(t, traced.at_input(program, t, t.position("input")))
+    return Stage(program, wanted, valid=VALID, count=count)
 
 
 def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
@@ -104,7 +106,7 @@ def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
     if valued:
         sought["value"] = output_value(traced.solver.motion, output)
     motion = Program.of(traced.solver.motion.trace, sought)
-    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
+    there = traced.at_input(motion, t, x)
     falling = there["rate"] if kind == "max" else -there["rate"]
     before = falling > 0.0
     step = t.parameter(STEP) * sign(speed)
@@ -152,7 +154,7 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
     motion = Program.of(source.trace, {"gap": way - edge, "rate": rate * sign(stroke)})
     x, low, high = (t.state(name) for name in ("x", "low", "high"))
     speed = t.parameter(f"{driver}.speed")
-    there = inlined(motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x})
+    there = traced.at_input(motion, t, x)
     first = absolute(low) + absolute(high) <= 0.0
     begins, ends = (t.parameter(limit_name(phase.output, kind)) for kind in (phase.start, phase.end))
     low0 = select(first, begins, low)
@@ -189,9 +191,7 @@ def near_limits(traced: Traced, outputs: Iterable[Output], valued: Iterable[Outp
         motion = Program.of(traced.solver.motion.trace, sought)
         x: Scalar = t.position(f"near:{output}")
         for _ in range(NEAR_STEPS):
-            there = inlined(
-                motion, t, {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x}
-            )
+            there = traced.at_input(motion, t, x)
             moved = there["step"] * t.parameter(f"{driver}.speed")
             x = x - moved
         found |= {f"limit:{output}": x, f"moved:{output}": absolute(moved)}

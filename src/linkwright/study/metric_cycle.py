@@ -67,9 +67,10 @@ def metric_cycle(
     """
     given, addresses = tuple(names), tuple(varied)
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
-    if plain.solver.motion.next_states or not one_turn(plain, addresses) or not plain.nominal.ok.all():
+    placed = plain.solver.motion.placed.values()
+    if any(each.next_states for each in placed) or not one_turn(plain, addresses):
         return None
-    if plain.nominal.modes:
+    if not plain.nominal.ok.all() or plain.nominal.modes or not plain.countable:
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)

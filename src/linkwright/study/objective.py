@@ -27,15 +27,13 @@ from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wa
 from linkwright.study.limit_stages import constants
 from linkwright.study.loaded_cycle import along_input
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.traced import CLEAR, VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 VALUE = "objective"
-#: Change of an angle between two positions, rad, up to which there is no doubt how often it has turned.
-CLEAR = 0.75 * np.pi
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Mask, Scalar, select
+from linkwright.engine.replay import inlined
+from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, select, sin
 from linkwright.errors import RequestError
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import nearness
@@ -33,6 +35,8 @@ VALID = "valid"
 NEAREST = "nearest change point"
 #: An angle that covers more than this is one of a link that turns.
 TURNING = 1.9 * np.pi
+#: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.
+CLEAR = 0.75 * np.pi
 
 
 class Traced:
@@ -113,6 +117,45 @@ class Traced:
             if name in columns:
                 table[:, place] = columns[name]
         return table
+
+    # one driver that turns ------------------------------------------------------------------------------
+    def at_input(
+        self, program: Program, trace: Trace, x: Scalar, more: Mapping[str, Scalar] | None = None
+    ) -> dict[str, Any]:
+        """The outputs of a program of the motion at the input x, rad, of the only driver; ``more`` inputs by name."""
+        (driver,) = self.mechanism.drivers
+        given = {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x, **(more or {})}
+        given |= {name: first + turns * x for name, (first, turns) in self.lines.items()}
+        return inlined(program, trace, given)
+
+    @cached_property
+    def lines(self) -> dict[str, tuple[float, float]]:
+        """Lines near which the rotations run that pairs count, by the names of their states: rad where the input is
+        zero, and turns in a turn of the only driver; the rotations nearest to them are those with the right turns."""
+        counted = self.solver.motion.angles.carried
+        known, found = self.nominal.states if counted else {}, {}
+        for name in counted:
+            q = next(iter(self.positions.coordinates.values()))[0]
+            turns = float(np.round((known[name][-1] - known[name][0]) / (q[-1] - q[0])))
+            rest = known[name] - turns * q
+            if np.ptp(rest) < 2.0 * CLEAR:
+                found[name] = (0.5 * float(rest.max() + rest.min()), turns)
+        return found
+
+    @property
+    def countable(self) -> bool:
+        """Whether there are such lines for all of them."""
+        return self.lines.keys() == self.solver.motion.angles.carried.keys()
+
+    @property
+    def counted_for_certain(self) -> Mask:
+        """Where a position is reached, and no such rotation is far from its line."""
+        motion = self.solver.motion
+        found: Mask = motion.valid
+        for name, rotation in motion.angles.carried.items():
+            near = absolute(rotation - motion.trace.state(name)) < CLEAR
+            found = motion.trace.logic("and", found, near)
+        return found
 
     def failure_flags(self) -> dict[str, Scalar]:
         """Per group 1 where it is the first that fails, by ``out:GROUP`` (reach) and ``singular:GROUP``."""

@@ -83,7 +83,7 @@ WORDS = {
     "write_mapping": "write {{key: value, …}} or indented lines key: value",
     "where_list": "{node} stands where a list is needed",
     "write_as": "write it as {form}",
-    "value_count": "{given} values stand where {count} are needed",
+    "value_count": "the number of values is {given}, not {count} as needed",
     "where_text": "{node} stands where a text is needed",
     "write_name": "write a name or a text",
     "bad_name": '"{text}" cannot be the name of a {what}',
