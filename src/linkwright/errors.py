@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal
 
+from linkwright.core.dataclass import dataclass
 from linkwright.words import say
 from linkwright.words.sentence import Sentence, in_language
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
@@ -18,6 +18,7 @@ from linkwright.cams.loading import CamLoading, CamMaterial, leverage
 from linkwright.cams.result import CamDesign
 from linkwright.cams.sizes import CamChoice, chosen
 from linkwright.cams.undercut import undercuts
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field
 from linkwright.laws.program import Program

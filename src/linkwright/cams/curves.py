@@ -7,12 +7,12 @@ counter-clockwise), so a place z of the frame is z e^(-iσφ) there.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cams.follower import Follower
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cams.follower import KINDS, MOTIONS, Follower
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word
 from linkwright.fields.nodes import Node

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+from linkwright.core.dataclass import dataclass
 
 KINDS = ("roller", "knife", "flat")
 MOTIONS = ("translating", "oscillating")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from linkwright.cams.cam import Cam
 from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -13,6 +12,7 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.cams.vibration import residual_amplitude, steady_deviation
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.errors import RequestError
 from linkwright.laws.base import Floats

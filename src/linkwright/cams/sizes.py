@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.cams.loading import contact_pressure, leverage
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.laws.base import Floats
 from linkwright.laws.program import Program

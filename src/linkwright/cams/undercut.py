@@ -7,12 +7,11 @@ goes, and where parts of the profile that are far from each other on the way cro
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cams.curves import CamCurve, Points
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends as last_places
 from linkwright.laws.base import Floats

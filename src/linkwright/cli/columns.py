@@ -5,12 +5,13 @@ from __future__ import annotations
 import fnmatch
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.cli.errors import UsageError
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.cycle import Floats
 from linkwright.registry import nearest
 from linkwright.words import Say

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor

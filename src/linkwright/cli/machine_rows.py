@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.cli.machine_options import Wanted
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation

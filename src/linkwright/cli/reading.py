@@ -9,10 +9,11 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
+from linkwright.core.dataclass import dataclass
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 

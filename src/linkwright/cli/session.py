@@ -6,9 +6,9 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 
 from linkwright.cli.errors import OutputError
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words import Say
 from linkwright.words.characters import terminal_text

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion

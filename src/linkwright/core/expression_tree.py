@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.words.sentence import Sentence
 

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import (
     ARITY,
     Binary,

@@ -9,11 +9,12 @@ smooth (Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.core.dataclass import dataclass
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]

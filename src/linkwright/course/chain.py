@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
+from linkwright.core.dataclass import dataclass
 from linkwright.worked.solution import Worked
 from linkwright.worked.terms import APPLY, Term
 

@@ -6,10 +6,10 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
+from linkwright.core.dataclass import dataclass
 from linkwright.course.chain import Change, Line, lines_of, run, with_terms
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion

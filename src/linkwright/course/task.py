@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.errors import LinkwrightError, QuantityError, RequestError

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Quantity
 

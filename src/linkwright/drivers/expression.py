@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, array_functions
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Formula

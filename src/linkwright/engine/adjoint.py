@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.replay import Replay, operations
 from linkwright.engine.tangent import slope_of
 from linkwright.engine.trace import Mask, Node, Scalar, Value

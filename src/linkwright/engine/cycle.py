@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Results
 from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
 from linkwright.engine.table import Tables

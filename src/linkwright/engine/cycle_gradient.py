@@ -8,13 +8,14 @@ found by an iteration changes by dx/dp = -g_p / g_x (implicit function theorem).
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram, Known, Progress
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import PLACE, VALID_COUNT, Accumulation, Reduction

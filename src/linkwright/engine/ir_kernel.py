@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after import following_lines

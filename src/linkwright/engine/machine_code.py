@@ -7,10 +7,10 @@ import hashlib
 import importlib.util
 import sys
 import threading
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
 
 _LOCK = threading.RLock()

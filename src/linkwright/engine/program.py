@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace
 
 SYMBOLS = {

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.lines import Lines
 
 #: Kinds of places: a row of the result, a number buffer, a truth buffer.

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple, overload
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
 
 Number = float | int

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, Value, reciprocal, select
 
 

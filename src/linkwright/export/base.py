@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.export.results import Results
 from linkwright.kinematics.cycle import Floats
 from linkwright.words import say

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.words.sentence import Sentence

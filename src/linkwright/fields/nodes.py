@@ -7,8 +7,9 @@ Problems (duplicate keys, tags, a second document, too deep nesting) become rema
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.words.sentence import Sentence
 
 MAX_DEPTH, MAX_NODES = 40, 30_000

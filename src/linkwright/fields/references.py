@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence

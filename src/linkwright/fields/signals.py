@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.fields.base import (
     Field,

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.words.sentence import Sentence

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, Severity
 from linkwright.fields.base import Field
 from linkwright.fields.form import missing_remedy

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, quantity_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence

@@ -6,11 +6,12 @@ import re
 from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode

@@ -8,11 +8,11 @@ Gear Geometry and Applied Theory, chapter 5). A ring has arcs as fillets that to
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.search import Mask, ends
 from linkwright.errors import RequestError
 from linkwright.gears.involute import Floats

@@ -10,9 +10,10 @@ points the other way, because the group's own link carries it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Protocol
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor

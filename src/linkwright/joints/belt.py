@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import asin
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, maximum, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word

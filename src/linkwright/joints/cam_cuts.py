@@ -5,9 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar, acos, angle, asin, select, sqrt
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.joints.base import Angles, Cut, Poses, States

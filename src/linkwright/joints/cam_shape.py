@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.joints.cam_cuts import Geometry
 from linkwright.joints.marks import Mark, Vec

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from linkwright.core.dataclass import dataclass
 
 Vec = tuple[float, float]
 

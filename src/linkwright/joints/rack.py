@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import cos as cos_of
 from math import pi
 from math import sin as sin_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, absolute, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity

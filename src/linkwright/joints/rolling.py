@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field
 from linkwright.joints.base import JOINTS
 from linkwright.joints.gear import GearPair

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.scalar_backend import ScalarProgram

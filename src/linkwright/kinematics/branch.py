@@ -10,11 +10,12 @@ and the exact rates at both ends fit each other; else the way ends there.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.certificate import REFUSED, Certificate, End, certify, cubic
 from linkwright.kinematics.closed_loops import ClosedLoops, Floats
 

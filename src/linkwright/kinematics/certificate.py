@@ -23,10 +23,9 @@ then proved for every place between. Rigorous up to the rounding model of ``_end
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.closed_loops import ClosedLoops, Complexes, Floats
 
 #: Above this contraction without tube a step is not tried.

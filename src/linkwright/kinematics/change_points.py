@@ -10,13 +10,14 @@ Erdman & Sandor, Mechanism Design, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum

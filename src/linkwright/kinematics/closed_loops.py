@@ -14,11 +14,11 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterable, Mapping
 from copy import copy
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import closed_form, whole_form
 from linkwright.mechanism.geometry import mechanism_size

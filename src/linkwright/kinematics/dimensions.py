@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import dataclass
 from math import cos as cosine
 from math import sin as sine
 
+from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
 from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
 from linkwright.engine.vector import Vec

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import Matrix, determinant, inverse, product
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop

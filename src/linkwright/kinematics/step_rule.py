@@ -6,8 +6,9 @@ determinant keeps its sign, the correction is small against the step, and both e
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, Trace, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State

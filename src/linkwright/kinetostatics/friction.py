@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.cycle import Floats

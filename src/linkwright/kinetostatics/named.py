@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError

@@ -9,8 +9,9 @@ joint that carries it (d'Alembert; Artobolevsky, Theory of Mechanisms and Machin
 from __future__ import annotations
 
 from collections.abc import Mapping, Set
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import product, transposed
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.laws.altered import Backwards, Portion, Shifted
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw
 
 #: Angular frequencies of the basis 1, u, cos πu, sin πu, cos 2πu, sin 2πu.

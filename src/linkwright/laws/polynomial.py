@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import perm
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw, MotionLaw

@@ -6,12 +6,12 @@ import itertools
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Extreme, Piecewise
 from linkwright.errors import Finding, ModelError
 from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.laws.base import Floats
 from linkwright.laws.pieces import Pieces

@@ -5,11 +5,11 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program
 

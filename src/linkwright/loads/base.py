@@ -17,9 +17,9 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.fields.references import (
     LinkName,

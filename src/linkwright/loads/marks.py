@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from linkwright.core.dataclass import dataclass
 
 if TYPE_CHECKING:
     from linkwright.loads.base import Load

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.fields.signals import Output
 from linkwright.words.sentence import Sentence

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 

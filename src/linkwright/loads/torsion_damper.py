@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Site, Wrench

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, increasing, nodes
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import POINTS, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import POINTS, Extreme, Floats, Function, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, FrozenDict
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError

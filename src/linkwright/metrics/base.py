@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import isnan
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.metrics.analysis import Analysis, Extreme, Result
 from linkwright.metrics.quantities import si_unit

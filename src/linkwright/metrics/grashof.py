@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from math import hypot
 
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis

@@ -8,12 +8,12 @@ holds everything, so a search that was interrupted goes on as if it had not been
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.optimisation.task import Judged, Task
 
 Floats = NDArray[np.float64]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError
 from linkwright.files.document import Document

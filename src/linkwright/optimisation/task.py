@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.optimisation.measures import Measures
 from linkwright.optimisation.problem import Demand, Problem

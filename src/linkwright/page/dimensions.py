@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism

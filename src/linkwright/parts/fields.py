@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Schema, table_schema

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.words import Say
 
 _MARKS = re.compile(r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\])")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY

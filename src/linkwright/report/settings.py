@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.registry import offered
 from linkwright.words import LANGUAGES

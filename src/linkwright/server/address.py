@@ -5,9 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder as cache_folder
 
 

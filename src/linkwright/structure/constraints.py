@@ -8,8 +8,9 @@ rotations, so a loop of guides that fixes a rotation twice is seen here and coun
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Mechanism
 
 FRAME = "frame"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import JOINTS
 from linkwright.structure.trains import GearTrain
 

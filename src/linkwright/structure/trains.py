@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Denominators up to this are shown as fractions.

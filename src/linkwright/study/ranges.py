@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence

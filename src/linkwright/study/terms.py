@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
 from linkwright.fields.signals import Output

@@ -15,11 +15,12 @@ Source: Chase and Mirth 1993, "Circuits and branches of single-degree-of-freedom
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.core.dataclass import dataclass
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

@@ -21,10 +21,10 @@ dU = i U dψ,  dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U),  dD = dd -
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.core.dataclass import dataclass
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

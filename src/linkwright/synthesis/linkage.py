@@ -5,8 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from linkwright.core.dataclass import dataclass
 from linkwright.files.model_file import loads
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Floats
 from linkwright.study.designs import sweep_curves

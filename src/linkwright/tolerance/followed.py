@@ -10,12 +10,13 @@ angle that is left between offset and reaction is the residual.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import field, fields, is_dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import implied_joint

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.spline import Floats, Spline
 from linkwright.drivers.base import Law
 from linkwright.drivers.table import TableLaw

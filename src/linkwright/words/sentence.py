@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
+from linkwright.core.dataclass import dataclass
 from linkwright.words import say
 
 _OWN_NAMES = re.compile(

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.worked.lifts import Lift, LiftWriter
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places

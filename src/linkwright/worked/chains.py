@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.symbols import Book, Slide, Spot
 from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol

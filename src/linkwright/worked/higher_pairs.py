@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import LackingError
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.chains import ChainClosure, Closure, chain_closures

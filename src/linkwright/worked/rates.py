@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from linkwright.core.dataclass import dataclass
 from linkwright.structure.group import Connection, Group
 from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked.higher_pairs import PairClosure

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
+
+from linkwright.core.dataclass import dataclass
 
 #: Anything smaller (SI) is nothing but rounding.
 NOTHING = 1e-12

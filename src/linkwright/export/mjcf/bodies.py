@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from linkwright.core.dataclass import dataclass
 from linkwright.export.modelica.laws import LawText
 from linkwright.export.modelica.names import Names, number, quoted
 from linkwright.export.results import Results

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import assert_never
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, Variable
 from linkwright.drivers.expression import ExpressionLaw
 from linkwright.drivers.table import TableLaw

@@ -8,13 +8,13 @@ follow by integration of the load.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 
 #: A value below this share of the largest along the beam is zero but for rounding.

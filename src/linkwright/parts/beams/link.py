@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces

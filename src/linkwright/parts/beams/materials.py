@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.parts.fields import Either, Table, unknown_name
 

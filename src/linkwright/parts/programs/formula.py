@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, array_functions
 from linkwright.errors import QuantityError
 from linkwright.parts.base import Floats

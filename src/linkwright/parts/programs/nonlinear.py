@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 from linkwright.parts.programs.problem import Model
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
 
 from linkwright import units
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 from linkwright.parts.programs.formula import Constraint, Formula
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.rank import ConstraintSystem
 from linkwright.kinematics.solve import solve_motion

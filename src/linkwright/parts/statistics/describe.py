@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 
 #: Distributions that can be fitted: their names in SciPy, and the parameters that are held.

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 
 

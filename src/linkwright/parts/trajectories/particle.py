@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.solve import solve_motion

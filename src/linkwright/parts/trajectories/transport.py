@@ -4,10 +4,10 @@ between positions."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import Floats
 
 REST, FORWARD, BACKWARD, FLIGHT = "rest", "forward", "backward", "flight"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, array_functions, parse
 from linkwright.errors import Finding, QuantityError, RequestError
 from linkwright.fields.base import Quantity

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Quantities, Quantity, Text
 from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault

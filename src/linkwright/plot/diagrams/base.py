@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
 from linkwright.words import Say, say
 

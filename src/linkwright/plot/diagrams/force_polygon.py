@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces

@@ -8,10 +8,11 @@ relative one along the guide (Norton, Design of Machinery, chapters 6 and 7).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion

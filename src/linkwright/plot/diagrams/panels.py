@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import Legend, framed, label_input

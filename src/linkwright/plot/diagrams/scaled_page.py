@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.units import round_up

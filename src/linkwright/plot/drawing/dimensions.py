@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
 from linkwright.plot.drawing.guides import direction, line_start

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.plot.svg.element import Element, Floats, element
 from linkwright.plot.svg.text import name_width, split_index, text_element
 from linkwright.plot.symbols.base import Vec

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.loads.base import Load

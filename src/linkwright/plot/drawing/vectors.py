@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.labels import Label

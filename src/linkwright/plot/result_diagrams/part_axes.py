@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.cycle import Floats
 from linkwright.parts.display import UNITS, unit
 from linkwright.plot.diagrams.axes import Legend, framed

@@ -7,11 +7,11 @@ right, y down, one unit a pixel at natural size. Directions are unit vectors on 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.dataclass import dataclass
 from linkwright.plot.svg.element import Element, Floats
 from linkwright.registry import Registry
 

@@ -11,7 +11,6 @@ import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.free_curve.kernels import kernels

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.linkages import Placed
 
 #: Positions of the drawn part at which order and speed are taken.

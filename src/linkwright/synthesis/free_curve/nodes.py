@@ -6,11 +6,10 @@ pivots, pins, points of links and the drawing point.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.kernels import DYAD, FAR, PIVOT, POINT
 
 Floats = NDArray[np.float64]

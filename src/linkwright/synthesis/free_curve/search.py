@@ -15,11 +15,12 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import islice
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import cores
 from linkwright.synthesis.free_curve.atlas import atlas
 from linkwright.synthesis.free_curve.kernels import FAR

@@ -7,11 +7,10 @@ only the linkage's own numbers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.function_generation.generators import Generator
 from linkwright.synthesis.least_squares import minimise, with_differences
 

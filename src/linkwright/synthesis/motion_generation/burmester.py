@@ -13,10 +13,10 @@ Source: Burmester 1888, Lehrbuch der Kinematik; Bottema and Roth 1979, Theoretic
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.core.dataclass import dataclass
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

@@ -15,7 +15,6 @@ problems).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from io import BytesIO
@@ -26,6 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.nine_points.classes import MIX, PROBES
 from linkwright.synthesis.nine_points.start import displacements
 

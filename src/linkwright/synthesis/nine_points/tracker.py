@@ -18,11 +18,10 @@ Source: Wampler, Morgan and Sommese 1992, J. Mech. Des. 114; Allgower and Georg 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import cores, spread_over
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation.kernels import (

@@ -9,11 +9,10 @@ fixed z, α, β).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily, coupler_rates, couplers
 
 Floats = NDArray[np.float64]

@@ -9,11 +9,10 @@ Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
