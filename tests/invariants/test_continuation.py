@@ -12,9 +12,10 @@ from tests.reference.test_branches import fault
 
 import linkwright as lw
 from linkwright.kinematics.assembly import AssemblyError
-from linkwright.kinematics.branch import CORRECTION, MISFIT, Way, _Walk, follow, straight
+from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
 from linkwright.kinematics.continuation import Followed, _Journey
+from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion
 
@@ -312,11 +313,26 @@ def test_a_way_that_stands_still_is_complete(triad: Motion) -> None:
     assert branch.complete and branch.last[:-1] == pytest.approx(way.coordinates[4], abs=1e-13)
 
 
-def test_a_hasty_walk_is_followed_without_proof(triad: Motion, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkwright.kinematics.branch.PATIENCE", 0)
-    follower, way = triad.solver.follower(), followed(triad)
-    places = np.array([0.1, 1.0])
-    steps: Way = replace(straight(way.inputs[0], way.inputs[2], follower.unit), places=places)
-    branch = follow(follower.loops, steps, way.coordinates[0])
-    assert branch.complete and not branch.certified.any()
-    assert branch.last[:-1] == pytest.approx(way.coordinates[2], abs=1e-11)
+def test_a_way_of_too_many_tries_is_followed_without_proof_and_said_so(
+    triad: Motion, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The rest of a way is passed in steps as long as they are plausible, not in ever shorter ones."""
+    monkeypatch.setattr("linkwright.kinematics.branch.PATIENCE", 5)
+    motion = lw.solve_motion(triad.mechanism, steps=12)
+    way = followed(motion)
+    sure = int(way.certified.sum())
+    assert 1 <= sure < 12 and way.certified[:sure].all()
+    for link in triad.mechanism.links:
+        assert motion.link(link).direction == pytest.approx(triad.link(link).direction[::3], abs=1e-11)
+    unsure = np.flatnonzero(~way.certified)
+    near = unsure[np.argmin(way.margin[unsure])]
+    (note,) = branch_notes(motion)
+    assert f"{len(unsure)} position" in note and f"{np.degrees(motion.input[near]):.6g}°" in note
+    assert f"{way.margin[near]:.2g}" in note
+    assert {o.sentence == "the mechanism is assembled" for o in motion.outcomes if not o.certified} == {False}
+    motion.followed = replace(way, returns=False)
+    assert len(branch_notes(motion)) == 2
+    motion.followed = replace(way, certified=np.ones(12, dtype=bool))
+    assert branch_notes(motion) == ()
+    motion.followed = None
+    assert branch_notes(motion) == ()

@@ -100,7 +100,7 @@ class _Walk:
             full = left <= step * (1.0 + 1e-9)
             taken = left if full else step
             passed, certificate = self._step(taken, way.end if full else self.here.x + taken, forced)
-            share = _share(certificate)
+            share = _share(certificate, passed)
             if passed:
                 step = max(step, taken) * share if full and share > 1.0 else taken * min(2.0, max(0.3, share))
             elif forced:
@@ -192,10 +192,12 @@ class _Walk:
         self.sure.append(np.full(len(inside), self.proved))
 
 
-def _share(certificate: Certificate) -> float:
-    """How much longer the next step may be."""
+def _share(certificate: Certificate, passed: bool) -> float:
+    """How much longer the next step may be; without a certificate it is longer after a step that is plausible."""
     contraction = certificate.contraction
-    return 0.8 * float(np.sqrt(WANTED / max(contraction, 1e-9))) if np.isfinite(contraction) else 0.5
+    if not np.isfinite(contraction):
+        return 1.5 if passed else 0.5
+    return 0.8 * float(np.sqrt(WANTED / max(contraction, 1e-9)))
 
 
 def straight(begin: Floats, end: Floats, pace: Floats) -> Way:
