@@ -137,7 +137,7 @@ def _without_rounding(energy: EnergyFluctuation, work: float) -> EnergyFluctuati
     """The same with energies set to zero that are mere rounding of the work of a cycle, J."""
     kept = np.where(np.abs(energy.energy) < ROUNDING * work, 0.0, energy.energy)
     value = energy.value if energy.value >= ROUNDING * work else 0.0
-    return replace(energy, value=value, energy=kept)
+    return replace(energy, value=value, diagram=lambda: (energy.angle, kept))
 
 
 def _by_formula(energy: float, wanted: Wanted) -> tuple[float, list[Row]]:

@@ -197,10 +197,16 @@ class Integral:
         half = 0.5 * self.of.width[piece]
         return np.asarray(self._before[piece] + half * (gained * self._series[piece]).sum(axis=1))
 
+    @cached_property
+    def at_nodes(self) -> Floats:
+        """W at the Gauss points of all pieces, (m, POINTS)."""
+        gained = 0.5 * self.of.width[:, None] * (self.of.values @ _UP_TO_NODES)
+        return np.asarray(self._before[:-1, None] + gained)
+
     @property
-    def quadrature(self) -> tuple[Floats, Floats]:
-        """Gauss points of all pieces and their weights, (n,) each, for integrals of what is smooth where W is."""
-        return nodes(self.edges).ravel(), (0.5 * self.of.width[:, None] * WEIGHTS).ravel()
+    def weights(self) -> Floats:
+        """Weights of these points in the integral of what is smooth where W is, (m, POINTS)."""
+        return np.asarray(0.5 * self.of.width[:, None] * WEIGHTS)
 
 
 def tails(values: Floats) -> Floats:
@@ -256,6 +262,17 @@ def weights_up_to(place: Floats) -> Floats:
     known = np.polynomial.legendre.legvander(place, POINTS)
     gained = (known[:, 2:] - known[:, :-2]) / (2 * _ORDERS[1:] + 1)
     return np.asarray(np.concatenate([place[:, None] + 1.0, gained], axis=1) @ TO_LEGENDRE.T)
+
+
+#: From values at the nodes to integrals up to each of them.
+_UP_TO_NODES = weights_up_to(NODES).T
+
+
+def at_nodes(function: Function, edges: Floats) -> Floats:
+    """A function at the Gauss points between edges, (m, POINTS): its own values where it is polynomials there."""
+    if isinstance(function, Piecewise) and function.edges is edges:
+        return function.values
+    return function(nodes(edges).ravel()).reshape(-1, POINTS)
 
 
 def _at(values: Floats, x: Floats) -> Floats:

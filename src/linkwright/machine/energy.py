@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import field
+from functools import cached_property, partial
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Floats, Function, Piecewise, increasing, nodes
+from linkwright.core.piecewise import Floats, Piecewise, increasing
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
@@ -21,16 +23,29 @@ class EnergyFluctuation:
     """Largest energy excess of a cycle: ``value`` = E(``high``) - E(``low``), J.
 
     ``low``, ``high``: angles (rad) of slowest and fastest running, or for areas the numbers of the areas after
-    which they occur (0: before the first). ``angle``, ``energy``: the indicator diagram, (n,) rad and J from its
-    first angle. ``balance``: energy left over a whole cycle, J.
+    which they occur (0: before the first). ``balance``: energy left over a whole cycle, J. ``diagram`` gives
+    ``angle`` and ``energy``, the indicator diagram, rad and J from its first angle, when it is asked for.
     """
 
     value: float
     low: float
     high: float
-    angle: Floats
-    energy: Floats
     balance: float
+    diagram: Callable[[], tuple[Floats, Floats]] = field(repr=False)
+
+    @property
+    def angle(self) -> Floats:
+        """Places of the indicator diagram, (n,)."""
+        return self._shown[0]
+
+    @property
+    def energy(self) -> Floats:
+        """Energy there, (n,) J."""
+        return self._shown[1]
+
+    @cached_property
+    def _shown(self) -> tuple[Floats, Floats]:
+        return self.diagram()
 
 
 def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> EnergyFluctuation:
@@ -53,15 +68,20 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
                 load=load.mean,
             )
         )
-    return of_energy(work, work.edges, balance=work.total)
+    return of_energy(Piecewise(work.edges, work.at_nodes), balance=work.total)
 
 
-def of_energy(energy: Function, edges: Floats, *, balance: float) -> EnergyFluctuation:
-    """The fluctuation of an excess energy E(θ), smooth between ``edges``, which span one period."""
-    pieces = Piecewise(edges, energy(nodes(edges).ravel()).reshape(-1, POINTS))
-    low, high = pieces.extremes()
-    angle = increasing(np.append(np.linspace(edges[0], edges[-1], 361), [low.place, high.place]))
-    return EnergyFluctuation(high.value - low.value, low.place, high.place, angle, pieces(angle), balance)
+def of_energy(energy: Piecewise, *, balance: float) -> EnergyFluctuation:
+    """The fluctuation of an excess energy E(θ) over one period."""
+    low, high = energy.extremes()
+    diagram = partial(_diagram, energy, low.place, high.place)
+    return EnergyFluctuation(high.value - low.value, low.place, high.place, balance, diagram)
+
+
+def _diagram(energy: Piecewise, low: float, high: float) -> tuple[Floats, Floats]:
+    begin, end = energy.edges[[0, -1]]
+    angle = increasing(np.append(np.linspace(begin, end, 361), [low, high]))
+    return angle, energy(angle)
 
 
 def fluctuation_from_areas(
@@ -81,6 +101,10 @@ def fluctuation_from_areas(
     if abs(given.sum()) > BALANCE * np.abs(given).sum():
         raise LinkwrightError(Sentence("running.areas_sum", total=given.sum()))
     low, high = int(energy.argmin()), int(energy.argmax())
-    number = np.arange(len(energy), dtype=float)
     value = float(energy[high] - energy[low])
-    return EnergyFluctuation(value, float(low), float(high), number, energy, float(energy[-1]))
+    diagram = partial(_areas, energy)
+    return EnergyFluctuation(value, float(low), float(high), float(energy[-1]), diagram)
+
+
+def _areas(energy: Floats) -> tuple[Floats, Floats]:
+    return np.arange(len(energy), dtype=float), energy

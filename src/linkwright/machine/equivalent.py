@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import field
+from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Piecewise
+from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import vector_names
 from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.words.sentence import Sentence
@@ -44,15 +47,19 @@ def equivalent_torque(forces: Forces) -> Floats:
 def _inertia_and_slope(motion: Motion) -> tuple[Floats, Floats]:
     energy, power = np.zeros(motion.steps), np.zeros(motion.steps)
     links = motion.mechanism.links.items()
-    centres = [f"{name}.@centre" for name, link in links if link.mass]
-    motion.evaluate_together(name for key in centres for kind in "va" for name in vector_names(kind, key))
+    names = {
+        name: [each for kind in "va" for each in vector_names(kind, f"{name}.@centre")]
+        for name, link in links
+        if link.mass
+    }
+    motion.evaluate_together(chain.from_iterable(names.values()))
     for name, link in links:
-        turning = motion.link(name)
         if link.mass:
-            velocity = turning.centre.velocity
-            energy += link.mass * (velocity**2).sum(axis=1)
-            power += link.mass * (velocity * turning.centre.acceleration).sum(axis=1)
+            vx, vy, ax, ay = motion.rows.fetch(tuple(names[name]), motion.evaluate)
+            energy += link.mass * (vx * vx + vy * vy)
+            power += link.mass * (vx * ax + vy * ay)
         if link.inertia:
+            turning = motion.link(name)
             energy += link.inertia * turning.angular_velocity**2
             power += link.inertia * turning.angular_velocity * turning.angular_acceleration
     rate, second = _rates(motion)
@@ -72,15 +79,11 @@ def _torque(forces: Forces, inertia: Floats, slope: Floats) -> Floats:
 class Equivalent:
     """A machine reduced to its input, over one closed cycle in the direction in which it runs.
 
-    ``angle`` (n,) rad: turned by the input from the cycle's begin, always growing; ``inertia`` (n,) kg·m² and
-    ``slope`` (n,) dJ/dangle; ``torque`` (n,) N·m that resists, positive where the machine needs driving;
-    ``speed`` rad/s > 0, the mean one; ``inertia_at`` and ``load`` give both at any angle.
+    ``speed`` rad/s > 0, the mean one; ``inertia_at`` and ``load``, N·m, at any angle turned; ``angle``, ``inertia``,
+    ``slope`` and ``torque`` at the positions of the ``forces``.
     """
 
-    angle: Floats
-    inertia: Floats
-    slope: Floats
-    torque: Floats
+    forces: Forces = field(repr=False)
     speed: float
     period: float
     start: float
@@ -89,9 +92,46 @@ class Equivalent:
     load: TorqueCurve = field(repr=False)
 
     @property
+    def angle(self) -> Floats:
+        """Turned by the input from the cycle's begin, always growing, (n,) rad."""
+        time = self.forces.motion.time
+        return np.asarray(self.speed * (time - time[0]))
+
+    @property
+    def inertia(self) -> Floats:
+        """J_e, (n,) kg·m²."""
+        return self._reduced[0]
+
+    @property
+    def slope(self) -> Floats:
+        """dJ_e/dangle, (n,) kg·m²/rad."""
+        return self.direction * self._reduced[1]
+
+    @property
+    def torque(self) -> Floats:
+        """What resists, (n,) N·m, positive where the machine needs driving."""
+        return self.direction * _torque(self.forces, *self._reduced)
+
+    @cached_property
+    def _reduced(self) -> tuple[Floats, Floats]:
+        return _inertia_and_slope(self.forces.motion)
+
+    @property
     def mean_inertia(self) -> float:
         """Mean of J_e over the angle, kg·m²."""
         return self.inertia_at.total / self.period
+
+    @cached_property
+    def work(self) -> Integral:
+        """Work of a constant torque, the mean one, less that of the loads, J, over the angle turned."""
+        load = self.load.pieces
+        return Piecewise(load.edges, self.load.mean - load.values).integral()
+
+    @cached_property
+    def energy(self) -> EnergyFluctuation:
+        """Fluctuation of ∫ (mean - T) dφ, T the torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
+        kinetic = 0.5 * self.speed**2 * at_nodes(self.inertia_at, self.work.edges)
+        return of_energy(Piecewise(self.work.edges, self.work.at_nodes - kinetic), balance=self.work.total)
 
     def input_at(self, angle: float) -> float:
         """The input's coordinate, rad, at an angle turned."""
@@ -115,12 +155,8 @@ def equivalent(forces: Forces) -> Equivalent:
     edges = abs(rate) * (grid.edges - begin)
     between, slope = _inertia_and_slope(grid.motion)
     torque = direction * _torque(grid.forces, between, slope)
-    inertia, slope = _inertia_and_slope(motion)
     return Equivalent(
-        angle=abs(rate) * (motion.time - begin),
-        inertia=inertia,
-        slope=direction * slope,
-        torque=direction * _torque(forces, inertia, slope),
+        forces=forces,
         speed=abs(rate),
         period=period,
         start=float(motion.input[0]),

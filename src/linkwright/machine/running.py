@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.machine.energy import EnergyFluctuation, of_energy
+from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent, steady_rate
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
@@ -138,11 +137,9 @@ def steady_running(
     flywheel_inertia(1.0, reduced.speed, fluctuation)
     mean = reduced.load.mean
     _require_load(mean, forces)
-    load = reduced.load.pieces
-    work = Piecewise(load.edges, mean - load.values).integral()
-    energy = _at_constant_speed(reduced, work)
+    energy = reduced.energy
     formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
-    cycle = SteadyCycle(work, reduced.inertia_at, reduced.speed)
+    cycle = SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
     exact = _exact(cycle, reduced.mean_inertia, fluctuation, formula)
     return SteadyRunning(
         equivalent=reduced,
@@ -155,16 +152,6 @@ def steady_running(
         speed=cycle.curve(formula, motor_torque=mean),
         exact_speed=cycle.curve(exact, motor_torque=mean),
     )
-
-
-def _at_constant_speed(reduced: Equivalent, work: Integral) -> EnergyFluctuation:
-    """Fluctuation of ∫ (mean - T) dφ, T the driver torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
-
-    def energy(angle: Floats) -> Floats:
-        kinetic = 0.5 * reduced.inertia_at(angle) * reduced.speed**2
-        return np.asarray(work(angle) - kinetic)
-
-    return of_energy(energy, work.edges, balance=work.total)
 
 
 def require_steady(forces: Forces) -> None:

@@ -4,36 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Extreme, Floats, Function, Integral, Piecewise
+from linkwright.core.piecewise import POINTS, Extreme, Floats, Function, Integral, Piecewise, at_nodes
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops.
 STOPPED = 1e-9
+#: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
+LAST = 1e-9
 
 
 @dataclass(frozen=True)
 class SpeedCurve:
     """Speed of the input over one period of steady running.
 
-    ``angle`` (n,) rad turned and ``speed`` (n,) rad/s there, both ends of the period among them; ``mean`` the angle
+    ``angle`` (n,) rad turned and ``speed`` (n,) there, both ends of the period among them; ``mean`` the angle
     of the period over its time; ``slowest`` and ``fastest``: (angle, speed); ``motor_torque`` the constant one, N·m;
     ``acceleration(angle)`` rad/s².
     """
 
     angle: Floats
-    speed: Floats
     mean: float
     slowest: tuple[float, float]
     fastest: tuple[float, float]
     motor_torque: float
     at: Function = field(repr=False)
+
+    @cached_property
+    def speed(self) -> Floats:
+        """Speed at the angles, (n,) rad/s."""
+        return self.at(self.angle)
 
     @property
     def fluctuation(self) -> float:
@@ -87,43 +93,41 @@ class SteadyCycle:
 
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
-        places, weights = work.quadrature
-        self._done, self._inertia = work(places), own(places)
-        self._shares = weights / (work.edges[-1] - work.edges[0])
-        self._least = Piecewise(work.edges, self._done.reshape(-1, POINTS)).extreme("min").value
-        self._known: dict[float, tuple[Extreme, Extreme]] = {}
+        self._done, self._inertia = work.at_nodes.ravel(), at_nodes(own, work.edges).ravel()
+        self._shares = work.weights.ravel() / (work.edges[-1] - work.edges[0])
+        self._least = Piecewise(work.edges, work.at_nodes).extreme("min").value
+        self._known: dict[float, tuple[float, Extreme, Extreme]] = {}
 
     def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
         """The speed; raises LinkwrightError for a machine that would stop, or has no inertia somewhere."""
-        at = partial(self._at, flywheel, self._energy(flywheel))
+        energy, *extremes = self._solved(flywheel)
         start, end = self.work.edges[[0, -1]].tolist()
         angle = np.linspace(start, end, steps + 1)
-        low, high = ((found.place, found.value) for found in self._extremes(flywheel))
-        return SpeedCurve(angle, at(angle), self.speed, low, high, motor_torque, at)
+        low, high = ((found.place, found.value) for found in extremes)
+        return SpeedCurve(angle, self.speed, low, high, motor_torque, partial(self._at, flywheel, energy))
 
     def fluctuation(self, flywheel: float) -> float:
         """Coefficient of speed fluctuation; raises as ``curve``."""
-        low, high = self._extremes(flywheel)
+        _, low, high = self._solved(flywheel)
         return (high.value - low.value) / self.speed
 
-    def _extremes(self, flywheel: float) -> tuple[Extreme, Extreme]:
+    def _solved(self, flywheel: float) -> tuple[float, Extreme, Extreme]:
+        """Energy at the period's begin, J, the smallest and the largest speed."""
         if flywheel not in self._known:
             self._known[flywheel] = self._found(flywheel)
         return self._known[flywheel]
 
-    def _found(self, flywheel: float) -> tuple[Extreme, Extreme]:
-        edges, energy = self.work.edges, self._energy(flywheel)
-        speed = np.sqrt(2.0 * (energy + self._done) / (flywheel + self._inertia)).reshape(-1, POINTS)
+    def _found(self, flywheel: float) -> tuple[float, Extreme, Extreme]:
+        edges, inertia = self.work.edges, flywheel + self._inertia
+        energy = _initial_energy(self._done, inertia, self._shares, self.speed, self._least)
+        speed = np.sqrt(2.0 * (energy + self._done) / inertia).reshape(-1, POINTS)
         curve = Piecewise(edges, speed)
         if not curve.smooth.all():
             curve = Piecewise(edges, speed, partial(self._at, flywheel, energy), edges)
-        return curve.extremes()
+        return energy, *curve.extremes()
 
     def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + self.work(angle)) / (flywheel + self.own(angle))))
-
-    def _energy(self, flywheel: float) -> float:
-        return _initial_energy(self._done, flywheel + self._inertia, self._shares, self.speed, self._least)
 
 
 def _constant(inertia: float) -> Function:
@@ -145,20 +149,18 @@ def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float
         raise LinkwrightError(Sentence("running.no_inertia"))
     low, scale = -least, 0.5 * speed * speed * float(inertia.max())
     high = low + scale
-    energy = high
-
-    def slowness(value: float) -> tuple[float, float]:
-        root = np.sqrt(0.5 * inertia / (value + work))
-        return float(weights @ root) - 1.0 / speed, float(weights @ (-0.5 * root / (value + work)))
-
+    energy = 0.5 * speed * speed * float(weights @ inertia) - float(weights @ work)
+    energy = energy if low < energy < high else high
+    half = 0.5 * inertia
     for _ in range(200):
-        gap, slope = slowness(energy)
+        kinetic = energy + work
+        slowness = np.sqrt(half / kinetic) * weights
+        gap, slope = float(slowness.sum()) - 1.0 / speed, -0.5 * float((slowness / kinetic).sum())
         low, high = (energy, high) if gap > 0 else (low, energy)
         newton = energy - gap / slope
-        following = newton if low < newton < high else 0.5 * (low + high)
-        if abs(following - energy) <= 1e-15 * scale:
+        before, energy = energy, newton if low < newton < high else 0.5 * (low + high)
+        if abs(energy - before) <= max(1e-15 * scale, LAST * (energy + least) if energy == newton else 0.0):
             break
-        energy = following
     if energy + least <= STOPPED * scale:
         raise LinkwrightError(Sentence("running.would_stop"))
     return energy

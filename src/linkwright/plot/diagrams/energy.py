@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
-from linkwright.machine.energy import EnergyFluctuation, of_energy
+from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
-from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
 from linkwright.plot.diagrams.source import InputAxis, Source
@@ -49,15 +47,5 @@ class Energy(OverInput):
 def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
     if source.result_running is not None:
         return source.result_running.equivalent, source.result_running.energy
-    return source.once("energy", lambda: _solved(source))
-
-
-def _solved(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
-    """Work of the constant mean torque less that of the loads and the kinetic energy, at constant speed."""
-    reduced = equivalent(source.forces)
-    work = TorqueCurve.constant(reduced.load.mean, period=reduced.period).minus(reduced.load).work
-
-    def energy(angle: Floats) -> Floats:
-        return np.asarray(work(angle) - 0.5 * reduced.inertia_at(angle) * reduced.speed**2)
-
-    return reduced, of_energy(energy, work.edges, balance=work.total)
+    reduced = source.once("energy", lambda: equivalent(source.forces))
+    return reduced, reduced.energy
