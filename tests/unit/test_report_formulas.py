@@ -1,11 +1,18 @@
 """Formulas of reports: Typst compiles them, Word's form says the same, lines are broken where they may be."""
 
+import io
+
 import pytest
 
 from linkwright.errors import LinkwrightError
-from linkwright.report.formula import Row, formula, lines, width
+from linkwright.report.document import Document, Formula
+from linkwright.report.formula import Atom, Row, formula, lines, set_lines, width
 from linkwright.report.typst_formula import typst
 from linkwright.report.word_formula import SPACE, equation
+from linkwright.report.word_pages import word
+from linkwright.words import speaker
+
+SIGN = Atom("sign", "=")
 
 FORMULAS = {
     r"\frac{a}{b}": "frac(a, b)",
@@ -36,7 +43,7 @@ def said(element: object) -> str:
 
 def test_word_has_every_sign_and_the_nesting_of_the_formula() -> None:
     pytest.importorskip("docx")
-    found = equation(formula(r"\rho"), formula(r"\sqrt{\frac{x_{A}^2}{\dot{s}_B}} + \left(y\right)"))
+    found = equation(formula(r"\rho = \sqrt{\frac{x_{A}^2}{\dot{s}_B}} + \left(y\right)"))
     assert said(found) == "ρ=xA2sB+y"
     names = [element.tag.removeprefix(f"{{{SPACE}}}") for element in found.iter()]
     assert [name for name in names if name in ("rad", "f", "sSubSup", "acc", "sSub", "d")] == [
@@ -58,3 +65,31 @@ def test_long_formulas_come_in_lines_that_fit_and_lose_nothing() -> None:
     assert len(found) > 2 and all(width(line) <= 30.0 for line in found)
     joined = typst(Row(tuple(item for line in found for item in line.items)))
     assert joined.replace("\\(", "").replace("\\)", "").split().count("+") == 19
+
+
+def test_equations_too_wide_for_a_line_are_set_below_each_other_and_lose_nothing() -> None:
+    sides = [
+        formula("x"),
+        formula(" + ".join("a_{B}" for _ in range(9))),
+        formula(" + ".join("12345" for _ in range(6))),
+    ]
+    found = list(set_lines(sides, 20.0, 9.0))
+    assert [line.place for line in found] == ["left", "right", "further", "sign", "further"]
+    assert all(width(line.row) <= 20.0 for line in found)
+    items = [item for line in found for item in line.row.items]
+    assert items == [*sides[0].items, SIGN, *sides[1].items, SIGN, *sides[2].items]
+    assert [line.place for line in set_lines([sides[2], sides[0]], 15.0, 9.0)] == ["left", "below"]
+    assert [line.place for line in set_lines(sides, 99.0, 9.0)] == ["left"]
+
+
+def test_lines_of_word_hold_the_whole_equation_behind_breaks() -> None:
+    docx = pytest.importorskip("docx")
+    sides = ("x", " + ".join("a_{B}" for _ in range(30)), "5")
+    document = Document("t", speaker("en"), blocks=[Formula(sides)])
+    file = docx.Document(io.BytesIO(word(document)))
+    (line,) = (each for each in file.paragraphs if each._p.findall(f"{{{SPACE}}}oMath"))
+    equations = line._p.findall(f"{{{SPACE}}}oMath")
+    assert len(equations) == line._p.xml.count("<w:br/>") + 1 >= 3
+    assert (
+        "".join(said(each) for each in equations).replace("\u2003", "") == "x=" + "+".join(["aB"] * 30) + "=5"
+    )

@@ -109,6 +109,11 @@ def mark(question: Question) -> str:
     return re.sub(r"\W+", "_", question.name, flags=re.ASCII).strip("_")
 
 
+def braceless(text: str) -> str:
+    """A text or quoted attribute of a page on which braces mean something to the platform."""
+    return text.replace("{", "&#123;").replace("}", "&#125;")
+
+
 # sheets and key ---------------------------------------------------------------------------------
 def sheets(found: Variants, language: str) -> Files:
     """One page per variant: drawing, data, numbers asked for."""
@@ -176,12 +181,14 @@ def prairielearn(found: Variants, language: str) -> Files:
     }
     tolerance = f"{found.task.tolerance:g}"
     inputs = "\n".join(
-        f"<p><pl-number-input answers-name={quoteattr(mark(q))} label={quoteattr(q.name)} suffix={quoteattr(q.unit)} "
-        f'comparison="relabs" rtol="{tolerance}" atol="{_slack(found, i):.3g}"></pl-number-input></p>'
+        f"<p><pl-number-input answers-name={quoteattr(mark(q))} label={braceless(quoteattr(q.name))} "
+        f'suffix={quoteattr(q.unit)} comparison="relabs" rtol="{tolerance}" '
+        f'atol="{_slack(found, i):.3g}"></pl-number-input></p>'
         for i, q in enumerate(found.task.questions)
     )
     page = (
-        f"<pl-question-panel>\n<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>\n"
+        f"<pl-question-panel>\n<p>{braceless(escape(position_text(found, say)))} "
+        f"{escape(say('course.convention'))}</p>\n"
         '<pl-figure file-name="{{params.picture}}"></pl-figure>\n'
         f"<table>{{{{#params.rows}}}}<tr><td>{{{{name}}}}</td><td>{{{{value}}}}</td></tr>{{{{/params.rows}}}}</table>\n"
         f"</pl-question-panel>\n{inputs}\n"
@@ -243,11 +250,12 @@ def moodle(found: Variants, language: str) -> Files:
         picture = base64.b64encode(drawing(found, each, language).encode()).decode()
         name = f"variant-{each.number}.svg"
         text = (
-            f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"
-            f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(found.name)} width="{PICTURE}"/></p>'
-            f"{_html_table(data_rows(found, each))}"
+            f"<p>{braceless(escape(position_text(found, say)))} {escape(say('course.convention'))}</p>"
+            f'<p><img src="@@PLUGINFILE@@/{name}" alt={braceless(quoteattr(found.name))} width="{PICTURE}"/></p>'
+            f"{braceless(_html_table(data_rows(found, each)))}"
             + "".join(
-                f"<p>{escape(q.name)} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} {escape(q.unit)}</p>"
+                f"<p>{braceless(escape(q.name))} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} "
+                f"{escape(q.unit)}</p>"
                 for i, (q, a) in enumerate(zip(found.task.questions, each.answers, strict=True))
             )
         )

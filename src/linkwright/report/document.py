@@ -100,6 +100,10 @@ class Source:
 Block = Heading | Paragraph | Formula | Table | Figure | Source
 
 
+#: A paragraph of fewer characters stays with the formula, table or figure that it leads to.
+SHORT = 400
+
+
 @dataclass
 class Document:
     """A report: title, lines under it, blocks; ``number`` counts what is counted, in reading order.
@@ -120,6 +124,17 @@ class Document:
     def number(self) -> Numbers:
         """Numbers of headings, formulas, tables and figures, and where labels are."""
         return Numbers(self)
+
+    def leads(self, index: int) -> bool:
+        """Whether a short paragraph stays with the formula, table or figure behind it, a section's first always."""
+        block, before, after = (self.blocks[i : i + 1] for i in (index, max(index - 1, 0), index + 1))
+        if not after or not isinstance(block[0], Paragraph) or len(block[0].text) >= SHORT:
+            return False
+        return (
+            isinstance(before[0], Heading)
+            or isinstance(after[0], Formula | Table | Figure)
+            or block[0].text.endswith((":", "："))
+        )
 
 
 class Numbers:

@@ -245,6 +245,52 @@ def lines(row: Row, widest: float) -> Iterator[Row]:
     yield Row(tuple(line))
 
 
+@dataclass(frozen=True)
+class Line:
+    """One line of an equation; ``place`` says where it begins: ``left``, ``right`` of the left side, ``below`` it,
+    at the equal ``sign`` of the line before, or ``further`` in as what goes on from there."""
+
+    place: str
+    row: Row
+
+
+def set_lines(sides: Sequence[Row], widest: float, left: float) -> Iterator[Line]:
+    """Sides joined by equal signs: on one line no wider than ``widest`` em, else the signs below each other.
+
+    Behind a left side wider than ``left`` em a new line begins.
+    """
+    equal = Atom("sign", "=")
+    if len(sides) == 1:
+        for number, row in enumerate(lines(sides[0], widest)):
+            yield Line("further" if number else "left", row)
+        return
+    if sum(width(row) for row in sides) + 1.25 * (len(sides) - 1) <= widest:
+        first, *rest = sides
+        yield Line("left", Row((*first.items, *(each for row in rest for each in (equal, *row.items)))))
+        return
+    first, *rest = sides
+    yield Line("left", first)
+    place, margin = ("below", 1.5) if width(first) > left else ("right", width(first) + 1.5)
+    for side in _joined(rest, widest - margin):
+        for number, row in enumerate(lines(side, widest - margin - 1.0)):
+            yield Line("further", row) if number else Line(place, Row((equal, *row.items)))
+        place = "sign"
+
+
+def _joined(sides: Sequence[Row], room: float) -> Iterator[Row]:
+    """Short sides that follow each other share a line."""
+    held: Row | None = None
+    for side in sides:
+        if held is not None and width(held) + width(side) + 1.25 <= room:
+            held = Row((*held.items, Atom("sign", "="), *side.items))
+            continue
+        if held is not None:
+            yield held
+        held = side
+    if held is not None:
+        yield held
+
+
 def _pieces(row: Row, widest: float) -> Iterator[list[Node]]:
     """Parts between which a line may break; brackets that are too wide are opened."""
     part: list[Node] = []

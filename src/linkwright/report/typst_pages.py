@@ -23,7 +23,7 @@ from linkwright.report.document import (
     plain,
     spans,
 )
-from linkwright.report.formula import Atom, Row, formula, lines, width
+from linkwright.report.formula import formula, set_lines, width
 from linkwright.report.typst_formula import quoted, typst
 from linkwright.words.sentence import Sentence
 from linkwright.words.width import cells
@@ -40,8 +40,6 @@ CHINESE = (
 LINE, LEFT = 41.0, 9.0
 #: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
 SURE = 35.0
-#: A paragraph of fewer characters stays with the table or figure that it leads to.
-SHORT = 400
 #: Width of the text, mm, and rows of a table that stays on one page.
 TEXT, TOGETHER = 170.0, 32
 #: Characters across a table beyond which its long columns are wrapped.
@@ -236,7 +234,7 @@ class _Writer:
                 number = self.numbers.of[index]
                 return f"{'=' * block.level} {_words(f'{number}  ')}{self.inline(block.text)} <{_place(index)}>\n"
             case Paragraph():
-                return self._paragraph(block, sticky=self._leads(index, block))
+                return self._paragraph(block, sticky=self.document.leads(index))
             case Formula():
                 return self._formula(index, block)
             case Table():
@@ -246,17 +244,11 @@ class _Writer:
             case Source():
                 return f"{block.text}\n"
 
-    def _leads(self, index: int, block: Paragraph) -> bool:
-        """Whether a short paragraph stays with what follows: a table, a figure, or anything behind a heading."""
-        before, after = (self.document.blocks[i : i + 1] for i in (max(index - 1, 0), index + 1))
-        close = isinstance(before[0], Heading) or (bool(after) and isinstance(after[0], Table | Figure))
-        return bool(after) and close and len(block.text) < SHORT
-
     def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
         text = self.inline(block.text)
         if block.kind == "bullet":
             return f"- {text}"
-        if block.kind == "lead" or (not block.kind and (sticky or block.text.endswith((":", "：")))):
+        if block.kind == "lead" or (not block.kind and sticky):
             return f"#block(sticky: true)[{text}]\n"
         return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
 
@@ -334,37 +326,14 @@ def _wrapping(table: Table) -> list[bool]:
 
 def aligned(sides: tuple[str, ...]) -> tuple[str, float]:
     """Sides of an equation in Typst, on one line or with their equal signs below each other; the widest line, em."""
-    rows = [formula(side) for side in sides]
-    whole = sum(width(row) for row in rows) + 1.25 * (len(rows) - 1)
-    if len(rows) == 1:
-        broken = list(lines(rows[0], LINE))
-        found = [f"{'quad ' if i else ''}{typst(line)}" for i, line in enumerate(broken)]
-        return " \\\n ".join(found), max(map(width, broken))
-    if whole <= LINE:
-        return " = ".join(typst(row) for row in rows), whole
-    left, *rest = rows
-    beneath = width(left) > LEFT
-    margin = 1.5 if beneath else width(left) + 1.5
-    parts, widest = [], width(left)
-    for side in _joined(rest, LINE - margin):
-        broken = list(lines(side, LINE - margin - 1.0))
-        widest = max(widest, *(margin + width(line) for line in broken))
-        parts.append("&= " + " \\\n & quad ".join(typst(line) for line in broken))
-    return typst(left) + (" \\\n quad " if beneath else " ") + " \\\n ".join(parts), widest
-
-
-def _joined(sides: list[Row], room: float) -> Iterator[Row]:
-    """Short sides that follow each other share a line."""
-    held: Row | None = None
-    for side in sides:
-        if held is not None and width(held) + width(side) + 1.25 <= room:
-            held = Row((*held.items, Atom("sign", "="), *side.items))
-            continue
-        if held is not None:
-            yield held
-        held = side
-    if held is not None:
-        yield held
+    begun = {"left": "", "right": " & ", "below": " \\\n quad & ", "sign": " \\\n & "}
+    begun["further"] = " \\\n & quad " if len(sides) > 1 else " \\\n quad "
+    found, widest, margin = "", 0.0, 0.0
+    for line in set_lines([formula(side) for side in sides], LINE, LEFT):
+        found += begun[line.place] + typst(line.row)
+        margin = {"right": widest + 0.25, "below": 1.5}.get(line.place, margin)
+        widest = max(widest, margin + width(line.row))
+    return found, widest
 
 
 def placed(svg: str, share: float, tallest: float) -> tuple[float, float]:

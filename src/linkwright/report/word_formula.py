@@ -11,14 +11,9 @@ SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 _SPACES = {",": "\u2009", ";": "\u2005", ":": "\u2005", " ": "\u2005", "quad": "\u2003"}
 
 
-def equation(*sides: Row) -> Any:
-    """The element ``m:oMath`` of sides joined by equal signs."""
-    found = _element("oMath")
-    for number, side in enumerate(sides):
-        if number:
-            _add(found, Atom("sign", "="))
-        _add(found, side)
-    return found
+def equation(row: Row) -> Any:
+    """The element ``m:oMath`` of a formula."""
+    return _part("oMath", row)
 
 
 def _element(name: str, *inside: Any, **attributes: str) -> Any:
@@ -29,10 +24,6 @@ def _element(name: str, *inside: Any, **attributes: str) -> Any:
         found.set(f"{{{SPACE}}}{key}", value)
     found.extend(inside)
     return found
-
-
-def _add(parent: Any, node: Node) -> None:
-    parent.extend(_elements(node))
 
 
 def _part(name: str, node: Node) -> Any:
@@ -71,6 +62,6 @@ def _run(kind: str, text: str) -> Any:
     written = _element("t")
     written.text = shown
     written.set("{http://www.w3.org/XML/1998/namespace}space", "preserve")
-    if kind == "upright":
-        return _element("r", _element("rPr", _element("sty", val="p")), written)
+    if kind in ("upright", "space", "open", "close"):
+        return _element("r", _element("rPr", _element("nor")), written)
     return _element("r", written)

@@ -21,13 +21,15 @@ from linkwright.report.document import (
     plain,
     spans,
 )
-from linkwright.report.formula import formula
+from linkwright.report.formula import Atom, Row, formula, set_lines
 from linkwright.report.word_formula import SPACE, equation
 from linkwright.words.sentence import Sentence
 from linkwright.words.width import cells
 
 #: Width of the text, inches; pictures' dots per inch.
 TEXT, DOTS = 6.69, 160.0
+#: Width of a line of formulas, and of a left side beyond which the right side begins a new line, em.
+LINE, LEFT = 33.0, 9.0
 #: Levels of headings in the list of contents.
 LISTED = 2
 #: Width of a character of a table, inches.
@@ -125,9 +127,7 @@ class _Writer:
             case Paragraph():
                 style = {"bullet": "List Bullet", "missing": "Intense Quote", "note": "Intense Quote"}
                 line = self.file.add_paragraph(style=style.get(block.kind))
-                line.paragraph_format.keep_with_next = block.kind == "lead" or block.text.endswith(
-                    (":", "：")
-                )
+                line.paragraph_format.keep_with_next = block.kind == "lead" or self.document.leads(index)
                 self._inline(line, block.text)
             case Formula():
                 self._formula(index, block)
@@ -145,7 +145,11 @@ class _Writer:
         line = self.file.add_paragraph()
         line.paragraph_format.left_indent = Inches(0.3)
         line.paragraph_format.tab_stops.add_tab_stop(Inches(TEXT), WD_TAB_ALIGNMENT.RIGHT)
-        line._p.append(equation(*(formula(side) for side in block.sides)))
+        line.paragraph_format.keep_together = True
+        for row in _lines(block):
+            if line._p.findall(f"{{{SPACE}}}oMath"):
+                line.add_run().add_break()
+            line._p.append(equation(row))
         number = self.numbers.of.get(index, "")
         if number:
             line.add_run(f"\t({number})")
@@ -236,6 +240,18 @@ class _Writer:
         end = line._p.makeelement(qn("w:bookmarkEnd"), {qn("w:id"): number})
         line._p.append(begin)
         line._p.append(end)
+
+
+def _lines(block: Formula) -> list[Row]:
+    """Lines of an equation, moved to the right where they go on from the one before."""
+    found: list[Row] = []
+    for line in set_lines([formula(side) for side in block.sides], LINE, LEFT):
+        if line.place == "right":
+            found[-1] = Row((*found[-1].items, *line.row.items))
+            continue
+        moved = {"left": 0, "below": 1}.get(line.place, 2)
+        found.append(Row((*[Atom("space", "quad")] * moved, *line.row.items)))
+    return found
 
 
 def _widths(block: Table) -> list[float]:
