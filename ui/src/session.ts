@@ -44,6 +44,8 @@ export class Session {
   readonly cloud = signal<Cloud | null>(null);
   readonly hodograph = signal<string>("");
   view: View | null = null;
+  /** Between the beginning and the end of a change. */
+  moving = false;
   /** Called when a change has ended. */
   ended: (() => void) | null = null;
   private past: Values[] = [];
@@ -77,12 +79,14 @@ export class Session {
 
   /** A change begins: what was before can be had back. */
   begin(): void {
+    this.moving = true;
     this.past.push({ ...this.model.values });
     this.future = [];
   }
 
   /** A change has ended; one that changed nothing leaves no step behind. What a hand has moved (`roughly`) is rounded. */
   end(roughly = false): void {
+    this.moving = false;
     const before = this.past[this.past.length - 1];
     if (roughly && before && !this.model.wall) this.round(before);
     if (before && same(before, this.model.values)) this.past.pop();
@@ -149,6 +153,7 @@ export class Session {
   }
 
   private go(values: Values): void {
+    this.moving = false;
     this.model.change({ ...values });
     this.view?.fit();
     this.sweep(this.swept.value);

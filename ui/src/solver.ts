@@ -34,6 +34,7 @@ export class Solver {
   private readonly one: Call;
   private readonly cycle: Cycle | null;
   private readonly arrays: Record<string, Float64Array> = {};
+  private readonly coordinates: Float64Array[] = [];
   private found: Values = {};
   private states: Values = {};
   private drawn: Values = {};
@@ -59,6 +60,12 @@ export class Solver {
 
   get iterated(): boolean {
     return this.main.program.states.length > 0;
+  }
+
+  /** The coordinate of a driver at a position. */
+  driver(number: number, i: number): number {
+    const { steady, inputs } = this.data.positions, given = inputs[number].values;
+    return steady || given === null ? this.inputs[i] : (this.coordinates[number] ??= floats(given))[i];
   }
 
   get margin(): number | null {

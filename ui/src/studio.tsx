@@ -9,6 +9,7 @@ import { Page } from "./living";
 import { Optimise } from "./optimise";
 import { Paper, type Tool } from "./paper";
 import { quantity } from "./words";
+import "./proof";
 import "./studio.css";
 
 const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "slot", "gear", "rack", "cam", "driver", "mass", "load", "curve", "photo", "remove"];

@@ -114,16 +114,18 @@ class _Step:
         self.bend = h * h / 8.0 * self._bend() + np.abs(np.eye(loops.n) - self.A @ self.J) + 1e-15
 
     def _columns(self, of_rotations: Floats, of_slides: Floats) -> Floats:
-        """Bounds by rotation and slide (n, C), (n, S) as columns of the unknowns."""
-        n = self.loops.n
-        return of_rotations @ self.loops.turning[:, :n] + of_slides @ self.loops.sliding[:, :n]
+        """Bounds by rotation and slide (n, C), (n, S) as columns of the unknowns, by absolute shares."""
+        n, loops = self.loops.n, self.loops
+        return of_rotations @ np.abs(loops.turning[:, :n]) + of_slides @ np.abs(loops.sliding[:, :n])
 
     def _turning(self, turned: Complexes, slid: Complexes, rate: Floats) -> Floats:
         """N = A dJ/dx in the middle."""
         loops = self.loops
         theta, s = rate[: loops.C], rate[loops.C :]
         of_rotations = -theta * turned.real - (slid.imag * s) @ loops.own
-        return self._columns(of_rotations, -theta[loops.owner] * slid.imag)
+        of_slides = -theta[loops.owner] * slid.imag
+        found: Floats = of_rotations @ loops.turning[:, : loops.n] + of_slides @ loops.sliding[:, : loops.n]
+        return found
 
     def _bend(self) -> Floats:
         """Bound of |A J(p(x))″|."""
@@ -149,8 +151,8 @@ class _Step:
     def deviation_of_jacobian(self, tube: Floats) -> Floats:
         """M(ρ), (n, n)."""
         loops = self.loops
-        turn = loops.turning[:, : loops.n] @ tube + self.off_turn
-        slide = loops.sliding[:, : loops.n] @ tube + self.off_slide
+        turn = np.abs(loops.turning[:, : loops.n]) @ tube + self.off_turn
+        slide = np.abs(loops.sliding[:, : loops.n]) @ tube + self.off_slide
         tilt = self._columns(
             self.reach * turn + (self.slid * slide) @ loops.own, self.slid * turn[loops.owner]
         )
@@ -183,7 +185,7 @@ def distance_to_others(loops: ClosedLoops, y: Floats) -> Floats:
     row = A[..., : loops.K] - 1j * A[..., loops.K :]
     reach = np.abs(row @ np.swapaxes(at.unit[..., None] * at.arms, -1, -2))
     slid = np.abs(row @ np.swapaxes(at.slides, -1, -2))
-    turn, slide = loops.turning[:, :n] @ loops.scale, loops.sliding[:, :n] @ loops.scale
+    turn, slide = np.abs(loops.turning[:, :n]) @ loops.scale, np.abs(loops.sliding[:, :n]) @ loops.scale
     tilt = (reach * turn + (slid * slide) @ loops.own) @ turn + slid @ (turn[loops.owner] * slide)
     with np.errstate(divide="ignore"):
         return np.asarray(2.0 * (loops.scale / tilt).min(axis=-1))

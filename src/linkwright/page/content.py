@@ -23,6 +23,7 @@ from linkwright.joints.marks import Wheels
 from linkwright.kinematics.motion import Motion
 from linkwright.page.dimensions import dimensions
 from linkwright.page.glyphs import glyphs, undrawn
+from linkwright.page.loops import loops
 from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
@@ -75,6 +76,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
+    changeable = dimensions(Document(text, "model", read_text), set(values))
     data = {
         **_said(motion, text),
         "module": None if module is None else base64.b64encode(module).decode(),
@@ -84,11 +86,12 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "values": values,
         "tables": {name: table.numbers.tolist() for name, table in programs.tables.items()},
         "sizes": SIZES,
-        "dimensions": [each.data() for each in dimensions(Document(text, "model", read_text), set(values))],
+        "dimensions": [each.data() for each in changeable],
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
         "uncertain": _uncertain(motion),
+        "loops": loops(motion, (each.address for each in changeable if each.geometry)),
         "held": programs.held,
         **programs.found_per_position,
         "friction": programs.friction(),
@@ -190,7 +193,8 @@ def document(data: Plain, kernels: str, title: str, language: str) -> str:
     text, and the modules of the models one after the other.
     """
     style = _built("page.css")
-    scripts = [each for each in (kernels, _built("page.js")) if each]
+    proof = _built("proof.js") if any(each["loops"] for each in data["models"]) else ""
+    scripts = [each for each in (kernels, proof, _built("page.js")) if each]
     modules = [base64.b64decode(each["module"] or "") for each in data["models"]]
     models = [
         {**each, "module": each["module"] and len(module)}
