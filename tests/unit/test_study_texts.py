@@ -1,0 +1,169 @@
+"""What studies and comparisons print, line by line, against values of a four-bar by the cosine rule."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+NAME = "Crank-rocker four-bar with a coupler point"
+CRANK, FRAME = 1.0, 4.0
+
+
+def swing(coupler: float, rocker: float) -> float:
+    """Between the positions in which crank and coupler are in line, deg."""
+    ends = [
+        np.arccos((rocker**2 + FRAME**2 - (coupler + s * CRANK) ** 2) / (2 * rocker * FRAME)) for s in (1, -1)
+    ]
+    return float(np.degrees(ends[0] - ends[1]))
+
+
+def transmission(coupler: float, rocker: float) -> float:
+    """The smaller one of those in which the crank lies along the frame, deg."""
+    cosines = [(coupler**2 + rocker**2 - (FRAME + s * CRANK) ** 2) / (2 * coupler * rocker) for s in (1, -1)]
+    angles = np.degrees(np.arccos(cosines))
+    return float(np.minimum(angles, 180 - angles).min())
+
+
+def turns(coupler: float, rocker: float) -> bool:
+    return coupler + rocker > FRAME + CRANK and abs(coupler - rocker) < FRAME - CRANK
+
+
+@pytest.fixture(scope="module")
+def study() -> lw.Study:
+    machine = lw.load("gallery:crank_rocker")
+    ranges = {"coupler.length": "1200..3600 mm:7", "rocker.length": "2.4, 2.6 m"}
+    return lw.study(machine, ranges, metrics=["travel", "transmission_angle", "B.velocity max"], steps=72)
+
+
+def cells(line: str) -> list[str]:
+    return re.split(r"\s{2,}", line.strip())
+
+
+@pytest.mark.parametrize("rows", [5, 14, 40])
+def test_the_table_of_a_study(study: lw.Study, rows: int) -> None:
+    """Designs in their order, evenly chosen, the first and the last among them; a dash where one cannot move."""
+    text = study.text(rows=rows).split("\n\n")
+    lines = text[1].splitlines()
+    designs = [(b, c) for b in np.linspace(1.2, 3.6, 7) for c in (2.4, 2.6)]
+    shown = {5: [0, 3, 6, 10, 13]}.get(rows, list(range(14)))
+    assert text[0] == f"{NAME}: 14 designs, {sum(turns(*each) for each in designs)} can move"
+    assert cells(lines[0]) == [
+        "no.", "coupler.length", "rocker.length", "travel of the output [°]", "smallest transmission angle [°]",
+        "B.velocity max [m/s]",
+    ]  # fmt: skip
+    for line, k in zip(lines[1:], shown, strict=False):
+        number, coupler, rocker, travel, angle, speed = cells(line)
+        b, c = designs[k]
+        assert (number, coupler, rocker) == (str(k), f"{1000 * b:g} mm", f"{c} m")
+        if turns(b, c):
+            assert float(travel) == pytest.approx(swing(b, c), rel=2e-5)
+            assert float(angle) == pytest.approx(transmission(b, c), rel=2e-5)
+            assert float(speed) == pytest.approx(study["B.velocity max"][k], rel=1e-4)
+        else:
+            assert (travel, angle, speed) == ("—", "—", "—")
+    assert len({len(line) for line in lines[: len(shown) + 1]}) == 1
+    left_out = "(5 of 14 designs shown; write all of them with --output FILE.csv)"
+    assert lines[len(shown) + 1 :] == ([left_out] if rows == 5 else [])
+
+
+def test_the_best_designs_and_what_failed(study: lw.Study) -> None:
+    best, failed = study.text().split("\n\n")[2:]
+    designs = [(b, c) for b in np.linspace(1.2, 3.6, 7) for c in (2.4, 2.6)]
+    angles = [transmission(*each) if turns(*each) else 0.0 for each in designs]
+    k = int(np.argmax(angles))
+    assert best.splitlines() == [
+        "Best designs",
+        f"smallest transmission angle: {angles[k]:.5g}° in design {k} "
+        f"(coupler.length = {1000 * designs[k][0]:g} mm, rocker.length = {designs[k][1]} m)",
+    ]
+    head, reach, singular = failed.splitlines()
+    assert head == "Designs that fail"
+    assert reach.startswith("7 at the group (coupler, rocker); the first: ")
+    assert singular.startswith("1 at the group (coupler, rocker); the first: ") and "singular" in singular
+    chinese = study.text("zh")
+    assert "7 个在杆组（coupler、rocker）处失败" in chinese and f"方案 {k}（" in chinese
+    assert study.best("transmission_angle") == k == study.data()["best"]["transmission_angle"]
+    found = [(each["kind"], each["count"], each["designs"]) for each in study.data()["failures"]]
+    assert found == [("unreachable", 7, [0, 1, 2, 3, 4, 5, 6]), ("singular", 1, [7])]
+
+
+def test_studies_and_sweeps_as_tables_of_notebooks(study: lw.Study) -> None:
+    pytest.importorskip("pandas")
+    frame = study.to_dataframe()
+    assert list(frame.columns) == [
+        "coupler.length", "rocker.length", "travel [rad]", "transmission_angle [rad]", "B.velocity max [m/s]",
+    ]  # fmt: skip
+    assert frame["coupler.length"].to_numpy() == pytest.approx(np.repeat(np.linspace(1.2, 3.6, 7), 2))
+    assert repr(study).startswith(f"Study('{NAME}': 14 designs, 6 can move; coupler.length, ")
+    machine = study.mechanism
+    columns = {"coupler.length": [1.2, 3.4, 3.6]}
+    whole, part = (
+        lw.sweep(
+            machine, columns, outputs=["B.velocity max", "rocker.angle argmax"], steps=24, partial=partial
+        )
+        for partial in (False, True)
+    )
+    assert whole.assembled.tolist() == [9, 24, 24] and whole.ok.tolist() == [False, True, True]
+    assert np.isnan(whole["B.velocity max"]).tolist() == [True, False, False]
+    assert np.isfinite(part["B.velocity max"]).all()
+    assert part["B.velocity max"][1:].tolist() == whole["B.velocity max"][1:].tolist()
+    speed, place = whole.summaries
+    assert (whole.dimension(speed), whole.dimension(place)) == ("velocity", "angle")
+    table = whole.to_dataframe()
+    assert list(table.columns) == ["coupler.length", "assembled", "B.velocity max", "rocker.angle argmax"]
+    assert "3 designs, 2 pass the cycle" in repr(whole) and whole._repr_html_().count("<tr>") == 4
+    with pytest.raises(lw.LinkwrightError, match="was not asked for"):
+        whole["B.velocity"]
+
+
+def fourbar(name: str, coupler: float) -> lw.Mechanism:
+    text = lw.dump(lw.load("gallery:crank_rocker")).replace(NAME, name)
+    return lw.loads(text).with_dimensions({"coupler.length": coupler})
+
+
+def test_the_table_of_a_comparison_marks_the_best_and_says_what_decided() -> None:
+    """Three four-bars by two numbers, one of them with three times the weight."""
+    lengths = {"short": 2.9, "middle": 3.2, "long": 3.6}
+    machines = [fourbar(name, coupler) for name, coupler in lengths.items()]
+    names = ["transmission_angle", "travel", "peak_acceleration rocker"]
+    found = lw.compare(machines, metrics=names, weights={"transmission_angle": 3.0}, steps=90)
+    angles = [transmission(b, 2.5) for b in lengths.values()]
+    turned = [swing(b, 2.5) for b in lengths.values()]
+    peaks = [found.value("peak_acceleration rocker", k) for k in range(3)]
+    head, first, second, third = (cells(line) for line in found.text().split("\n\n")[0].splitlines()[:4])
+    assert head[1:] == list(lengths)
+    for row, values, better in ((first, angles, max), (second, turned, None), (third, peaks, min)):
+        marks = [cell.endswith(" *") for cell in row[1:]]
+        assert marks == [better is not None and each == better(values) for each in values]
+        if values is not peaks:
+            printed = [float(cell.removesuffix(" *").removesuffix("°")) for cell in row[1:]]
+            assert printed == pytest.approx(values, rel=2e-5)
+    scores = [(3 * a / max(angles) + min(peaks) / p) / 4 for a, p in zip(angles, peaks, strict=True)]
+    order = sorted(range(3), key=lambda k: -scores[k])
+    assert [rank.index for rank in found.ranking] == order
+    assert [rank.place for rank in found.ranking] == [1, 2, 3]
+    assert [rank.score for rank in found.ranking] == pytest.approx([scores[k] for k in order])
+    ranked = found.text().split("Ranking")[1]
+    for place, k in enumerate(order, 1):
+        label = list(lengths)[k]
+        assert re.search(rf"{place}\W+{label}\b.*\b{100 * scores[k]:.0f}\b", ranked), (place, label)
+    verdict = found.evaluation().splitlines()[-3:]
+    assert list(lengths)[order[0]] in verdict[0] and f"{100 * scores[order[0]]:.0f}" in verdict[0]
+    assert [list(lengths)[k] in line for k, line in zip(order[1:], verdict[1:], strict=True)] == [True, True]
+    assert found.column(1) == [found.value(name, 1) for name in names]
+    assert repr(found).startswith(f"Comparison(3 metrics: {list(lengths)[order[0]]} (")
+    frame = found.to_dataframe()
+    assert list(frame.columns) == list(lengths)
+    assert list(frame.index) == [
+        "transmission_angle [rad]",
+        "travel [rad]",
+        "peak_acceleration rocker [rad/s²]",
+    ]
+    data = found.data()
+    assert [each["weight"] for each in data["metrics"]] == [3.0, 1.0, 1.0]
+    assert data["metrics"][0]["best"] == [list(lengths)[int(np.argmax(angles))]]
+    assert [each["label"] for each in data["ranking"]] == [list(lengths)[k] for k in order]
