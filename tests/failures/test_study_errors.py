@@ -208,3 +208,93 @@ def test_values_of_a_comparison_that_it_does_not_have() -> None:
         lambda: found.value("peak_reaction", 0)
     )
     assert "no alternative 'nope'" in said(lambda: found.value("travel", "nope"))
+
+
+def test_values_of_a_study_that_it_does_not_have() -> None:
+    found = study(
+        machine(), {"coupler.length": "3.2, 3.4 m"}, metrics=["travel", "transmission_angle"], steps=24
+    )
+    assert 'did you mean "travel"' in said(lambda: found["travl"])
+    assert "travel" in said(lambda: found.best("travel")) and found.best("transmission_angle") == 1
+    idle = said(lambda: study(machine(), {"coupler.length": "3.2, 3.4 m"}, metrics=["flywheel"], steps=24))
+    assert "'flywheel' does not apply" in idle
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"sampling": "latin"}, ["'latin'", "sobol"]),
+        ({"sampling": "sobol", "samples": 0}, ["0"]),
+        ({"sampling": "sobol", "seed": -1}, ["-1"]),
+        ({"output": "rokcer"}, ["'rokcer'", 'did you mean "rocker"']),
+        ({"fluctuation": 0.0}, ["above zero"]),
+    ],
+)
+def test_ways_in_which_no_study_goes(options: dict[str, Any], words: list[str]) -> None:
+    text = said(lambda: study(machine(), {"coupler.length": "3..4 m:3"}, metrics=["travel"], **options))
+    assert all(word in text for word in words)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [("1e400..2 m", ["finite"]), ("2..3 m:2000000", ["2000000"]), ("3, x, 4 m", ['"x" is no quantity'])],
+)
+def test_texts_that_are_no_values(given: str, words: list[str]) -> None:
+    text = said(lambda: study(machine(), {"coupler.length": given}, metrics=["travel"]))
+    assert "coupler.length" in text and all(word in text for word in words)
+
+
+def test_a_law_that_changes_with_what_varies_is_refused() -> None:
+    """The positions of the input are the same for all designs; turning the other way is the same turn."""
+    text = """
+format: 1
+parameters: {a: 0.5, w: 2}
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 1 m, mass: 2 kg}}
+driver: {turn: crank, about: O, position: "a*sin(w*t/(1 s))*(1 rad)"}
+cycle: {duration: 1 s}
+"""
+    for name in ("a", "w"):
+        told = said(lambda n=name: sweep(lw.loads(text), {n: [0.4, 0.6]}, outputs=["A.x max"]))
+        assert told.startswith(f"{name} changes the drive's law")
+        assert "positions of the input" in told
+    turning = lw.loads(
+        text.split("driver:", maxsplit=1)[0].replace("parameters: {a: 0.5, w: 2}\n", "")
+        + "driver: {turn: crank, about: O, speed: 3 rad/s}\n"
+    )
+    found = sweep(turning, {"driver.speed": [3.0, -6.0]}, outputs=["A.velocity max"], steps=12)
+    assert found["A.velocity max"] == pytest.approx([3.0, 6.0])
+    assert "positions of the input" in said(
+        lambda: sweep(turning, {"driver.start": [0.0, 0.1]}, outputs=["A.x max"])
+    )
+
+
+def test_objectives_that_have_no_gradient_or_another_shape() -> None:
+    vary = ["coupler.length", "rocker.length"]
+    objective = lw.objective(machine(), "rocker.angle range", vary=vary, steps=24, backend="numpy")
+    for shape in ((3,), (2, 3), (2, 2, 2)):
+        assert "coupler.length" in said(lambda s=shape: objective.values(np.ones(s)))
+    text = lw.dump(lw.load("gallery:shaper_quick_return")).replace(
+        "kind: prismatic,", "kind: prismatic, friction: 0.1,"
+    )
+    for term in ("driver.effort rms", "rms_input_torque"):
+        assert "gradient" in said(
+            lambda t=term: lw.objective(lw.loads(text), t, vary=["crank.length"], steps=24)
+        )
+    assert "stroke" in said(lambda: lw.objective(machine(), "stroke", vary=["coupler.length"]))
+    assert "rocker.mass has no influence" in said(
+        lambda: lw.objective(machine(), "rocker.angle range", vary=["coupler.length", "rocker.mass"])
+    )
+
+
+def test_design_numbers_that_apply_to_no_design() -> None:
+    text = said(lambda: sweep(machine(), {"coupler.length": [3.2, 3.4]}, outputs=["stroke"], steps=24))
+    assert "stroke" in text and "Crank-rocker" in text
+
+
+def test_alternatives_by_labels_that_are_not_there() -> None:
+    assert "two or more" in said(lambda: compare([machine()]))
+    both = [machine(), machine().with_dimensions({"coupler.length": 3.3})]
+    text = said(lambda: compare(both, output={"Crank-rocker four-bar with a coupler point": "rocker"}))
+    assert "(2)" in text
+    assert "travels" in compare(both, metrics=["travel"], output=["rocker", "rocker"], steps=24).evaluation()
