@@ -8,16 +8,20 @@ from math import pi
 import numpy as np
 import pytest
 
+import linkwright as lw
 from linkwright.machine import (
     TorqueCurve,
     disk,
     energy_fluctuation,
+    equivalent_torque,
     fluctuation_from_areas,
     flywheel_inertia,
     motor,
     on_faster_shaft,
     rim,
     speed_fluctuation,
+    steady_running,
+    true_speed,
 )
 
 RPM = 2 * pi / 60
@@ -79,3 +83,57 @@ def test_disk_and_rim_have_the_inertia_asked_for() -> None:
 
 def test_motor_with_efficiency_and_margin() -> None:
     assert motor(100.0, 20.0, efficiency=0.8, margin=1.25).power == pytest.approx(100 * 20 * 1.25 / 0.8)
+
+
+def test_flywheels_of_a_machine_by_the_formula() -> None:
+    """J = ΔE/(δ ω²) less the machine's own mean inertia; over i² on a shaft i times as fast."""
+    forces = lw.solve_forces(lw.load("gallery:jaw_crusher_fourbar"), steps=90)
+    speed, ratio = 170 * RPM, 3.0
+    found = steady_running(forces, fluctuation=0.05, ratio=ratio)
+    own = found.equivalent.mean_inertia
+    assert found.equivalent.speed == pytest.approx(speed)
+    assert found.own == pytest.approx(found.energy.value / (own * speed**2), rel=1e-12)
+    assert found.flywheel == pytest.approx(found.energy.value / (0.05 * speed**2) - own, rel=1e-12)
+    assert found.shaft_flywheel == pytest.approx(found.exact_flywheel / ratio**2, rel=1e-12)
+
+
+def test_at_rest_the_equivalent_torque_is_the_drivers() -> None:
+    motion = lw.solve_motion(lw.load("gallery:jaw_crusher_fourbar"), steps=24)
+    resting = lw.solve_forces(motion, static=True)
+    assert equivalent_torque(resting) == pytest.approx(resting.input_torque, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "speed", "words"),
+    [
+        (-1.0, 10.0, "moment of inertia is -1"),
+        (0.0, 10.0, "moment of inertia is 0"),
+        (1.0, -10.0, "mean speed is -10"),
+        (np.cos, 10.0, "zero somewhere"),
+    ],
+)
+def test_machines_that_cannot_run_evenly(inertia: object, speed: float, words: str) -> None:
+    with pytest.raises(lw.LinkwrightError, match=words):
+        true_speed(TorqueCurve.constant(1.0), inertia, speed)
+
+
+def test_tables_of_torque_repeat_and_jump() -> None:
+    """From 30° on, a jump at 90°, a period of half a turn; the difference of two over their common period."""
+    edge = np.radians([30.0, 90.0, 90.0, 150.0])
+    curve = TorqueCurve.from_table(edge, [1.0, 3.0, 8.0, 2.0], period=pi)
+    at = np.radians([30.0, 60.0, 89.9999, 90.0001, 120.0, 180.0, 210.0, -150.0, 240.0])
+    assert curve(at) == pytest.approx([1, 2, 3, 8, 5, 1.5, 1, 1, 2], abs=1e-4)
+    assert curve.mean == pytest.approx((2 * 60 + 5 * 60 + 1.5 * 60) / 180)
+    assert (curve.start, curve.period) == (pytest.approx(pi / 6), pi)
+    other = TorqueCurve.from_function("2*sin(theta)")
+    for one, two, sign in ((curve, other, 1.0), (other, curve, -1.0)):
+        difference = one.minus(two)
+        assert difference.period == pytest.approx(2 * pi)
+        assert difference(at[:5]) == pytest.approx(sign * (curve(at[:5]) - 2 * np.sin(at[:5])), abs=1e-9)
+        assert difference.mean == pytest.approx(sign * curve.mean, rel=1e-9)
+    (low, least), (high, most) = curve.extremes()
+    assert (least, most) == pytest.approx((1.0, 8.0), abs=1e-9)
+    assert (low % pi, high % pi) == (pytest.approx(pi / 6, abs=1e-6), pytest.approx(pi / 2, abs=1e-6))
+    assert TorqueCurve.from_function([1.0, 3.0], period=4.0)(np.array([0.0, 1.0, 2.0, 3.0])) == pytest.approx(
+        [1, 2, 3, 2]
+    )

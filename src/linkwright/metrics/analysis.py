@@ -202,7 +202,7 @@ class Analysis:
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
-        known = self._together(words_name(output)).get(side)
+        known = None if output.endswith(".angle") else self._together(words_name(output)).get(side)
         if known is not None:
             return known
         signal = self.signal(output)

@@ -1,0 +1,131 @@
+"""Summaries that design numbers are made of: extremes, places and means of any output, against dense positions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.literature.test_metrics_published import crunodal
+
+import linkwright as lw
+from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
+from linkwright.metrics.base import Metric
+
+DENSE = 7200
+MACHINE = lw.load("gallery:crank_rocker")
+
+
+def sampled(output: str) -> tuple[np.ndarray, np.ndarray]:
+    """Values and inputs of many positions, by public results."""
+    motion = lw.solve_motion(MACHINE, steps=DENSE)
+    owner, part = output.rsplit(".", 1)
+    if part == "angle":
+        return motion.link(owner).angle, motion.input
+    return motion.point(owner).position[:, "xy".index(part)], motion.input
+
+
+@pytest.mark.parametrize("forces", [False, True])
+@pytest.mark.parametrize("output", ["rocker.angle", "coupler.angle", "coupler.P.x", "coupler.P.y"])
+def test_summaries_of_angles_and_places(output: str, forces: bool) -> None:
+    motion = lw.solve_motion(MACHINE, steps=90)
+    analysis = Analysis.of(lw.solve_forces(motion) if forces else motion)
+    values, inputs = sampled(output)
+    exact = {
+        "max": values.max(), "min": values.min(), "range": np.ptp(values), "peak": np.abs(values).max(),
+        "mean": values.mean(), "rms": np.sqrt((values**2).mean()),
+    }  # fmt: skip
+    for kind, value in exact.items():
+        part = analysis.part(f"{output} {kind}")
+        assert part.value == pytest.approx(value, rel=1e-6, abs=1e-7), kind
+        assert part.exact
+        if kind in ("max", "min", "peak"):
+            (there,) = np.interp([part.input], inputs, values)
+            assert (abs(there) if kind == "peak" else there) == pytest.approx(part.value, rel=1e-5)
+            assert part.time == pytest.approx(part.input / 10.0)
+    for kind, place in (("argmax", values.argmax()), ("argmin", values.argmin())):
+        part = analysis.part(f"{output} {kind}")
+        assert part.value == part.input == pytest.approx(inputs[place], abs=2e-3)
+
+
+def test_a_link_that_turns_through_has_its_largest_angle_where_the_cycle_ends() -> None:
+    analysis = Analysis.of(lw.solve_motion(MACHINE, steps=36))
+    assert analysis.part("crank.angle max").value == pytest.approx(2 * np.pi)
+    assert analysis.part("crank.angle mean").value == pytest.approx(np.pi)
+
+
+def test_nothing_is_summarised_of_positions_that_are_not_reached() -> None:
+    short = MACHINE.with_dimensions({"coupler.length": 0.2})
+    analysis = Analysis.of(lw.solve_motion(short, failures="mark", steps=36))
+    for kind in ("max", "min", "range", "peak"):
+        part = analysis.part(f"coupler.P.x {kind}")
+        assert np.isnan(part.value) and not part.exact
+
+
+def test_samples_of_inputs_of_ones_own_are_what_is_there() -> None:
+    """Uneven inputs: extremes are those of the cycle's law between them, means weigh every stretch by its time."""
+    at = np.array([0.3, 0.5, 1.1, 1.2, 2.9])
+    motion = lw.solve_motion(MACHINE, at=at)
+    analysis = Analysis.of(motion)
+    x = motion.point("coupler.P").position[:, 0]
+    assert analysis.part("coupler.P.x mean").value == pytest.approx(np.trapezoid(x, at) / 2.6, rel=2e-2)
+    low, high = analysis.part("coupler.P.x min"), analysis.part("coupler.P.x max")
+    assert 0.3 <= low.input <= 2.9 and 0.3 <= high.input <= 2.9
+    assert low.value <= x.min() and high.value >= x.max()
+    assert high.value == pytest.approx(sampled("coupler.P.x")[0].max(), rel=1e-5)
+
+
+def test_a_curve_runs_the_other_way_round_with_its_area_negative() -> None:
+    forth, back = (
+        coupler_curve(
+            lw.solve_motion(MACHINE.with_dimensions({"driver.speed": speed}), steps=120), "coupler.P"
+        )
+        for speed in (10.0, -10.0)
+    )
+    assert forth.length == pytest.approx(back.length, rel=1e-9)
+    assert abs(forth.area) > 1.0 and forth.area == pytest.approx(-back.area, rel=1e-9)
+    path = forth.path
+    swept = 0.5 * np.sum(path[:, 0] * np.roll(path[:, 1], -1) - np.roll(path[:, 0], -1) * path[:, 1])
+    assert forth.area == pytest.approx(swept, rel=1e-3)
+    chords = np.hypot(*np.diff(np.vstack([path, path[:1]]), axis=0).T).sum()
+    assert forth.length == pytest.approx(chords, rel=1e-3) and forth.length > chords
+
+
+def test_two_crossings_of_a_curve_have_both_inputs_at_the_same_place() -> None:
+    machine = crunodal((1.4, -1.5))
+    for each in (machine, machine.with_dimensions({"driver.speed": -7.0})):
+        for steps in (90, 91):
+            curve = coupler_curve(lw.solve_motion(each, steps=steps), "coupler.P")
+            for spot, inputs in curve.double_points:
+                places = lw.solve_motion(each, at=list(inputs)).point("coupler.P").position
+                assert places == pytest.approx(np.array([spot, spot]), abs=1e-9)
+                assert abs(inputs[0] - inputs[1]) > 0.1
+            assert len(curve.double_points) == 1
+
+
+def test_a_number_of_another_package_is_named_by_its_class() -> None:
+    class Own(Metric):
+        """Something of one's own.
+
+        With more about it.
+        """
+
+        name = "own_number"
+        dimension = "length"
+        source = "a test"
+
+    assert Own().label_in("zh") == "own number" and Own().meaning == "Something of one's own."
+    assert tuple(Own().numbers(Analysis.of(lw.solve_motion(MACHINE, steps=4)))) == ()
+    assert METRICS["stroke"]().unit == "m" and METRICS["stroke"]().label == "stroke"
+
+
+def test_values_as_plain_data() -> None:
+    table = metrics(lw.solve_motion(MACHINE, steps=72))
+    row = table["transmission_angle"][0]
+    data = row.data()
+    assert (data["metric"], data["unit"], data["at_unit"]) == ("transmission_angle", "rad", "rad")
+    assert data["value"] == row.value and data["at"] == row.at and data["place"] is None and data["exact"]
+    assert table.value("transmission_angle") == table.value("transmission_angle", row.subject) == row.value
+    (area,) = table["coupler_curve_area"]
+    assert area.data()["at"] is None and area.data()["at_unit"] is None
+    curve = metrics(lw.solve_motion(crunodal((1.4, -1.5))), "double_point")
+    assert curve[0].value == 1 and curve[0].data()["place"] == list(curve[0].place)
+    assert f"({1e3 * curve[0].place[0]:.6g} mm, " in curve[0].sentence
