@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
     from linkwright.files.plain_reader import Place as Where
     from linkwright.files.reader import Reader
-    from linkwright.joints.marks import Following, Mark
+    from linkwright.joints.marks import Following, Mark, WheelSizes
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.cycle import Floats
@@ -335,6 +335,10 @@ class Joint(ABC):
 
     def following(self, mechanism: Mechanism) -> Following | None:
         """What drawings whose dimensions may change show of it in place of its marks; None where it has none."""
+        return None
+
+    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes | None:
+        """What reports tell of a pair with wheels; None of any other joint."""
         return None
 
     def pulls(self, forces: Forces) -> Any:

@@ -14,7 +14,7 @@ from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, recipr
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
-from linkwright.joints.marks import Mark
+from linkwright.joints.marks import Mark, WheelSizes
 from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
 from linkwright.words.sentence import Sentence
 
@@ -196,6 +196,13 @@ class GearPair(WheelPair):
         points, i = mechanism.link(self.carrier).points, self.transmission
         d = dist(*(points[each] for each in self.centres))
         return d * i / (i - 1.0), -d / (i - 1.0)
+
+    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
+        found = super().wheel_sizes(mechanism)
+        if not self.toothed:
+            return found
+        own = {"module": self.module, "pressure_angle": self.pressure_angle, "involute": self.involute}
+        return replace(found, **own)  # type: ignore[arg-type]
 
     def acts_at(self, motion: Motion) -> Floats:
         """The pitch point."""

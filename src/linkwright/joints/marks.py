@@ -49,6 +49,22 @@ class Wheels:
 
 
 @dataclass(frozen=True)
+class WheelSizes:
+    """What reports tell of a pair with wheels on its ``links``: ``teeth``, pitch ``radii`` (m), centre ``distance``
+    (m), ``ratio`` on the carrier, ``module`` (m) and ``pressure_angle`` (rad), as far as it has them; ``involute``:
+    whether these are two gears whose teeth follow from number and module."""
+
+    links: tuple[str, ...]
+    teeth: tuple[float, ...] | None
+    radii: tuple[float, ...]
+    distance: float | None = None
+    ratio: float | None = None
+    module: float | None = None
+    pressure_angle: float | None = None
+    involute: bool = False
+
+
+@dataclass(frozen=True)
 class RackWay:
     """A rack of the link ``rack``: its pitch line goes through ``through`` in the direction ``turn`` (rad, in its
     axes), the pinion on the left, or ``right``."""

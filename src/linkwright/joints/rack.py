@@ -29,7 +29,7 @@ from linkwright.joints.base import (
 )
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.lower import SlidingJoint
-from linkwright.joints.marks import Amount, Mark, RackWay, Wheel
+from linkwright.joints.marks import Amount, Mark, RackWay, Wheel, WheelSizes
 from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
@@ -244,6 +244,12 @@ class RackPair(HigherPair):
         pinion = Wheel(self.pinion, self.pinion, self.centre, self.radius, size, True, teeth)
         turn = Amount(self.direction, (f"{self.name}.direction",))
         return RackWay(pinion, self.rack, self.through, turn, self.side < 0)
+
+    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
+        teeth = None if self.teeth is None else (self.teeth,)
+        return WheelSizes(
+            self.joined, teeth, (self.radius,), module=self.module, pressure_angle=self.pressure_angle
+        )
 
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:

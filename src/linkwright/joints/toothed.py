@@ -22,7 +22,7 @@ from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import LinkName, LinkNames
 from linkwright.joints.base import Angles, Cut, Entry, HigherPair, Joint, Poses, States
-from linkwright.joints.marks import Amount, Wheel, Wheels
+from linkwright.joints.marks import Amount, Wheel, Wheels, WheelSizes
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -200,6 +200,10 @@ class WheelPair(HigherPair):
             for k, link in enumerate(self.links)
         ]
         return Wheels((wheels[0], wheels[1]), self._amount_of_ratio(), radii is not None)
+
+    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
+        radii = tuple(abs(each) for each in self.arms(mechanism))
+        return WheelSizes(self.links, self.teeth, radii, abs(self.line(mechanism)), self.transmission)
 
     def _amount_of_ratio(self) -> Amount:
         if self.ratio is not None:

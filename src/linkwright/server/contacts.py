@@ -11,8 +11,8 @@ from linkwright import units
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
+from linkwright.joints.base import JOINTS
 from linkwright.joints.cam import CamJoint
-from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.joints.rack import RackPair
 from linkwright.server.draft import Draft, Plain, fresh, picture
 from linkwright.units import number
@@ -104,7 +104,8 @@ def _link_with(shown: Plain, point: str, other: str) -> str | None:
 def _guide_of(draft: Draft, block: str) -> tuple[str, MappingNode | None]:
     """The guide on the frame that a link slides in, with its name."""
     for name, joint in draft.section("joints") or ():
-        if not isinstance(joint, MappingNode) or _word(joint, "kind") != PrismaticJoint.kind:
+        kind = _word(joint, "kind") if isinstance(joint, MappingNode) else ""
+        if not isinstance(joint, MappingNode) or kind not in JOINTS or JOINTS[kind].coordinate != "slide":
             continue
         if _word(joint, "block") == block and _word(joint, "guide") == "frame":
             return name, joint

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
 
 from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
-from linkwright.joints.base import Joint
-from linkwright.joints.gear import GearPair as GearJoint
-from linkwright.joints.rack import RackPair
-from linkwright.joints.toothed import WheelPair
+from linkwright.joints.marks import WheelSizes
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
 from linkwright.report.section import SECTIONS, Section
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words import has
 from linkwright.words.sentence import Sentence
 from linkwright.worked.symbols import tex
 
@@ -29,20 +24,22 @@ class Gears(Section):
     name, rank, optional = "gears", 8.5, True
 
     def blocks(self, case: Case) -> Iterator[Block]:
-        pairs = [joint for joint in case.mechanism.joints.values() if isinstance(joint, WheelPair | RackPair)]
+        mechanism = case.mechanism
+        found = {joint.name: joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()}
+        pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
         if not pairs:
             raise Missing(Sentence("report.no_gears"))
         yield Paragraph(case.say("report.gears_text"))
         yield _sizes(case, pairs)
         for train in case.structure.trains:
             yield from _train(case, train)
-        for same in _alike(pairs):
-            yield from _teeth(case, same)
+        for names in _alike(pairs):
+            yield from _teeth(case, names, pairs[names[0]])
 
 
-def _sizes(case: Case, pairs: list[WheelPair | RackPair]) -> Table:
+def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Table:
     say = case.say
-    rows = tuple(tuple(map(literal, _row(case, pair))) for pair in pairs)
+    rows = tuple(tuple(map(literal, _row(case, name, sizes))) for name, sizes in pairs.items())
     head = (
         say("report.joint"), say("report.kind"), say("report.wheels"), "$z$", "$m$ / mm", "$r$ / mm",
         "$a$ / mm", r"$\alpha$ / °", "$i$",
@@ -50,37 +47,21 @@ def _sizes(case: Case, pairs: list[WheelPair | RackPair]) -> Table:
     return Table(say("report.wheels_table"), head, rows, "<<<>>>>>>", "wheels")
 
 
-def _row(case: Case, pair: WheelPair | RackPair) -> tuple[str, ...]:
+def _row(case: Case, name: str, sizes: WheelSizes) -> tuple[str, ...]:
     """Name, kind, wheels, teeth, module, pitch radii, centre distance, pressure angle, ratio."""
-    kind = case.say(f"nouns.pair_{pair.kind}") if has(f"nouns.pair_{pair.kind}") else pair.kind
-    own: Any = pair
-    module, angle = getattr(own, "module", None), getattr(own, "pressure_angle", None)
-    size = f"{1e3 * module:.6g}" if module else "–"
-    pressure = f"{math.degrees(angle):.6g}" if angle is not None else "–"
-    if isinstance(pair, RackPair):
-        teeth = f"{pair.teeth:g}" if pair.teeth else "–"
-        wheels = f"{pair.pinion}, {pair.rack}"
-        return pair.name, kind, wheels, teeth, size, f"{1e3 * pair.radius:.6g}", "–", pressure, "–"
-    distance = _distance(case, pair)
-    teeth = ", ".join(f"{each:g}" for each in pair.teeth) if pair.teeth else "–"
     return (
-        pair.name, kind, ", ".join(pair.links), teeth, size, _radii(pair, distance), f"{1e3 * distance:.6g}",
-        pressure, written(pair.transmission),
+        name, case.sentence(case.mechanism.joints[name].word()), ", ".join(sizes.links),
+        _listed(sizes.teeth), _listed(sizes.module, 1e3), _listed(sizes.radii, 1e3), _listed(sizes.distance, 1e3),
+        _listed(sizes.pressure_angle, 180.0 / math.pi), "–" if sizes.ratio is None else written(sizes.ratio),
     )  # fmt: skip
 
 
-def _distance(case: Case, pair: WheelPair) -> float:
-    points = case.mechanism.link(pair.carrier).points
-    return math.dist(*(points[each] for each in pair.centres))
-
-
-def _radii(pair: WheelPair, distance: float) -> str:
-    """Pitch radii, mm: of belts and chains, or as given; else from ratio and centre distance."""
-    found = pair.running_radii() or pair.radii
-    if found is None:
-        i = pair.transmission
-        found = (abs(distance * i / (i - 1.0)), abs(distance / (i - 1.0)))
-    return ", ".join(f"{1e3 * each:.6g}" for each in found)
+def _listed(values: float | Sequence[float] | None, factor: float = 1.0) -> str:
+    """Numbers times a factor, or a dash where there are none."""
+    if values is None:
+        return "–"
+    several = [values] if isinstance(values, float) else values
+    return ", ".join(f"{factor * each:.6g}" for each in several)
 
 
 def _train(case: Case, train: GearTrain) -> Iterator[Block]:
@@ -115,33 +96,32 @@ def _latex(ratio: float) -> str:
     return rf"{sign}\frac{{{above.removeprefix('-')}}}{{{below}}}" if bar else text
 
 
-def _alike(pairs: Sequence[Joint]) -> list[list[GearJoint]]:
-    """Gears whose module and whole numbers of teeth are given, those with equal ones together."""
-    found: dict[tuple[object, ...], list[GearJoint]] = {}
-    for pair in pairs:
-        if (
-            isinstance(pair, GearJoint)
-            and pair.module
-            and pair.teeth
-            and all(z == int(z) for z in pair.teeth)
-        ):
-            sizes = (pair.teeth, pair.module, pair.pressure_angle, pair.mesh)
-            found.setdefault(sizes, []).append(pair)
+def _alike(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
+    """Names of gears whose module and whole numbers of teeth are given, those with equal ones together."""
+    found: dict[tuple[object, ...], list[str]] = {}
+    for name, sizes in pairs.items():
+        if sizes.involute and all(z == int(z) for z in sizes.teeth or ()):
+            own = (sizes.teeth, sizes.module, sizes.pressure_angle, _internal(sizes))
+            found.setdefault(own, []).append(name)
     return list(found.values())
 
 
-def _teeth(case: Case, same: list[GearJoint]) -> Iterator[Block]:
+def _internal(sizes: WheelSizes) -> bool:
+    return sizes.ratio is not None and sizes.ratio > 0
+
+
+def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block]:
     """Diameters and contact of equal pairs of gears."""
-    say, pair = case.say, same[0]
-    assert pair.teeth is not None and pair.module is not None
-    internal = pair.mesh == "internal"
-    ends = list(zip(pair.teeth, pair.links, strict=True))
+    say, internal = case.say, _internal(sizes)
+    assert sizes.teeth is not None and sizes.module is not None and sizes.pressure_angle is not None
+    ends = list(zip(sizes.teeth, sizes.links, strict=True))
     (first, a), (second, b) = sorted(ends) if internal else ends
-    title = "; ".join(f"{each.name} ({', '.join(each.links)})" for each in same)
+    joints = case.mechanism.joints
+    title = "; ".join(f"{name} ({', '.join(joints[name].joined)})" for name in same)
     yield Heading(literal(title), 2)
     teeth, names = (int(first), int(second)), [a, b]
     try:
-        mesh = gear_pair(teeth, pair.module, pressure_angle=pair.pressure_angle, internal=internal)
+        mesh = gear_pair(teeth, sizes.module, pressure_angle=sizes.pressure_angle, internal=internal)
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return
@@ -153,7 +133,7 @@ def _teeth(case: Case, same: list[GearJoint]) -> Iterator[Block]:
     )  # fmt: skip
     for sentence in mesh.findings:
         yield Paragraph(literal(case.sentence(sentence)), "note")
-    yield Figure(say("report.caption_teeth", pair=literal(", ".join(each.name for each in same))),
+    yield Figure(say("report.caption_teeth", pair=literal(", ".join(same))),
                  ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
 
 
