@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts
     from linkwright.files.build import Model as Model
     from linkwright.files.model_file import check as check
-    from linkwright.files.model_file import dump as dump
     from linkwright.files.model_file import gallery_names as gallery_names
     from linkwright.files.model_file import load as load
     from linkwright.files.model_file import loads as loads
     from linkwright.files.model_file import read_document as read_document
     from linkwright.files.schema import json_schema as json_schema
+    from linkwright.files.write import dump as dump
     from linkwright.gears.gear import Gear as Gear
     from linkwright.gears.pair import GearPair as GearPair
     from linkwright.gears.pair import gear_pair as gear_pair
@@ -123,8 +123,9 @@ PUBLIC = {
     "linkwright.export.export": ("export",),
     "linkwright.export.sweep_parts": ("SweepParts", "sweep_parts"),
     "linkwright.files.build": ("Model",),
-    "linkwright.files.model_file": ("check", "dump", "gallery_names", "load", "loads", "read_document"),
+    "linkwright.files.model_file": ("check", "gallery_names", "load", "loads", "read_document"),
     "linkwright.files.schema": ("json_schema",),
+    "linkwright.files.write": ("dump",),
     "linkwright.gears.gear": ("Gear",),
     "linkwright.gears.pair": ("GearPair", "gear_pair"),
     "linkwright.gears.rack": ("Rack",),

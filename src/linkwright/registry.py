@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 import pkgutil
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -21,9 +21,10 @@ SLIP = 0.8
 
 
 class Registry(Mapping[str, T], Generic[T]):
-    """Elements of one package under their names; the package's modules are imported at first use.
+    """Elements of one package under their names; its modules are imported at first use.
 
-    An element registers itself with ``@REGISTRY.register("name")``; adding one touches no other file.
+    An element registers itself with ``@REGISTRY.register("name")``; adding one touches no other file. Asked for one
+    name, the module of that name is looked into first; the others wait until it is not there, or all are asked for.
     """
 
     def __init__(self, noun: str, package: str, *, entry_points: str | None = None) -> None:
@@ -47,13 +48,15 @@ class Registry(Mapping[str, T], Generic[T]):
         return file_under
 
     def __getitem__(self, name: str) -> T:
-        self._discover()
-        if name not in self._elements:
+        if name not in self:
             raise UnknownName(no_such(self.noun, name, sorted(self._elements)))
         return self._elements[name]
 
     def __contains__(self, name: object) -> bool:
-        self._discover()
+        if name not in self._elements and not self._discovered:
+            self._look_into(str(name).lower())
+            if name not in self._elements:
+                self._discover()
         return name in self._elements
 
     def __iter__(self) -> Iterator[str]:
@@ -63,6 +66,11 @@ class Registry(Mapping[str, T], Generic[T]):
     def __len__(self) -> int:
         self._discover()
         return len(self._elements)
+
+    def _look_into(self, module: str) -> None:
+        """Imports the module of this name, if the package has it."""
+        if module.isidentifier() and importlib.util.find_spec(f"{self._package}.{module}") is not None:
+            importlib.import_module(f"{self._package}.{module}")
 
     def _discover(self) -> None:
         """Imports the package's modules once; other threads wait until all are there."""

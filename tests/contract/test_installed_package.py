@@ -31,7 +31,7 @@ PROGRAM = r'''
 import sys, numpy as np, linkwright as lw
 from linkwright.cli import main
 from linkwright.joints.base import LackingError
-from linkwright.files.model_file import dump
+from linkwright.files.write import dump
 from linkwright.files.schema import json_schema
 MODEL = """
 format: 1

@@ -18,8 +18,9 @@ from linkwright.fields.base import Quantities, Quantity, Word
 from linkwright.fields.references import LinkName, PointName, PointPair, PointReference, PointReferences
 from linkwright.fields.signals import Magnitude
 from linkwright.files.build import Model
-from linkwright.files.model_file import dump, loads
+from linkwright.files.model_file import loads
 from linkwright.files.schema import json_schema
+from linkwright.files.write import dump
 from linkwright.joints.base import JointName
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load

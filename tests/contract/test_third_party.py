@@ -16,7 +16,7 @@ from tests.contract.settling import LAW
 import linkwright as lw
 from linkwright.cli import main
 from linkwright.drivers.base import LAWS
-from linkwright.files.model_file import dump
+from linkwright.files.write import dump
 from linkwright.loads.base import LOADS
 from linkwright.metrics import METRICS
 

@@ -11,9 +11,10 @@ import pytest
 
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.files.build import Model
-from linkwright.files.model_file import check, dump, gallery_names, load, loads, read_document
+from linkwright.files.model_file import check, gallery_names, load, loads, read_document
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
+from linkwright.files.write import dump
 
 BLOCK = """\
 # head

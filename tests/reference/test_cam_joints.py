@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.errors import ModelError
-from linkwright.files.model_file import dump
+from linkwright.files.write import dump
 
 PROGRAM = """
       - {rise: LIFT, over: 110 deg, law: cycloidal}

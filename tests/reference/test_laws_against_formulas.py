@@ -98,7 +98,7 @@ def test_jerk_is_the_third_derivative_and_left_out_where_the_driver_accelerates(
 
 def test_a_changed_link_is_written_with_its_new_numbers() -> None:
     """Lengths, angles, masses and centres that were changed stand in the file; what was not keeps its form."""
-    from linkwright.files.model_file import dump
+    from linkwright.files.write import dump
 
     text = """
 format: 1

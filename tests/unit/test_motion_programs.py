@@ -11,7 +11,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.errors import ModelError
-from linkwright.files.model_file import dump
+from linkwright.files.write import dump
 from linkwright.laws.program import MotionProgram, Segment
 from linkwright.laws.smoothest import FoundProgram, Window
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 __all__ = ["dataclass"]
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
     from dataclasses import dataclass
 else:
 
@@ -30,46 +30,41 @@ else:
 
 
 def _made(
-    cls: type, *, frozen: bool = False, eq: bool = True, repr: bool = True, kw_only: bool = False
+    cls: Any, *, frozen: bool = False, eq: bool = True, repr: bool = True, kw_only: bool = False
 ) -> type:
-    own = _own_fields(cls, kw_only)
-    known: dict[str, Any] = {}
-    for base in cls.__mro__[:0:-1]:
-        known |= getattr(base, "__dataclass_fields__", {})
-    made: Any = cls
-    made.__dataclass_fields__ = known | own
-    made.__dataclass_params__ = _PARAMS[frozen]
-    for name, each in own.items():
-        if isinstance(cls.__dict__.get(name), Field):
-            delattr(cls, name) if each.default is MISSING else setattr(cls, name, each.default)
-    shown = fields(made)
-    matched = tuple(each.name for each in shown if each.init and not each.kw_only)
-    methods: dict[str, Any] = {"__init__": _Written(cls, frozen), "__match_args__": matched}
+    hashed = bool(cls.__dict__.get("__hash__"))
+    methods: dict[str, Callable[[], Any]] = {"__init__": partial(_init, cls, frozen)}
+    methods["__match_args__"] = partial(_matched, cls)
     if repr:
-        methods["__repr__"] = _repr([each.name for each in shown if each.repr])
+        methods["__repr__"] = partial(_repr, cls)
     if eq:
-        values = _reader([each.name for each in shown if each.compare])
-        methods["__eq__"] = _eq(values)
-        if not (frozen or cls.__dict__.get("__hash__")):
-            made.__hash__ = None
+        methods["__eq__"] = partial(_eq, cls)
+    if eq and frozen and not hashed:
+        methods["__hash__"] = partial(_hash, cls)
     if frozen:
-        methods |= _locks(cls, frozenset(each.name for each in shown))
-        if eq and not cls.__dict__.get("__hash__"):
-            made.__hash__ = lambda self: hash(values(self))
-    for name, method in methods.items():
-        if name not in cls.__dict__:
-            setattr(cls, name, method)
-    return cls
+        methods |= {"__setattr__": partial(_setattr, cls), "__delattr__": partial(_delattr, cls)}
+    for name, make in methods.items():
+        if name not in cls.__dict__ or name == "__hash__":
+            setattr(cls, name, _Late(cls, name, make))
+    if eq and not (frozen or hashed):
+        cls.__hash__ = None
+    cls.__dataclass_params__ = _PARAMS[frozen]
+    cls.__dataclass_fields__ = _Late(cls, "__dataclass_fields__", partial(_fields, cls, kw_only))
+    for name in [name for name, value in cls.__dict__.items() if isinstance(value, Field)]:
+        default = cls.__dataclass_fields__[name].default
+        delattr(cls, name) if default is MISSING else setattr(cls, name, default)
+    return cls  # type: ignore[no-any-return]
 
 
-def _own_fields(cls: Any, kw_only: bool) -> dict[str, Any]:
-    """The fields that a class itself declares, read by the standard decorator from a class without bases."""
-    notes = get_annotations(cls)
-    body = {name: getattr(cls, name) for name in notes if hasattr(cls, name)}
-    body |= {"__module__": cls.__module__, "__annotations__": notes, "__doc__": "its fields"}
-    plain: Any = type(cls.__name__, (), body)
-    found = standard(plain, init=False, repr=False, eq=False, kw_only=kw_only, match_args=False)
-    return dict(found.__dataclass_fields__)
+class _Late:
+    """Stands for an attribute of a class until it is wanted."""
+
+    def __init__(self, cls: Any, name: str, make: Callable[[], Any]) -> None:
+        self.cls, self.name, self.make = cls, name, make
+
+    def __get__(self, instance: object, owner: type | None = None) -> Any:
+        setattr(self.cls, self.name, self.make())
+        return getattr(owner if instance is None else instance, self.name)
 
 
 def _params(frozen: bool) -> Any:
@@ -81,16 +76,22 @@ def _params(frozen: bool) -> Any:
 _PARAMS = {frozen: _params(frozen) for frozen in (False, True)}
 
 
-class _Written:
-    """``__init__`` of a class, written when it is first wanted."""
+def _fields(cls: Any, kw_only: bool) -> dict[str, Any]:
+    """The fields of a class, its own read by the standard decorator from a class without bases."""
+    known: dict[str, Any] = {}
+    for base in cls.__mro__[:0:-1]:
+        known |= getattr(base, "__dataclass_fields__", {})
+    notes = get_annotations(cls)
+    body = {name: getattr(cls, name) for name in notes if hasattr(cls, name)}
+    body |= {"__module__": cls.__module__, "__annotations__": notes, "__doc__": "its fields"}
+    plain: Any = type(cls.__name__, (), body)
+    own: Any = standard(plain, init=False, repr=False, eq=False, kw_only=kw_only, match_args=False)
+    known |= own.__dataclass_fields__
+    return known
 
-    def __init__(self, cls: type, frozen: bool) -> None:
-        self.cls, self.frozen = cls, frozen
 
-    def __get__(self, instance: object, owner: type | None = None) -> Any:
-        made: Any = self.cls
-        made.__init__ = _init(self.cls, self.frozen)
-        return made.__init__.__get__(instance, owner)
+def _matched(cls: Any) -> tuple[str, ...]:
+    return tuple(each.name for each in fields(cls) if each.init and not each.kw_only)
 
 
 def _init(cls: Any, frozen: bool) -> Any:
@@ -132,12 +133,15 @@ class _None:
 _NONE = _None()
 
 
-def _reader(names: Sequence[str]) -> Callable[[Any], Any]:
-    """What takes the values of the attributes, as one tuple."""
+def _reader(cls: Any) -> Callable[[Any], Any]:
+    """What takes the values that are compared, as one tuple."""
+    names = [each.name for each in fields(cls) if each.compare]
     return attrgetter(*names) if len(names) > 1 else lambda self: tuple(getattr(self, name) for name in names)
 
 
-def _repr(names: Sequence[str]) -> Callable[[Any], str]:
+def _repr(cls: Any) -> Callable[[Any], str]:
+    names = [each.name for each in fields(cls) if each.repr]
+
     @recursive_repr()
     def __repr__(self: Any) -> str:
         shown = ", ".join(f"{name}={getattr(self, name)!r}" for name in names)
@@ -146,7 +150,9 @@ def _repr(names: Sequence[str]) -> Callable[[Any], str]:
     return __repr__
 
 
-def _eq(values: Callable[[Any], Any]) -> Callable[[Any, object], Any]:
+def _eq(cls: Any) -> Callable[[Any, object], Any]:
+    values = _reader(cls)
+
     def __eq__(self: Any, other: object) -> Any:
         if other.__class__ is not self.__class__:
             return NotImplemented
@@ -155,15 +161,28 @@ def _eq(values: Callable[[Any], Any]) -> Callable[[Any, object], Any]:
     return __eq__
 
 
-def _locks(cls: Any, names: frozenset[str]) -> dict[str, Any]:
+def _hash(cls: Any) -> Callable[[Any], int]:
+    values = _reader(cls)
+    return lambda self: hash(values(self))
+
+
+def _setattr(cls: Any) -> Callable[[Any, str, object], None]:
+    names = frozenset(each.name for each in fields(cls))
+
     def __setattr__(self: Any, name: str, value: object) -> None:
         if type(self) is cls or name in names:
             raise FrozenInstanceError(f"cannot assign to field {name!r}")
         super(cls, self).__setattr__(name, value)
+
+    return __setattr__
+
+
+def _delattr(cls: Any) -> Callable[[Any, str], None]:
+    names = frozenset(each.name for each in fields(cls))
 
     def __delattr__(self: Any, name: str) -> None:
         if type(self) is cls or name in names:
             raise FrozenInstanceError(f"cannot delete field {name!r}")
         super(cls, self).__delattr__(name)
 
-    return {"__setattr__": __setattr__, "__delattr__": __delattr__}
+    return __delattr__

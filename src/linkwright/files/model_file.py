@@ -6,18 +6,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Mapping, Node, Scalar
 from linkwright.files.compose import compose
 from linkwright.files.read_model import read_model
 from linkwright.files.source import gallery_names, read_source
-from linkwright.files.write import dump
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.files.document import Document
 
-__all__ = ["check", "dump", "gallery_names", "load", "loads", "read_document"]
+__all__ = ["check", "gallery_names", "load", "loads", "read_document"]
 
 
 def load(source: str | Path) -> Mechanism:
@@ -59,11 +58,23 @@ def read_document(source: str | Path) -> Document:
 
 def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
     """The mechanism of a text, or None where there is an error, and all findings."""
-    root, findings = read_root(text, name)
+    return read_tree(*read_root(text, name), name)
+
+
+def read_tree(
+    root: Node | None, findings: list[Finding], name: str
+) -> tuple[Mechanism | None, list[Finding]]:
+    """The mechanism of what :func:`read_root` gives, or None where there is an error, and all findings."""
     if root is None:
         return None, findings
     mechanism, found = read_model(root, name)
     return (None if findings else mechanism), findings + found
+
+
+def declared_kind(root: Node | None) -> str | None:
+    """The kind of calculation that a tree declares; None of a model."""
+    node = root.get("kind") if isinstance(root, Mapping) else None
+    return node.text if isinstance(node, Scalar) else None
 
 
 def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 from linkwright.core.dataclass import dataclass
@@ -147,7 +147,7 @@ class PlainReader:
         )
         return None
 
-    def word(self, node: Node, place: Place | str, choices: tuple[str, ...]) -> str | None:
+    def word(self, node: Node, place: Place | str, choices: Collection[str]) -> str | None:
         """One of a few words."""
         text = self.text(node, place)
         if text is None or text in choices:

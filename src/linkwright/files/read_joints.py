@@ -9,7 +9,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
-from linkwright.joints.base import JOINTS, Entry, Joint, implied_joint, implied_kind
+from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
 from linkwright.words.sentence import Sentence
 
@@ -22,10 +22,10 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         else []
     )
     reader.names.pins = _implied_pins(reader.names.links, [value for _, value in declared])
-    reader.names.joints = dict.fromkeys(reader.names.pins, implied_kind())
+    reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
     for key, value in declared:
         kind = _word(value, "kind")
-        if kind in JOINTS and not JOINTS[kind].implied:
+        if kind in JOINTS and kind != IMPLIED:
             reader.names.joints[key] = kind
 
 
@@ -69,7 +69,7 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
         joint = None if name is None else _read_joint(reader, entry.value, name, links)
         if joint is None or name is None:
             continue
-        if name in joints and not joint.implied:
+        if name in joints and joint.kind != IMPLIED:
             reader.error(
                 entry.key,
                 f"joints.{name}",

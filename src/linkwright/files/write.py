@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.drivers.base import Driver
 from linkwright.fields.base import written_quantity
 from linkwright.files.read_links import LINK_FIELDS
-from linkwright.joints.base import Joint
+from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
 from linkwright.units import NONE, number, si_symbol
@@ -119,7 +119,7 @@ def _as_drawn(link: Link, drawn: Mapping[str, Vec]) -> int:
 
 def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
     values, fields = joint.written(), joint.fields()
-    if not values and joint.implied:
+    if not values and joint.kind == IMPLIED:
         return None
     values |= {key: 0.0 for key in fields if f"{joint.name}.{key}" in texts}
     written = {

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from linkwright.core.dataclass import dataclass
@@ -169,8 +168,7 @@ class Joint(ABC):
     ``freedoms`` it leaves of three; ``letter`` in signatures; ``coordinate``: what it is measured by as a joint of a
     chain, ``turn`` (rad), ``slide`` (m) or nothing; ``higher``: a pair of one row, which no link hangs on;
     ``rotations_only``: whether that row touches rotations alone;
-    ``couples``: whether its reaction has a couple about the place that :meth:`acts_at` gives;
-    ``implied``: whether it is what a point of several links implies, made from its name and those links.
+    ``couples``: whether its reaction has a couple about the place that :meth:`acts_at` gives.
     """
 
     kind: ClassVar[str]
@@ -180,7 +178,6 @@ class Joint(ABC):
     higher: ClassVar[bool] = False
     rotations_only: ClassVar[bool] = False
     couples: ClassVar[bool] = False
-    implied: ClassVar[bool] = False
     name: str
 
     @property
@@ -395,15 +392,13 @@ class LackingError(LinkwrightError):
 JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints", entry_points="linkwright.joints")
 
 
-@cache
-def implied_kind() -> str:
-    """The kind that links imply which share a point's name."""
-    return next(kind for kind in JOINTS if JOINTS[kind].implied)
+#: The kind that links imply which share a point's name.
+IMPLIED = "revolute"
 
 
 def implied_joint(name: str, links: tuple[str, ...]) -> Joint:
     """The joint of links that share the point ``name``."""
-    kind: Any = JOINTS[implied_kind()]
+    kind: Any = JOINTS[IMPLIED]
     joint: Joint = kind(name, links)
     return joint
 

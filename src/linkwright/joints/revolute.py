@@ -32,7 +32,6 @@ class RevoluteJoint(TurningJoint):
 
     kind: ClassVar[str] = "revolute"
     letter: ClassVar[str] = "R"
-    implied: ClassVar[bool] = True
 
     def dimensions(self) -> Mapping[str, float]:
         given = {f"{self.name}.friction": self.friction} if self.friction else {}

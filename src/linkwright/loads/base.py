@@ -197,7 +197,7 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
             "missing-key",
         )
         return None
-    kind = reader.word(kind_node, place.child("kind"), tuple(LOADS))
+    kind = reader.word(kind_node, place.child("kind"), LOADS)
     if kind is None:
         return None
     cls = LOADS[kind]

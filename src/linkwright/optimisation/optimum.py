@@ -87,7 +87,7 @@ class Optimum(Frozen):
     def model_text(self, index: int = 0) -> str:
         """The model file with the design's values in it; all else stays as it was written, comments too."""
         if self.document is None:
-            from linkwright.files.model_file import dump
+            from linkwright.files.write import dump
 
             return dump(self.mechanism(index))
         changed = Document(self.document.text, self.document.name, self.document._read_text)

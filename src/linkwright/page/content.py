@@ -18,7 +18,8 @@ from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
-from linkwright.files.model_file import dump, read_text
+from linkwright.files.model_file import read_text
+from linkwright.files.write import dump
 from linkwright.joints.marks import Wheels
 from linkwright.kinematics.motion import Motion
 from linkwright.page.dimensions import dimensions

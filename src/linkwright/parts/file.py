@@ -12,9 +12,9 @@ from linkwright import gallery
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Count, Field, Free, Text, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
-from linkwright.files.model_file import read_root
+from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.plain_reader import Place
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
@@ -101,9 +101,7 @@ def gallery_names() -> tuple[str, ...]:
 def kind_of(source: str | Path) -> str | None:
     """The kind that a file declares, None where it declares none; raises ModelError for no such file."""
     text, name, _ = _text(source)
-    root, _ = read_root(text, name)
-    node = root.get("kind") if isinstance(root, MappingNode) else None
-    return node.text if isinstance(node, Scalar) else None
+    return declared_kind(read_root(text, name)[0])
 
 
 def problem_class(kind: str) -> type[Problem]:

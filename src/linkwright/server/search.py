@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.files.model_file import dump
+from linkwright.files.write import dump
 from linkwright.server.background import Job, Plain
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words.sentence import Sentence

@@ -114,7 +114,7 @@ def _length(text: str, say: Say) -> float:
 
 def _model_text(found: Balancing) -> str:
     """The balanced model; masses that were expressions become the new numbers."""
-    from linkwright.files.model_file import dump
+    from linkwright.files.write import dump
 
     changed = tuple(
         f"{weight.link}.{key}"

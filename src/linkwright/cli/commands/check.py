@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from linkwright import gallery
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
@@ -39,22 +40,22 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
-    from linkwright.files.model_file import read_text
-    from linkwright.files.source import read_source
+    from linkwright.files.model_file import declared_kind, read_root, read_tree
+    from linkwright.files.source import GALLERY, read_source
     from linkwright.kinematics.analysed import analysed
     from linkwright.kinematics.passing import plainly_passed
-    from linkwright.parts.file import check as check_calculation
-    from linkwright.parts.file import kind_of
 
     try:
-        kind = kind_of(name)
-        if kind is not None:
-            return check_calculation(name), {"kind": kind}
-        text = read_source(name)
-        task = _task(*text)
+        if name.startswith(GALLERY) and name.removeprefix(GALLERY) in gallery.calculations():
+            return _of_calculation(name)
+        text, place = read_source(name)
+        root, faults = read_root(text, place)
+        if declared_kind(root) is not None:
+            return _of_calculation(name)
+        task = _task(text, place)
         if task is not None:
             return task[0], {"kind": f"synthesis, {task[1]}"}
-        mechanism, found = read_text(*text)
+        mechanism, found = read_tree(root, faults, place)
     except ModelError as error:
         return list(error.findings), {}
     if mechanism is None:
@@ -70,6 +71,12 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
     return [*found, *turned, *_of_settings(name, mechanism), *notes], fact
+
+
+def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
+    from linkwright.parts.file import check, kind_of
+
+    return check(name), {"kind": kind_of(name)}
 
 
 def _task(text: str, name: str) -> tuple[list[Finding], str] | None:

@@ -23,7 +23,7 @@ def content(results: Results, *, indent: int = 1) -> bytes:
 
 def _data(results: Results) -> dict[str, Any]:
     from linkwright import __version__
-    from linkwright.files.model_file import dump
+    from linkwright.files.write import dump
 
     motion, mechanism = results.motion, results.mechanism
     notes = (*motion.notes, *(results.forces.notes if results.forces is not None else ()))
