@@ -15,7 +15,6 @@ from functools import cache
 
 from linkwright.engine.ir_kernel import Block
 from linkwright.engine.kernel import (
-    LANES,
     Kernels,
     Reals,
     Vector,
@@ -31,6 +30,7 @@ from linkwright.engine.kernel import (
     store,
     total,
 )
+from linkwright.engine.kernel_writer import LANES
 
 POINTS, HALF, HALF_LOOKS = 16, 8, 12
 LAST, UP_TO, LEGENDRE = 0, 48, 304

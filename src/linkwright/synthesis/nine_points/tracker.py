@@ -93,7 +93,7 @@ class _Paths:
 
     def run_compiled(self) -> Ends:
         """The same steps in compiled code."""
-        from linkwright.engine.kernel import LANES
+        from linkwright.engine.kernel_writer import LANES
         from linkwright.synthesis.nine_points.kernels import ROOM, kernels
 
         rows, arrived, room = self.done.T.copy(), np.zeros(len(self.arrived)), np.zeros(ROOM)
