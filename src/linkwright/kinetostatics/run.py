@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats, over_cycle
+from linkwright.kinematics.cycle import Floats, Positions, over_cycle
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
@@ -36,7 +37,7 @@ def run_forces(
     ``signals``: what its loads follow, where more of its cycle is known than the motion tells.
     """
     solver = solver or ForceSolver(motion.solver, inertia=not static)
-    fields = _load_fields(motion, solver.fields_needed(), signals)
+    fields = _load_fields(motion, solver.fields_needed(), signals or MotionSignals(motion))
     if solver.friction.terms:
         fields = _with_friction(motion, solver, fields)
     return _evaluated(motion, solver, fields, static)
@@ -50,27 +51,42 @@ def forces_at_once(mechanism: Mechanism, steps: int, static: bool) -> Forces | N
     """
     run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps))
     solver = ForceSolver(run.solver, inertia=not static)
-    if run.solver.motion.next_states or solver.friction.terms or run.measures is None:
+    if run.measures is None:
         return None
-    names, program = solver.programs.at_once(run.measures)
-    index, motions = run.solver.programs.places(names), list[Motion]()
-    fields: dict[str, Floats] = {}
+    found = solved_at_once(solver, run.solver.nominal, run.positions, run.seen, run.measures)
+    return found and _with_notes(found)
+
+
+def solved_at_once(
+    solver: ForceSolver,
+    design: Design,
+    positions: Positions,
+    motion_of: Callable[[Rows], Motion | None],
+    measures: tuple[str, ...] = (),
+    signals_of: Callable[[Motion], MotionSignals] = MotionSignals,
+) -> Forces | None:
+    """Forces, without notes, of the motion that ``motion_of`` makes of rows with what it stores and the ``measures``.
+
+    None where that gives none, and for groups that are followed, and for friction.
+    """
+    if solver.motion.motion.next_states or solver.friction.terms:
+        return None
+    names, program = solver.programs.at_once(measures)
+    index, motions, fields = solver.motion.programs.places(names), list[Motion](), dict[str, Floats]()
 
     def loads(values: Floats) -> dict[str, Floats] | None:
-        motion = run.seen(Rows(values, index))
+        motion = motion_of(Rows(values, index))
         if motion is None:
             return None
         motions.append(motion)
-        fields.update(_load_fields(motion, program.program.fields, None))
+        fields.update(_load_fields(motion, program.program.fields, signals_of(motion)))
         return fields
 
-    parameters = run.solver.nominal.parameters
-    numbers = [parameters[name] for name in program.program.parameters]
-    positions = run.positions
+    numbers = [design.parameters[name] for name in program.program.parameters]
     if program.run_in_turn(numbers, positions.arrays, loads, length=positions.count) is None:
         return None
-    motion = motions[0]
-    return _with_notes(Forces(motion, solver, fields, static, motion.rows, _indeterminate(motion)))
+    (motion,) = motions
+    return Forces(motion, solver, fields, not solver.inertia, motion.rows)
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
@@ -79,11 +95,11 @@ def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], s
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: i for i, name in enumerate(names)})
-    return _with_notes(Forces(motion, solver, fields, static, rows, _indeterminate(motion)))
+    return _with_notes(Forces(motion, solver, fields, static, rows))
 
 
 def _with_notes(forces: Forces) -> Forces:
-    forces.notes = (*forces.notes, *_contacts_lost(forces))
+    forces.notes = (*_indeterminate(forces.motion), *_contacts_lost(forces))
     return forces
 
 
@@ -115,11 +131,10 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals | None) -> dict[str, Floats]:
+def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -> dict[str, Floats]:
     """Load magnitudes that depend on the position; friction starts from zero."""
     from linkwright.loads.magnitude import evaluate
 
-    signals = signals or MotionSignals(motion)
     fields: dict[str, Floats] = {}
     for name in names:
         kind, _, key = name.partition(":")

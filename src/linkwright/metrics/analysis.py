@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Piecewise, largest, nodes
+from linkwright.core.piecewise import POINTS, Piecewise, largest
 from linkwright.core.search import lowest
 from linkwright.engine.recent import Recent
 from linkwright.fields.signals import Output
@@ -196,8 +196,7 @@ class Analysis:
         curve = self.grid.curve(signal, "forces", halve=True)
         mean = curve.total / (self.grid.end - self.grid.start)
         work = Piecewise(curve.edges, mean - curve.values).integral()
-        energy = Piecewise(curve.edges, work(nodes(curve.edges).ravel()).reshape(-1, POINTS))
-        least, most = energy.extremes()
+        least, most = Piecewise(curve.edges, work.at_nodes).extremes()
         return float(abs(self.input_rate[0])) * (most.value - least.value)
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
@@ -307,35 +306,40 @@ class Analysis:
         return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
 
     def extremes_between(
-        self, signal: Callable[[Motion], Floats], kind: Kind, spans: Sequence[tuple[float, float]]
+        self,
+        kind: Kind,
+        wanted: Sequence[tuple[Callable[[Any], Floats], tuple[float, float]]],
+        of: str = "motion",
     ) -> list[Extreme | None]:
-        """The same between pairs of times, s, both among the candidates; None where resolving is not possible."""
+        """The same of signals, each between a pair of times, s, both among the candidates; None where nothing can be
+        solved between the positions."""
         if not self.resolver.possible:
-            return [None] * len(spans)
-        if spans and self.grid is not None and all(self.grid.start <= start < end for start, end in spans):
-            found = self.grid.extremes_between(self.grid.curve(signal, "motion"), kind, spans)
+            return [None] * len(wanted)
+        grid = self.grid
+        if wanted and grid is not None and all(grid.start <= start < end for _, (start, end) in wanted):
+            found = grid.extremes_between(kind, [(grid.curve(signal, of), span) for signal, span in wanted])
             if all(each.smooth for each in found):
                 return [
                     Extreme(each.value, each.place, self.resolver.input_at(each.place), True)
                     for each in found
                 ]
-        return [self._extreme_between(signal, kind, *span) for span in spans]
+        return [self._extreme_between(signal, kind, of, *span) for signal, span in wanted]
 
     def _extreme_between(
-        self, signal: Callable[[Motion], Floats], kind: Kind, start: float, end: float
+        self, signal: Callable[[Any], Floats], kind: Kind, of: str, start: float, end: float
     ) -> Extreme | None:
         """The same between two times, from samples."""
         sign = 1.0 if kind == "max" else -1.0
         count = 361
         time = np.linspace(start, end, count)
-        values = sign * signal(self.resolver.at(time, "motion"))
+        values = sign * signal(self.resolver.at(time, of))
         if not np.isfinite(values).any():
             return None
         best = int(np.nanargmax(values))
         at = float(time[best])
         first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
         low, high = time[[max(best - 1, 0)]], time[[min(best + 1, count - 1)]]
-        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, "motion")), low, high, sign, first)
+        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, first)
 
     def _narrowed(
         self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme

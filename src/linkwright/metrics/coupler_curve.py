@@ -123,7 +123,7 @@ def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot
     ):
         t = float(analysis.motion.time[i])
         (low,) = analysis.extremes_between(
-            lambda m: np.hypot(*m.point(point).velocity.T), "min", [(t - step, t + step)]
+            "min", [(lambda m: np.hypot(*m.point(point).velocity.T), (t - step, t + step))]
         )
         if low is not None and low.value <= STANDING * mean:
             x, y = analysis.resolver.motion(np.array([low.time])).point(point).position[0]

@@ -95,13 +95,11 @@ class CycleGrid:
         return Piecewise(self.edges, pieces, self._function(signal, of), self.edges, tolerance)
 
     def extremes_between(
-        self, curve: Piecewise, kind: str, spans: Sequence[tuple[float, float]]
+        self, kind: str, wanted: Sequence[tuple[Piecewise, tuple[float, float]]]
     ) -> list[Extreme]:
-        """The largest or smallest values of a curve between pairs of times, the second perhaps in the next cycle."""
+        """The largest or smallest values of curves between pairs of times, the second perhaps in the next cycle."""
         period = self.end - self.start
-        edges = np.append(curve.edges, curve.edges[1:] + period)
-        twice = Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
-        found = extremes_of([(twice.part(*span), kind) for span in spans])
+        found = extremes_of([(_twice(curve, period).part(*span), kind) for curve, span in wanted])
         return [
             each if each.place <= self.end else replace(each, place=each.place - period) for each in found
         ]
@@ -179,6 +177,12 @@ class CycleGrid:
             return np.empty(0)
         before = where[steps]
         return ends(lambda at: self.resolver.active(phase, at) == before, time[steps], time[steps + 1])
+
+
+def _twice(curve: Piecewise, period: float) -> Piecewise:
+    """Two cycles of a curve."""
+    edges = np.append(curve.edges, curve.edges[1:] + period)
+    return Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
 
 
 def cycle_grid(resolver: Resolver, motion: Motion, forces: Forces | None) -> CycleGrid | None:

@@ -9,10 +9,10 @@ from linkwright.kinematics.cycle import Floats
 
 #: Rounds in which points that are no corners are left out all at once.
 ROUNDS = 6
-#: Of more points than this those inside a polygon are left out first; whose corners are the farthest that way.
-MANY = 400
+#: Of more points than this those inside a polygon are left out first, of yet more those inside a finer one, too.
+MANY, MORE = 400, 1000
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
-_DIRECTIONS = np.stack([np.cos(_AROUND), np.sin(_AROUND)])
+_DIRECTIONS = np.stack([np.cos(_AROUND), np.sin(_AROUND)], axis=1)
 
 
 def cross(a: Floats, b: Floats) -> Floats:
@@ -30,34 +30,51 @@ def convex_hull(points: Floats) -> Floats:
 
 
 def _outer(points: Floats) -> Floats:
-    """The points (m, 2) that do not lie clearly inside the polygon of those farthest in some directions."""
-    ring = points[(points @ _DIRECTIONS).argmax(axis=0)]
-    side = ring[[*range(1, len(ring)), 0]] - ring
-    length = np.hypot(side[:, 0], side[:, 1])
-    ring, side, length = ring[length > 0.0], side[length > 0.0], length[length > 0.0]
-    normal = np.stack([-side[:, 1], side[:, 0]]) / length
-    edge = (ring.T * normal).sum(axis=0) + 1e-12 * np.abs(points).max()
-    return points if len(side) < 3 else points[(points @ normal <= edge).any(axis=1)]
+    """The points (m, 2) that do not lie clearly inside a polygon of those farthest in some directions, and where they
+    are many of those farthest beyond its sides."""
+    along = np.ascontiguousarray(points.T)
+    ring, slack = points[(_DIRECTIONS @ along).argmax(axis=1)], 1e-12 * float(np.abs(along).max())
+    for _ in range(1 if len(points) < MORE else 2):
+        side = ring[[*range(1, len(ring)), 0]] - ring
+        length = np.hypot(side[:, 0], side[:, 1])
+        ring, side, length = ring[length > 0.0], side[length > 0.0], length[length > 0.0]
+        if len(ring) < 3:
+            return points
+        outward = np.stack([side[:, 1] / length, -side[:, 0] / length], axis=1)
+        reach, edge = outward @ along, (ring * outward).sum(axis=1) - slack
+        beyond = (reach >= edge[:, None]).any(axis=0)
+        points, along, reach = points[beyond], along[:, beyond], reach[:, beyond]
+        ring = np.stack([ring, points[reach.argmax(axis=1)]], axis=1).reshape(-1, 2)
+    return points
 
 
 def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """The corners below a chain that goes to the right, all but the last: none is what does not lie below the line
-    between two others, first of all points at the same time, then one by one."""
+    between two others, first of all points at the same time, then of those beside what was left out."""
     for _ in range(ROUNDS):
-        step = np.diff(chain)
-        kept = step[:-1].real * step[1:].imag - step[:-1].imag * step[1:].real > 0.0
-        if kept.all():
+        bends = _bends(chain)
+        if bends.all():
             return chain[:-1]
-        chain = chain[np.concatenate([[True], kept, [True]])]
-    corners: list[complex] = []
-    for z in chain.tolist():
-        while len(corners) > 1:
-            a, b = corners[-1] - corners[-2], z - corners[-1]
-            if a.real * b.imag - a.imag * b.real > 0.0:
-                break
-            corners.pop()
-        corners.append(z)
-    return np.array(corners[:-1])
+        chain = chain[np.concatenate([[True], bends, [True]])]
+    places, last = chain.tolist(), len(chain) - 1
+    before, after, there = [*range(-1, last)], [*range(1, last + 2)], [True] * (last + 1)
+    doubtful = (np.flatnonzero(~_bends(chain)) + 1).tolist()
+    while doubtful:
+        k = doubtful.pop()
+        if not there[k] or not 0 < k < last:
+            continue
+        i, j = before[k], after[k]
+        a, b = places[k] - places[i], places[j] - places[k]
+        if not a.real * b.imag - a.imag * b.real > 0.0:
+            there[k], after[i], before[j] = False, j, i
+            doubtful += [i, j]
+    return chain[there][:-1]
+
+
+def _bends(chain: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    """Where a chain bends to the left, its ends left out."""
+    step = np.diff(chain)
+    return np.asarray(step[:-1].real * step[1:].imag - step[:-1].imag * step[1:].real > 0.0)
 
 
 def area(corners: Floats) -> float:

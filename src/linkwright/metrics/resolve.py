@@ -54,8 +54,32 @@ class Resolver:
 
     def at(self, time: Floats, of: str = "motion") -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s."""
-        motion = self.motion(time)
-        return self.forces(motion) if of == "forces" else motion
+        if of != "forces":
+            return self.motion(time)
+        return self._at_once(time) or self.forces(self.motion(time))
+
+    def _at_once(self, time: Floats) -> Forces | None:
+        """Forces with their motion in one evaluation, where all positions are reached and no mode changes."""
+        from linkwright.kinetostatics.run import solved_at_once
+
+        known = self._motion
+        assert self._forces is not None
+        if known.modes:
+            return None
+        positions = at_times(known.mechanism, time)
+
+        def motion(rows: Rows) -> Motion | None:
+            found = Motion(known.solver, known.design, positions, {}, {}, rows)
+            return found if found.ok.all() else None
+
+        return solved_at_once(
+            self._forces.solver,
+            known.design,
+            positions,
+            motion,
+            (),
+            lambda each: _SameCycle(each, self._signals),
+        )
 
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import ClassVar
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.names import vector_names
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.plane import area, convex_hull
@@ -27,16 +28,16 @@ class SweptArea(Metric):
         motion = analysis.motion
         if not motion.ok.any():
             return
-        tracks: dict[str, Floats] = {}
-        hulls: dict[str, Floats] = {}
-        for name, link in motion.mechanism.links.items():
-            keys = [motion.point(f"{name}.{point}").name for point in link.points]
-            for key in keys:
-                if key not in tracks:
-                    tracks[key] = convex_hull(motion.point_of(key).position[motion.ok])
-            hulls[name] = convex_hull(np.vstack([tracks[key] for key in keys]))
+        keys = {
+            name: [motion.point(f"{name}.{point}").name for point in link.points]
+            for name, link in motion.mechanism.links.items()
+        }
+        moving = dict.fromkeys(chain.from_iterable(keys.values()))
+        motion.evaluate_together(chain.from_iterable(vector_names("p", key) for key in moving))
+        tracks = {key: convex_hull(motion.vector("p", key)[motion.ok]) for key in moving}
+        hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
-        everything = np.vstack([*hulls.values(), frame])
+        everything = np.vstack([*tracks.values(), frame])
         width, height = (shown(float(side), "length") for side in np.ptp(everything, axis=0))
         remark = Remark("swept_area.box", {"width": width, "height": height})
         whole = area(convex_hull(everything))

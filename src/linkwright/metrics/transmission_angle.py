@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import radians
 from typing import Any, ClassVar
 
@@ -62,19 +63,21 @@ class TransmissionAngleOfStroke(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         period = analysis.motion.positions.period or 0.0
-        for group, output in _driven_dyads(analysis):
-            limits = analysis.limits(output)
-            signal = analysis.signal(f"transmission_angle {group.name}")
-            strokes = list(zip(limits, [*limits[1:], *limits[:1]], strict=True))
-            spans = [
-                (first.time, last.time if last.time > first.time else last.time + period)
-                for first, last in strokes
-            ]
-            lowest = analysis.extremes_between(signal, "min", spans)
-            for (first, last), found in zip(strokes, lowest, strict=True):
-                if found is not None:
-                    subject = f"{group.name}: {output} {first.kind}→{last.kind}"
-                    yield self.value(analysis, subject, found.value, **_where(found))
+        strokes = [
+            (group, output, first, last)
+            for group, output in _driven_dyads(analysis)
+            for first, last in pairwise([*analysis.limits(output), analysis.limits(output)[0]])
+        ]
+        signals = {group.name: analysis.signal(f"transmission_angle {group.name}") for group, *_ in strokes}
+        wanted = [
+            (signals[group.name], (first.time, last.time + (0.0 if last.time > first.time else period)))
+            for group, _, first, last in strokes
+        ]
+        lowest = analysis.extremes_between("min", wanted, "motion" if analysis.forces is None else "forces")
+        for (group, output, first, last), found in zip(strokes, lowest, strict=True):
+            if found is not None:
+                subject = f"{group.name}: {output} {first.kind}→{last.kind}"
+                yield self.value(analysis, subject, found.value, **_where(found))
 
 
 def _where(found: Extreme) -> dict[str, Any]:
