@@ -394,7 +394,7 @@ def test_changed_assemblies_are_certified_as_by_the_solver(
         fixed = kept_open.run("s => s.data.loops.fixed")
         if set(changed) & set(fixed):
             assert kept_open.run("s => s.model.uncertain") is None
-            kept_open.run("s => s.undo()")
+            kept_open.run("s => s.history.undo()")
             continue
         followed = lw.solve_motion(mechanism.with_dimensions(changed), steps=STEPS).followed
         assert followed is not None

@@ -5,7 +5,7 @@ import { useEffect, useState } from "preact/hooks";
 import { Comparison } from "./compare";
 import { Curves } from "./curves";
 import type { Dimension } from "./data";
-import { type History, type Page, save } from "./living";
+import { type Page, save } from "./living";
 import { Machine } from "./machine";
 import { isForce } from "./numbers";
 import type { Session } from "./session";
@@ -237,7 +237,7 @@ function Tolerance({ page, session }: { page: Page; session: Session }) {
 // the whole ------------------------------------------------------------------------------
 
 function Tools({ page, session }: { page: Page; session: Session }) {
-  const history: History = (session.number ? null : page.history) ?? session;
+  const history = (session.number ? null : page.history) ?? session.history;
   useShown(session, () => [history.undoable, history.redoable, session.model.differs].join());
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const download = () => {
@@ -359,7 +359,7 @@ export function keys(page: Page): void {
     const which = event.key.toLowerCase();
     if ((event.ctrlKey || event.metaKey) && (which === "z" || which === "y") && !(at instanceof HTMLTextAreaElement) && at.getAttribute("type") !== "number") {
       event.preventDefault();
-      const history = page.history ?? page.sessions.find((each) => each.view?.svg.contains(at)) ?? page.sessions[0];
+      const history = page.history ?? (page.sessions.find((each) => each.view?.svg.contains(at)) ?? page.sessions[0]).history;
       if (which === "y" || event.shiftKey) history.redo();
       else history.undo();
     }

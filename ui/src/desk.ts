@@ -1,6 +1,7 @@
 // The open file of the studio: its text with all its steps, what is found in it, the machine that it makes.
 import { signal } from "@preact/signals";
 import { bytes, type ModelData } from "./data";
+import { History } from "./history";
 import { save, type Page } from "./living";
 import { code, type Values } from "./solver";
 import type { Action, Picture } from "./paper";
@@ -70,8 +71,7 @@ export class Desk {
   readonly sought = signal<Sought | null>(null);
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
-  private past: string[] = [];
-  private future: string[] = [];
+  readonly history = new History<string>(() => this.text.value, (text) => this.put(text, 0));
   private version = "";
   private serial = 0;
   private stale = false;
@@ -83,7 +83,7 @@ export class Desk {
   pending = 0;
 
   constructor(readonly page: Page) {
-    page.history = this;
+    page.history = this.history;
     window.setInterval(() => void this.watch(), WATCH);
   }
 
@@ -108,34 +108,10 @@ export class Desk {
     return null;
   }
 
-  get undoable(): boolean {
-    return this.past.length > 0;
-  }
-
-  get redoable(): boolean {
-    return this.future.length > 0;
-  }
-
-  undo(): void {
-    this.go(this.past, this.future);
-  }
-
-  redo(): void {
-    this.go(this.future, this.past);
-  }
-
-  private go(from: string[], to: string[]): void {
-    const text = from.pop();
-    if (text === undefined) return;
-    to.push(this.text.value);
-    this.put(text, 0);
-  }
-
   /** Takes a text as a step of its own. */
   change(text: string, wait = 0): void {
     if (text === this.text.value) return;
-    this.past.push(this.text.value);
-    this.future = [];
+    this.history.mark();
     this.put(text, wait);
   }
 
@@ -196,7 +172,8 @@ export class Desk {
     const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
     if (!opened) return;
     this.name.value = opened.name;
-    [this.version, this.serial, this.past, this.future] = [opened.version, opened.serial, [], []];
+    [this.version, this.serial] = [opened.version, opened.serial];
+    this.history.clear();
     this.elsewhere.value = null;
     this.onDisk.value = "";
     this.text.value = opened.text;

@@ -2,17 +2,11 @@
 import { signal } from "@preact/signals";
 import type { Group, PageData } from "./data";
 import type { Values, Wall } from "./solver";
+import type { History } from "./history";
 import type { Session } from "./session";
 import { digits, quantity, Words } from "./words";
 
 const CYCLE_SECONDS = [2, 6];
-
-export interface History {
-  undo(): void;
-  redo(): void;
-  undoable: boolean;
-  redoable: boolean;
-}
 
 export class Page {
   readonly words: Words;
@@ -22,7 +16,7 @@ export class Page {
   readonly pace = signal(1);
   readonly note = signal("");
   /** Steps back and forth beyond those of the machines, where texts are changed as well. */
-  history: History | null = null;
+  history: History<string> | null = null;
   private last = 0;
   private waiting: (() => void) | null = null;
 

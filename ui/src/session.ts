@@ -4,6 +4,7 @@ import type { ModelData } from "./data";
 import { type Design, Model } from "./model";
 import type { Values } from "./solver";
 import type { Code } from "./engine";
+import { History } from "./history";
 import type { Shown, View } from "./view";
 
 export interface Variant {
@@ -48,8 +49,7 @@ export class Session {
   moving = false;
   /** Called when a change has ended. */
   ended: (() => void) | null = null;
-  private past: Values[] = [];
-  private future: Values[] = [];
+  readonly history = new History<Values>(() => ({ ...this.model.values }), (values) => this.go(values));
   private counted = 0;
   private resting = 0;
 
@@ -80,16 +80,15 @@ export class Session {
   /** A change begins: what was before can be had back. */
   begin(): void {
     this.moving = true;
-    this.past.push({ ...this.model.values });
-    this.future = [];
+    this.history.mark();
   }
 
   /** A change has ended; one that changed nothing leaves no step behind. What a hand has moved (`roughly`) is rounded. */
   end(roughly = false): void {
     this.moving = false;
-    const before = this.past[this.past.length - 1];
+    const { before } = this.history;
     if (roughly && before && !this.model.wall) this.round(before);
-    if (before && same(before, this.model.values)) this.past.pop();
+    if (before && same(before, this.model.values)) this.history.unmark();
     if (this.view?.outside) this.view.fit();
     this.sweep(this.swept.value);
     this.touched();
@@ -121,29 +120,6 @@ export class Session {
     const close = (address: string) => Math.abs(this.model.values[address] - old.model.values[address]) <= 1e-9 * Math.abs(this.model.values[address]);
     if (this.data.dimensions.every(({ address }) => close(address))) this.model.wall = old.model.wall;
     for (const address of old.model.locked) if (address in this.model.values) this.model.locked.add(address);
-  }
-
-  get undoable(): boolean {
-    return this.past.length > 0;
-  }
-
-  get redoable(): boolean {
-    return this.future.length > 0;
-  }
-
-  undo(): void {
-    this.step(this.past, this.future);
-  }
-
-  redo(): void {
-    this.step(this.future, this.past);
-  }
-
-  private step(from: Values[], to: Values[]): void {
-    const values = from.pop();
-    if (!values) return;
-    to.push({ ...this.model.values });
-    this.go(values);
   }
 
   /** Takes given values as a step of its own. */

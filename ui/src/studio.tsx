@@ -173,8 +173,8 @@ function Bar({ desk }: { desk: Desk }) {
         </select>
       )}
       <button aria-pressed={desk.drawing.value} onClick={() => (desk.drawing.value = !desk.drawing.value)}>{desk.say(desk.drawing.value ? "run" : "draw")}</button>
-      <button disabled={!desk.undoable} onClick={() => desk.undo()}>{page.say("undo")}</button>
-      <button disabled={!desk.redoable} onClick={() => desk.redo()}>{page.say("redo")}</button>
+      <button disabled={!desk.history.undoable} onClick={() => desk.history.undo()}>{page.say("undo")}</button>
+      <button disabled={!desk.history.redoable} onClick={() => desk.history.redo()}>{page.say("redo")}</button>
       <button class="language" lang={page.language.value === "en" ? "zh-CN" : "en"} onClick={() => { page.language.value = page.language.value === "en" ? "zh" : "en"; void desk.solve(); }}>{page.say("language")}</button>
     </div>
   );

@@ -5,14 +5,15 @@ import type { Values } from "./solver";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, write, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
-// Paper narrower than this has smaller symbols, at least this share of their size.
-const WIDE = 560, SMALLEST = 0.6;
+// Paper narrower than this has smaller symbols, at least this share of their size; more points than these count as
+// narrower paper. Symbols smaller than the last share have names without their links.
+const WIDE = 560, SMALLEST = 0.42, POINTS = 10, SHORT = 0.75;
 const COLOURS = 4;
 // Fewer ghosts than these are drawn as strongly as paths.
 const FEW = 12;
@@ -79,7 +80,9 @@ export class View {
   /** On narrow paper symbols are drawn smaller: `zoom` pixels are one unit of the picture. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
-    this.zoom = Math.min(1, Math.max(SMALLEST, width / WIDE));
+    const crowded = Math.min(1, Math.sqrt(POINTS / this.labels.size));
+    this.zoom = Math.min(1, Math.max(SMALLEST, (crowded * width) / WIDE));
+    for (const [key, label] of this.labels) write(label, this.zoom < SHORT ? key.replace(/.*\./, "") : key);
     [this.width, this.height] = [width / this.zoom, height / this.zoom];
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     for (const handle of this.handles.values()) handle.setAttribute("r", String(13 / this.zoom));
@@ -168,7 +171,7 @@ export class View {
     if (!this.shown.names) return;
     const used: [number, number, number][] = [], size = 14 / Math.sqrt(this.zoom);
     for (const [key, label] of this.labels) {
-      const [x, y] = this.at(key, i), wide = 0.52 * size * key.length + 3;
+      const [x, y] = this.at(key, i), wide = 0.52 * size * label.textContent!.length + 3;
       const free = [[9, -9], [9, size + 4], [-9 - wide, -9], [-9 - wide, size + 4], [9, -9 - size], [9, 2 * size + 4]].find(([dx, dy]) =>
         x + dx > 0 && x + dx + wide < this.width && used.every(([left, top, right]) => x + dx > right || x + dx + wide < left || Math.abs(y + dy - top) > 0.85 * size),
       );
