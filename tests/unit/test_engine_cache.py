@@ -209,3 +209,113 @@ def test_a_secret_that_others_can_read_is_made_anew(base: Path, monkeypatch: pyt
     assert len(compiled) == 1
     assert secret.read_bytes() != known
     assert secret.stat().st_mode & 0o077 == 0
+
+
+@posix
+def test_code_that_others_may_read_but_not_write_is_used(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled = count_compilations(monkeypatch)
+    assert works()
+    code_file(base).chmod(0o644)
+    base.chmod(0o755)
+    assert works()
+    assert len(compiled) == 1
+
+
+def test_the_memory_keeps_what_was_used_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("LINKWRIGHT_CACHE", "off")
+    monkeypatch.setattr(cache, "_KEPT_IN_MEMORY", 2)
+    cache.forget()
+    compiled = count_compilations(monkeypatch)
+    text = "define void @{0}(ptr %p) {{\nret void\n}}\n"
+
+    def use(name: str) -> machine_code.Loaded:
+        return cache.loaded_code(name, lambda: (text.format(name), 0), name)
+
+    first = use("one")
+    assert use("one") is first and len(compiled) == 1
+    use("two")
+    assert use("one") is first
+    use("three")
+    assert use("one") is first and len(compiled) == 3
+    use("two")
+    assert len(compiled) == 4
+    cache.forget()
+    use("two")
+    assert len(compiled) == 5
+
+
+def test_code_of_another_version_is_not_found(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled = count_compilations(monkeypatch)
+    assert works()
+    assert len(cache._stamp()) == 32
+    monkeypatch.setattr(cache, "_stamp", lambda: "0" * 32)
+    assert works()
+    assert len(compiled) == 2
+    assert len(list(base.glob("*.lwcode"))) == 2
+
+
+def test_a_file_that_is_used_becomes_the_youngest(base: Path) -> None:
+    assert works()
+    os.utime(code_file(base), (1.0, 1.0))
+    assert works()
+    assert code_file(base).stat().st_mtime > 1e9
+
+
+@pytest.mark.parametrize(("spare", "left"), [(0, 3), (-1, 2), (-2, 2)])
+def test_as_many_files_go_as_are_beyond_the_limit(
+    base: Path, monkeypatch: pytest.MonkeyPatch, spare: int, left: int
+) -> None:
+    base.mkdir()
+    for k in range(3):
+        path = base / f"{k}.lwcode"
+        path.write_bytes(b"x" * (10 + k))
+        os.utime(path, (k + 1.0, k + 1.0))
+    monkeypatch.setattr(cache, "SIZE_LIMIT", 33 + spare)
+    cache._remove_oldest(base)
+    assert sorted(path.name for path in base.iterdir()) == [f"{k}.lwcode" for k in range(3 - left, 3)]
+    monkeypatch.setattr(cache, "SIZE_LIMIT", 1)
+    cache._remove_oldest(base)
+    assert list(base.iterdir()) == []
+
+
+def test_a_file_that_cannot_take_its_place_leaves_nothing_behind(
+    base: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(source: str, target: Path) -> None:
+        raise OSError("in the way")
+
+    monkeypatch.setattr(os, "replace", refused)
+    assert works()
+    assert list(base.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("platform", "variables", "want"),
+    [
+        ("linux", {"HOME": "/home/ada"}, "/home/ada/.cache/linkwright"),
+        ("linux", {"HOME": "/home/ada", "XDG_CACHE_HOME": "/fast"}, "/fast/linkwright"),
+        ("darwin", {"HOME": "/Users/ada"}, "/Users/ada/Library/Caches/linkwright"),
+        ("win32", {"HOME": "/Users/ada", "LOCALAPPDATA": "/local"}, "/local/linkwright"),
+        ("win32", {"HOME": "/Users/ada"}, "/Users/ada/AppData/Local/linkwright"),
+        ("linux", {"HOME": "/home/ada", "LINKWRIGHT_CACHE": "/mine"}, "/mine"),
+        ("linux", {"HOME": "/home/ada", "LINKWRIGHT_CACHE": "OFF"}, None),
+        ("linux", {"HOME": "/home/ada", "LINKWRIGHT_CACHE": ""}, None),
+    ],
+)
+def test_every_system_has_its_own_cache_folder(
+    monkeypatch: pytest.MonkeyPatch, platform: str, variables: dict[str, str], want: str | None
+) -> None:
+    for name in ("LINKWRIGHT_CACHE", "XDG_CACHE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(sys, "platform", platform)
+    found = cache.folder()
+    assert (None if found is None else found.as_posix()) == want
+
+
+def test_windows_knows_no_owners(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    base.mkdir()
+    base.chmod(0o777)
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert cache._is_ours(base) and cache._is_ours(base, private=True)
