@@ -174,21 +174,20 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
     )
     if lawful and (np.diff(positions.time) != 0.0).all():
         return lambda place: at_times(mechanism, np.interp(place, index, time))
-    rows = {}
-    for name, (q, rate, second) in positions.coordinates.items():
-        ahead = 2 * q[-1] - q[-2]
-        turns = np.round((ahead - q[0]) / (2 * np.pi)) if positions.rotary[name] else 0.0
-        rows[name] = [
-            np.append(q, q[0] + 2 * np.pi * turns),
-            np.append(rate, rate[0]),
-            np.append(second, second[0]),
-        ]
 
     def mixed(place: Floats) -> Positions:
-        between = {name: tuple(np.interp(place, index, row) for row in each) for name, each in rows.items()}
+        between = {
+            name: (_at(place, q), _at(place, rate), _at(place, second))
+            for name, (q, rate, second) in positions.coordinates.items()
+        }
         return Positions(np.zeros(len(place)), between, positions.rotary, False, None)
 
     return mixed
+
+
+def _at(place: Floats, row: Floats) -> Floats:
+    """A row (n,) at numbers of positions, in straight lines."""
+    return np.asarray(np.interp(place, np.arange(len(row)), row))
 
 
 class _Search:

@@ -1,0 +1,213 @@
+"""Change points and gaps of a cycle: what they cut off, which signs they turn, how finely they are sought."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.invariants.test_limits_change_points import fourbar
+
+import linkwright as lw
+from linkwright.kinematics.change_points import (
+    Passage,
+    closes,
+    cut_off,
+    is_way,
+    mark_singular,
+    notes,
+    parts,
+    passages,
+    signs,
+    way,
+)
+from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.solver import MotionSolver
+
+
+def row(
+    n: int, step: float = 0.1, closed: bool = False, cycle: bool = False, rotary: bool = True
+) -> Positions:
+    q = step * np.arange(n)
+    one = np.ones(n)
+    period = n * step if closed else None
+    return Positions(q, {"driver": (q, one, 0 * one)}, {"driver": rotary}, closed, period, cycle)
+
+
+def passage(
+    before: int, kind: Any = "change", share: float = 0.5, group: str = "a+b", **more: Any
+) -> Passage:
+    place = before + share
+    return Passage(
+        group, before, before + 1, share, 0.0, kind, 0.1 * place, more.get("flips", (place, np.inf))
+    )
+
+
+@pytest.mark.parametrize(
+    ("codes", "closed", "gaps", "breaks", "off"),
+    [
+        ([0, 0, 1, 0, 0, 0], False, [], set(), [0, 0, 0, 1, 1, 1]),
+        ([0, 0, 1, 0, 0, 0], True, [], set(), [0, 0, 0, 0, 0, 0]),
+        ([0, 0, 1, 0, 1, 0], True, [], set(), [0, 0, 0, 1, 0, 0]),
+        ([0, 0, -1, 0, 0, 0], False, [], set(), [0, 0, 0, 0, 0, 0]),
+        ([2, 0, 0, 1, 0, 0], False, [], set(), [0, 0, 0, 0, 1, 1]),
+        ([0, 0, 0, 0, 0, 0], False, [3], set(), [0, 0, 0, 0, 1, 1]),
+        ([0, 0, 0, 0, 0, 0], True, [3], set(), [0, 0, 0, 0, 1, 1]),
+        ([0, 0, 0, 0, 0, 0], True, [5], set(), [0, 0, 0, 0, 0, 0]),
+        ([0, 0, 0, 0, 0, 0], True, [], {2}, [0, 0, 0, 0, 0, 0]),
+        ([0, 0, 0, 0, 0, 0], True, [], {1, 3}, [0, 0, 1, 1, 0, 0]),
+        ([0, 0, 0, 0, 0, 0], False, [], {1}, [0, 0, 1, 1, 1, 1]),
+        ([0, 0, 0, 1, 0, 0], True, [0], set(), [0, 1, 1, 0, 1, 1]),
+        ([1, 1, 1, 1, 1, 1], True, [], set(), [0, 0, 0, 0, 0, 0]),
+    ],
+)
+def test_what_cannot_be_reached_from_the_first_solved_position_is_cut_off(
+    codes: list[int], closed: bool, gaps: list[int], breaks: set[int], off: list[int]
+) -> None:
+    found = cut_off(np.array(codes, float), [passage(k, "gap") for k in gaps], row(6, closed=closed), breaks)
+    assert found.tolist() == off
+    apart = row(6, step=2.0)
+    assert not cut_off(np.array(codes, float), [passage(k, "gap") for k in gaps], apart, breaks).any()
+
+
+def test_positions_are_one_way_if_they_follow_each_other_closely_or_are_a_cycle() -> None:
+    assert is_way(row(3, 0.5)) and not is_way(row(3, 0.6)) and not is_way(row(2, 0.1))
+    assert (
+        is_way(row(3, 0.6, closed=True))
+        and is_way(row(3, 2.0, cycle=True))
+        and is_way(row(2, 2.0, cycle=True))
+    )
+    assert is_way(row(3, 5.0, rotary=False))
+
+
+def test_a_group_has_its_other_sign_behind_every_change_point() -> None:
+    passing = [
+        passage(1),
+        passage(3, "meeting"),
+        passage(2, "gap"),
+        passage(4, group="c+d", flips=(0.5, 4.5)),
+    ]
+    found = signs(passing, {"a+b": 1.0, "c+d": -1.0, "e": 1.0}, 6)
+    assert {name: sign.tolist() for name, sign in found.items()} == {
+        "mode:a+b": [1, 1, -1, -1, 1, 1],
+        "mode:c+d": [-1, 1, 1, 1, 1, -1],
+    }
+    at = signs(passing, {"a+b": 1.0, "c+d": -1.0}, np.array([1.4, 1.6]))
+    assert at["mode:a+b"].tolist() == [1, -1]
+    assert signs([passage(-1, share=1.0)], {"a+b": 1.0}, 2)["mode:a+b"].tolist() == [1, 1]
+    assert [p.touches for p in passing] == [True, True, False, True] == [not p.barred for p in passing]
+    assert passing[1].place == 3.5
+
+
+def test_a_cycle_closes_if_every_group_passes_an_even_number() -> None:
+    assert closes([]) and closes([passage(1), passage(3)]) and closes([passage(1, "gap")])
+    assert not closes([passage(1)]) and not closes([passage(1), passage(2, group="c")])
+    assert closes([passage(1, flips=(1.5, 4.0))])
+
+
+def test_positions_on_a_change_point_are_singular() -> None:
+    structure = SimpleNamespace(groups=[SimpleNamespace(name="x"), SimpleNamespace(name="a+b")])
+    codes = np.zeros(5)
+    mark_singular(
+        codes, [passage(1), passage(1, share=1.0), passage(2, "gap", 1.0), passage(4, share=1.0)], structure
+    )  # type: ignore[arg-type]
+    assert codes.tolist() == [-2, 0, -2, 0, 0]
+
+
+def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
+    along = row(8)
+    twice = [replace(passage(1, share=0.0), at=np.pi / 3), replace(passage(1, share=0.0), at=np.pi / 3)]
+    (said,) = notes(twice, along)
+    assert "a, b" in said and "driver = 60°" in said
+    assert "driver = 0.25 m" in notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
+    assert "driver = 0°" in notes([replace(passage(1), at=-1e-13)], along)[0]
+    kinds = [str(notes([passage(1, kind)], along)[0]) for kind in ("change", "meeting", "gap", "pole")]
+    assert len(set(kinds)) == 4
+    assert len(notes([passage(1)], row(8, closed=True))) == 2
+    assert len(notes([passage(1), passage(2)], row(8, closed=True))) == 2
+    assert len(notes([passage(1)], along)) == 1
+
+
+PUSHED = """
+format: 1
+frame: {points: {O: [0 m, 0 m], G: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  rod: {points: [A, B], length: 2 m}
+  slide: {points: [B]}
+joints: {bed: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: slide, at: B}}
+drawing: {A: [0 m, 1 m], B: [1.7320508 m, 0 m]}
+driver: {slide: bed, LAW}
+cycle: {duration: 1 s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("law", "steps", "count"),
+    [("speed: 0.3 m/s, start: 1.7320508 m", 1, 2), ("speed: -0.3 m/s, start: 1.7320508 m", 2, 1),
+     ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s))", 1, 5), ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s))", 4, 2)],
+)  # fmt: skip
+def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, steps: int, count: int) -> None:
+    """0.05 of the size is one part; the law's peak rate 0.2 pi m/s counts, not that of the positions."""
+    mechanism = lw.loads(PUSHED.replace("LAW", law))
+    solver, positions = MotionSolver(mechanism), over_cycle(mechanism, steps)
+    from linkwright.mechanism.geometry import mechanism_size
+
+    pace = 0.2 * np.pi if "sin" in law else 0.3
+    assert parts(solver, positions) == int(np.ceil(pace / steps / mechanism_size(mechanism) / 0.05))
+    assert parts(solver, replace(positions, cycle=False)) == 1
+    assert count >= 1
+
+
+@pytest.mark.parametrize(("steps", "count"), [(12, 11), (36, 4), (125, 2), (126, 1), (720, 1)])
+def test_steps_of_a_crank_are_divided_into_parts_of_a_twentieth(steps: int, count: int) -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    assert parts(MotionSolver(mechanism), over_cycle(mechanism, steps)) == count
+
+
+def test_places_between_positions_follow_the_laws_or_lines() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    solver, positions = MotionSolver(mechanism), over_cycle(mechanism, 36)
+    ((q, rate, _),) = way(solver, positions)(np.array([3.25, 35.5])).coordinates.values()
+    begin, speed = positions.coordinates["driver"][0][0], positions.coordinates["driver"][1][0]
+    assert q == pytest.approx(begin + np.sign(speed) * np.array([3.25, 35.5]) * np.pi / 18, abs=1e-12)
+    assert rate == pytest.approx([speed, speed])
+    own = np.array([0.0, 0.3, 0.5, 0.4])
+    free = replace(
+        positions, time=np.zeros(4), coordinates={"driver": (own, own**2, 2 * own)}, closed=False, period=None
+    )
+    rows = way(solver, free)(np.array([0.5, 2.5, 3.0])).coordinates["driver"]
+    assert [each.tolist() for each in rows] == [
+        pytest.approx([0.15, 0.45, 0.4]), pytest.approx([0.045, 0.205, 0.16]), pytest.approx([0.3, 0.9, 0.8]),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("lengths", "kinds", "ends"),
+    [((1, 2, 1, 2), ["change", "change"], [0.0, np.pi]), ((2, 2, 1, 1), ["change", "change"], [0.0, np.pi]),
+     ((1, 2, 2, 1), ["meeting"], [0.0]),
+     ((1, 3, 2.5, 2), [], []), ((2, 2, 1.5, 2), ["gap"], None)],
+)  # fmt: skip
+@pytest.mark.parametrize("steps", [5, 24, 361])
+def test_the_same_passages_are_found_however_coarse_the_steps(
+    lengths: tuple[float, float, float, float], kinds: list[str], ends: list[float] | None, steps: int
+) -> None:
+    mechanism = fourbar(*lengths, start=20.0)
+    coarse, fine = (passages(MotionSolver(mechanism), over_cycle(mechanism, n), None) for n in (steps, 720))
+    if kinds != ["gap"]:
+        assert sorted(p.kind for p in coarse) == sorted(p.kind for p in fine) == kinds
+        angles, exact = (
+            sorted(float(np.angle(np.exp(1j * (p.at - 0.1)))) + 0.1 for p in found)
+            for found in (coarse, fine)
+        )
+        assert angles == pytest.approx(exact, abs=1e-7)
+        assert ends is None or angles == pytest.approx(ends, abs=1e-7)
+        assert [p.place / steps for p in coarse] == pytest.approx([p.place / 720 for p in fine], abs=1e-7)
+        assert [p.flips[0] / steps for p in coarse] == pytest.approx(
+            [p.flips[0] / 720 for p in fine], abs=1e-7
+        )
+    for p in coarse:
+        assert 0 <= p.before < steps and p.after == (p.before + 1) % steps and 0.0 < p.share <= 1.0
+        assert p.at == pytest.approx(np.radians(20.0) + 2 * np.pi * p.place / steps, abs=1e-9)
