@@ -38,13 +38,15 @@ def _anywhere(program: Program) -> Program:
 
 
 def near_enough(positions: Positions) -> float:
-    """The quality of a group below which it may come to zero on the way to a neighbouring position."""
-    steps = [
-        np.abs(np.diff(q)).max(initial=0.0)
-        for name, (q, *_) in positions.coordinates.items()
-        if positions.rotary[name]
-    ]
-    return max(NEAR, STEEP * max(steps, default=0.0) ** 2)
+    """The quality of a group below which it may come to zero on the way to a neighbouring position.
+
+    A slide that turns back moves like the cosine of an angle: its steps count as shares of half its way.
+    """
+    largest = 0.0
+    for name, (q, *_) in positions.coordinates.items():
+        unit = 1.0 if positions.rotary[name] else 0.5 * float(np.ptp(q)) or np.inf
+        largest = max(largest, float(np.abs(np.diff(q)).max(initial=0.0)) / unit)
+    return max(NEAR, STEEP * largest**2)
 
 
 class ChangePoints:
@@ -134,11 +136,11 @@ class ChangePoints:
         table = self.traced.table(self.along.program, columns)
         quality = self._along(self.along, table)
         before, after = np.roll(quality, 1, axis=2), np.roll(quality, -1, axis=2)
+        if not self.traced.positions.closed:
+            before[:, :, 0] = after[:, :, -1] = np.inf
         valleys = (
             (np.abs(quality) < near_enough(self.traced.positions)) & (quality <= before) & (quality < after)
         )
-        if not self.traced.positions.closed:
-            valleys[:, :, [0, -1]] = False
         design, group, place = np.nonzero(valleys)
         if not len(design):
             return design
@@ -157,15 +159,17 @@ class ChangePoints:
         return lowest(quality, np.zeros(len(place)), np.ones(len(place)))[1]
 
     def _inputs(self, place: Numbers, share: Floats) -> dict[str, Floats]:
-        """Inputs at shares of the way from the position before to the one after."""
-        positions = self.traced.positions
+        """Inputs at shares of the way from the position before to the one after, by the drivers' laws."""
+        time = self.traced.positions.time
+        step = time[1] - time[0]
+        around = np.concatenate([[time[0] - step], time, [time[-1] + step]])
+        a, b = around[place][:, None], around[place + 2][:, None]
+        at = a + share * (b - a)
+        if not self.traced.positions.closed:
+            at = np.clip(at, time.min(), time.max())
         inputs: dict[str, Floats] = {}
-        for name, (q, _, _) in positions.coordinates.items():
-            step = q[1] - q[0] if positions.rotary[name] else 0.0
-            ends = (q[0] - step, q[-1] + step) if positions.rotary[name] else (q[-1], q[0])
-            around = np.concatenate([ends[:1], q, ends[1:]])
-            a, b = around[place][:, None], around[place + 2][:, None]
-            value = a + share * (b - a)
+        for name, driver in self.traced.mechanism.drivers.items():
+            value = driver.law.coordinate(at.ravel())[0].reshape(at.shape)
             inputs |= {f"cos:{name}": np.cos(value), f"sin:{name}": np.sin(value), f"slide:{name}": value}
             inputs[f"turn:{name}"] = value
         return inputs
