@@ -172,13 +172,14 @@ class ConstraintSystem:
         """Values of the equations; lengths over the size."""
         return np.array([row.value for row in self.rows(x)])
 
-    def jacobian(self, x: Floats) -> Floats:
+    def jacobian(self, x: Numbers) -> Numbers:
         """Derivatives of the equations, (equations, freedoms)."""
         return self.matrix(self.rows(x))
 
-    def matrix(self, rows: Sequence[Row]) -> Floats:
+    def matrix(self, rows: Sequence[Row]) -> Numbers:
         """The derivatives of some equations as a matrix."""
-        entries = np.zeros((len(rows), self.freedoms))
+        kind = complex if any(isinstance(row.value, complex) for row in rows) else float
+        entries = np.zeros((len(rows), self.freedoms), dtype=kind)
         for entry, row in zip(entries, rows, strict=True):
             for link, part in row.parts.items():
                 if link in self._first:
