@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.study import sweep
+from linkwright.study.designs import sweep_curves
 
 CRANK = np.array([20.0, 35.0, 50.0, 65.0]) / 1000
 ROD = np.array([150.0, 400.0, 170.0, 220.0]) / 1000
@@ -262,3 +263,59 @@ def test_loads_between_limit_positions(model: str, load: str, varied: dict[str, 
         torque = forces.input_torque
         assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)
         assert found["load push max"][index] == pytest.approx(forces.load("push").magnitude.max(), rel=1e-9)
+
+
+@pytest.mark.parametrize(("steps", "backend"), [(9, "numpy"), (40, "llvm"), (40, "numpy")])
+def test_few_positions_of_groups_followed_by_newton_are_those_asked_for(steps: int, backend: str) -> None:
+    """Between them the group is followed in smaller steps, which count for nothing."""
+    mechanism = lw.load("gallery:triad").with_dimensions({"driver.speed": -6.0})
+    bars = mechanism.dimension("plate.R.y") * np.array([1.0, 1.01, 0.99])
+    kinds = ("min", "max", "mean", "rms", "range", "peak", "argmin", "argmax")
+    outputs = ["plate.angular_velocity", "R.x"]
+    asked = [(output, kind) for output in outputs for kind in kinds]
+    found = sweep(mechanism, {"plate.R.y": bars}, outputs=asked, steps=steps, backend=backend)
+    assert found.assembled.tolist() == [steps] * 3
+    assert (
+        found.branch_margin is not None
+        and (found.branch_margin > 0).all()
+        and (found.branch_margin <= 1).all()
+    )
+    for k, length in enumerate(bars):
+        motion = lw.solve_motion(mechanism.with_dimensions({"plate.R.y": float(length)}), steps=steps)
+        curves = (motion.link("plate").angular_velocity, motion.point("R").position[:, 0])
+        for output, curve in zip(outputs, curves, strict=True):
+            expected = {
+                "min": curve.min(), "max": curve.max(), "mean": curve.mean(), "rms": np.sqrt((curve**2).mean()),
+                "range": np.ptp(curve), "peak": np.abs(curve).max(),
+                "argmin": motion.input[curve.argmin()], "argmax": motion.input[curve.argmax()],
+            }  # fmt: skip
+            for kind, value in expected.items():
+                assert found[output, kind][k] == pytest.approx(value, rel=1e-9, abs=1e-12), (output, kind)
+
+
+@pytest.mark.parametrize("backend", ["numpy", "llvm"])
+@pytest.mark.parametrize("model", ["crank_rocker", "jaw_crusher_sixbar"])
+def test_curves_of_designs_are_those_of_the_machines(model: str, backend: str) -> None:
+    """Design by design the values at the positions; nothing of those that do not pass."""
+    mechanism = lw.load(f"gallery:{model}")
+    by, link = ("coupler.length", "rocker") if model == "crank_rocker" else ("pitman.length", "jaw")
+    lengths = mechanism.dimension(by) * np.array([1.0, 30.0, 1.01])
+    outputs = [f"{link}.angular_velocity", "driver.effort"]
+    done: list[tuple[int, int]] = []
+    parts = sweep_curves(
+        mechanism,
+        {by: lengths},
+        outputs=outputs,
+        steps=24,
+        backend=backend,
+        progress=lambda *n: done.append(n),
+    )
+    ((where, curves),) = parts
+    assert (where.start, where.stop) == (0, 3) and done == [(3, 3)] and list(curves) == outputs
+    for k in (0, 2):
+        forces = lw.solve_forces(mechanism.with_dimensions({by: float(lengths[k])}), steps=24)
+        rate = forces.motion.link(link).angular_velocity
+        assert curves[outputs[0]][k] == pytest.approx(rate, rel=1e-9, abs=1e-9 * np.abs(rate).max())
+        size = np.abs(forces.input_torque).max()
+        assert curves[outputs[1]][k] == pytest.approx(forces.input_torque, rel=1e-9, abs=1e-9 * size + 1e-9)
+    assert all(np.isnan(rows[1]).all() for rows in curves.values())
