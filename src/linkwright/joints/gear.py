@@ -174,7 +174,7 @@ class GearPair(WheelPair):
             found["mesh"] = self.mesh
         if self.module is not None:
             found["module"] = self.module
-        if self.pressure_angle != STANDARD:
+        if self.pressure_angle != type(self).pressure_angle:
             found["pressure_angle"] = self.pressure_angle
         return found
 
