@@ -62,7 +62,8 @@ class AccumulatorWriter:
         kind, value = self.kind(step.kind), f"%b{k}"
         suffix = f"v{self.w.width}f64"
         if step.kind in _BETTER:
-            return [f"%r{k} = call double @llvm.vector.reduce.f{step.kind}.{suffix}({kind} {value})"]
+            extreme = f"call nnan nsz double @llvm.vector.reduce.f{step.kind}.{suffix}"
+            return [f"%r{k} = {extreme}({kind} {value})"]  # no NaN: only what compares as better came in
         if step.kind in ("sum", "square"):
             total = f"call {FAST} double @llvm.vector.reduce.fadd.{suffix}"
             return [f"%r{k} = {total}(double {number(-0.0)}, {kind} {value})"]
