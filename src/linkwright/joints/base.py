@@ -419,7 +419,7 @@ class JointName(Field):
         if name is None or not reader.known(node, place, "joint", name, list(reader.names.joints)):
             return None
         kind = reader.names.joints[name]
-        if kind not in self.kinds:
+        if JOINTS[kind].coordinate not in self.coordinates:
             reader.error(
                 node,
                 place,
