@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
+from linkwright.kinematics.analysed import analysed
 
 HEAD = """format: 1
 frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm],
@@ -305,3 +306,74 @@ def test_a_belt_says_how_many_turns_its_cycle_takes(radii: str, words: list[str]
     assert len(said) == len(words)
     for note, word in zip(said, words, strict=True):
         assert word in str(note)
+
+
+#: A pinion between two racks of one slide: its rotation would move the slide both ways at once.
+TWO_RACKS_OF_A_SLIDE = """
+format: 1
+name: racks of one slide on both sides of a pinion
+frame: {points: {O: [0 m, 0 m], G: [0 m, -30 mm]}}
+links:
+  pinion: {points: {O: [0 m, 0 m], P: [10 mm, 0 m]}}
+  slide: {points: {R: [0 m, 0 m], U: [0 m, 60 mm]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: slide, at: R}
+  low: {kind: rack, pinion: pinion, rack: slide, through: R, radius: 30 mm}
+  high: {kind: rack, pinion: pinion, rack: slide, through: U, radius: 30 mm}
+driver: {turn: pinion, about: O, speed: 60 rpm}
+"""
+
+
+def test_racks_that_block_each_other_are_named() -> None:
+    with pytest.raises(
+        lw.LinkwrightError, match=r"mobility 0.*'low', 'high' block each other.*take 'high' away"
+    ):
+        lw.structure(lw.loads(TWO_RACKS_OF_A_SLIDE))
+    alone = "\n".join(line for line in TWO_RACKS_OF_A_SLIDE.splitlines() if not line.startswith("  high"))
+    assert lw.structure(lw.loads(alone)).mobility == 1
+
+
+def test_pairs_that_do_not_block_are_not_accused() -> None:
+    """A second driver is one too many; the wheels themselves could turn."""
+    two = TWO_RACKS_OF_A_SLIDE.replace(
+        "driver: {turn: pinion, about: O, speed: 60 rpm}",
+        "drivers: {a: {turn: pinion, about: O, speed: 60 rpm}, b: {slide: guide, speed: 1 m/s}}",
+    )
+    alone = "\n".join(line for line in two.splitlines() if not line.startswith("  high"))
+    with pytest.raises(lw.LinkwrightError, match=r"more than once \(by driver 'b' among others\)"):
+        lw.structure(lw.loads(alone))
+
+
+#: A parallelogram with a third crank, whose first one the oscillating follower of a cam is.
+PARALLELOGRAM_MOVED_BY_A_CAM = """
+format: 1
+name: parallelogram with a third crank, moved by a cam
+frame: {points: {O: [-60 mm, 0 mm], A: [0 mm, 0 mm], B: [100 mm, 0 mm], C: [50 mm, 0 mm]}}
+links:
+  cam: {points: [O, P]}
+  left: {points: [A, D, F]}
+  right: {points: [B, E]}
+  middle: {points: [C, M]}
+  bar: {points: [D, E, M]}
+drawing:
+  {P: [-60 mm, 10 mm], F: [-30 mm, 20 mm], D: [0 mm, 60 mm], E: [100 mm, 60 mm], M: [50 mm, 60 mm]}
+joints:
+  contact:
+    {kind: cam, cam: cam, follower: left, at: F, touch: roller, roller_radius: 5 mm, base_radius: 20 mm, side: left,
+     program: [{rise: 20 deg, over: 180 deg, law: cycloidal}, {fall: 20 deg, over: 180 deg, law: cycloidal}]}
+driver: {turn: cam, about: O, speed: 60 rpm}
+"""
+
+
+def test_a_link_too_many_behind_a_cam_is_named() -> None:
+    with pytest.raises(lw.LinkwrightError, match="the link 'middle' is redundant in this special geometry"):
+        analysed(lw.loads(PARALLELOGRAM_MOVED_BY_A_CAM))
+
+
+def test_a_missing_key_is_asked_for_by_its_name() -> None:
+    with pytest.raises(lw.LinkwrightError, match=r"add links: the two wheels \[a, b\]"):
+        lw.loads(
+            TWO_RACKS_OF_A_SLIDE.replace(
+                "pinion: pinion, rack: slide, through: U, radius: 30 mm", "radii: [1 m, 1 m]"
+            ).replace("high: {kind: rack", "high: {kind: belt")
+        )

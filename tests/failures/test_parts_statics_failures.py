@@ -61,7 +61,7 @@ def test_files_say_where() -> None:
         parts.loads(text, "f.yaml")
     first, second = error.value.findings
     assert first.where == "f.yaml:5:7" and first.key == "forces.F2"
-    assert second.where == "f.yaml:6:7" and "4 components" in second.message
+    assert second.where == "f.yaml:6:7" and "the number of components is 4" in second.message
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def test_two_drivers_on_one_freedom_are_refused() -> None:
     text = refusal(four_bar(f"drivers:\n  {ONE}\n  {TWO}"))
     assert "determined more than once" in text
     assert all(name in text for name in ("crank", "coupler", "rocker"))
-    assert "mobility 1 and two drivers" in text and "'driver second'" in text
+    assert "mobility 1 and two drivers" in text and "driver 'second'" in text
 
 
 def test_the_same_joint_driven_twice_is_refused() -> None:

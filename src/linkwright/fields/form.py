@@ -11,8 +11,8 @@ from linkwright.words.sentence import Gloss, Sentence
 
 def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Sentence:
     """What to write for a missing key: its description, or in other languages its name and its form."""
-    written = Sentence("form.add_key", key_=key, form=form(shape))
-    return Sentence("form.remedy", text=Gloss(doc, written)) if doc else written
+    own = form(shape)
+    return Sentence("form.add_key", key_=key, form=Gloss(doc, own) if doc else own)
 
 
 def form(shape: Mapping[str, Any]) -> Sentence:

@@ -14,6 +14,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Mechanism
 
 FRAME = "frame"
+#: What stands before a driver's name where it is the source of a demand.
+DRIVER = "driver "
 #: Factors of rotations below this share of the largest are zero.
 SMALL = 1e-9
 
@@ -27,7 +29,7 @@ class Equation:
     rotation_only: bool = False
 
 
-class _Classes:
+class Classes:
     """Links whose rotations are tied to each other (union-find)."""
 
     def __init__(self) -> None:
@@ -81,7 +83,7 @@ class ConstraintGraph:
     freedoms: dict[str, int]
     equations: list[Equation]
     redundant: list[str] = field(default_factory=list)
-    rotations: _Classes = field(default_factory=_Classes)
+    rotations: Classes = field(default_factory=Classes)
     sums: _Sums = field(default_factory=_Sums)
 
     @classmethod
@@ -94,7 +96,7 @@ class ConstraintGraph:
             turning = mechanism.joints[driver.joint].coordinate == "turn"
             if turning:
                 graph.rotations.join(driver.link, driver.relative_to)
-            graph.demand(f"driver {driver.name}", (driver.link, driver.relative_to), rotation_only=turning)
+            graph.demand(f"{DRIVER}{driver.name}", (driver.link, driver.relative_to), rotation_only=turning)
         return graph
 
     def hold_rotation(self, source: str, a: str, b: str) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.constraints import FRAME, ConstraintGraph
-from linkwright.structure.trains import GearTrain, gear_trains
+from linkwright.structure.constraints import DRIVER, FRAME, ConstraintGraph
+from linkwright.structure.trains import GearTrain, blocking_pairs, gear_trains
 from linkwright.words.sentence import Sentence, together
 
 
@@ -101,8 +101,20 @@ def explain_excess(
         return StructureError(
             Sentence("mobility.blocked", why=why, pairs=loop, carrier=train.carrier, pair=train.blocked[0])
         )
-    links, extra = tuple(map(repr, bodies)), tuple(map(repr, sources))
+    pairs = blocking_pairs(mechanism)
+    if pairs:
+        named = tuple(map(repr, pairs))
+        return StructureError(Sentence("mobility.blocked_pairs", why=why, pairs=named, pair=pairs[-1]))
+    links, extra = tuple(map(repr, bodies)), tuple(_source(mechanism, each) for each in sources)
     return StructureError(Sentence("mobility.excess", why=why, links=links, extra=extra))
+
+
+def _source(mechanism: Mechanism, source: str) -> Sentence | str:
+    """A joint or a driver, as it is called."""
+    if source in mechanism.joints:
+        return repr(source)
+    name = source.removeprefix(DRIVER)
+    return Sentence("mobility.the_driver" if name == "driver" else "mobility.driver", name=name)
 
 
 def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:

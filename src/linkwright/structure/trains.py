@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.joints.base import LackingError
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.structure.constraints import Classes
 
 #: Denominators up to this are shown as fractions.
 LARGEST = 100000
+#: Sizes below this are zero, of rows whose largest factor is one.
+STILL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,55 @@ def _from(start: Any, pairs: list[Any]) -> GearTrain:
         else:
             ratios[a] = ratios[b] / step.transmission
     return GearTrain(start.carrier, ratios, tuple(names), tuple(blocked))
+
+
+def blocking_pairs(mechanism: Mechanism) -> list[str]:
+    """Names of higher pairs that hold a rotation or a displacement still between them, as few as do so; empty where
+    none do. Rotations that guides and welds tie are one."""
+    import numpy as np
+
+    root = _tied(mechanism)
+    rows: dict[str, dict[str, float]] = {}
+    for name, joint in mechanism.joints.items():
+        try:
+            rotations, slides, _ = joint.sums(mechanism) if joint.higher else ({}, {}, 0.0)
+        except LackingError:
+            continue
+        row: dict[str, float] = {}
+        turns = ((f"turn {root(link)}", factor) for link, factor in rotations.items())
+        for each, factor in (*turns, *slides.items()):
+            if each != f"turn {root('frame')}":
+                row[each] = row.get(each, 0.0) + factor
+        if row:
+            rows[name] = row
+
+    def hold(names: list[str]) -> bool:
+        columns = sorted({each for name in names for each in rows[name]})
+        matrix = np.array([[rows[name].get(each, 0.0) for each in columns] for name in names])
+        matrix = matrix.reshape(len(names), len(columns)) / np.abs(matrix).max(
+            initial=0.0, axis=-1, keepdims=True
+        )
+        _, sizes, ways = np.linalg.svd(matrix)
+        free = ways[int((sizes > STILL).sum()) :]
+        return bool((np.abs(free) < STILL).all(axis=0).any())
+
+    found = list(rows)
+    if not found or not hold(found):
+        return []
+    for name in list(rows):
+        fewer = [each for each in found if each != name]
+        if fewer and hold(fewer):
+            found = fewer
+    return found
+
+
+def _tied(mechanism: Mechanism) -> Callable[[str], str]:
+    """The link that stands for all whose rotations are tied to that of a link."""
+    ties = Classes()
+    for joint in mechanism.joints.values():
+        if joint.ties:
+            ties.join(*joint.ties)
+    return ties.root
 
 
 def written(ratio: float) -> str:

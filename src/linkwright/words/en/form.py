@@ -1,7 +1,6 @@
 """What a key of a model file may hold."""
 
 WORDS = {
-    "remedy": "{text}",
     "add_key": "add {key_}: {form}",
     "just": "{value}",
     "one_of": "one of {names}",

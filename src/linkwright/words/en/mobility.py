@@ -13,6 +13,10 @@ WORDS = {
     "driven, but {drivers} are given",
     "blocked": "{why}; the wheels of {pairs} block each other: round this loop on {carrier!r} the ratio is not 1, so "
     "none of them can turn; take {pair!r} away, or change the sizes",
+    "blocked_pairs": "{why}; the pairs {pairs} block each other: what they demand of rotations and displacements "
+    "holds at rest alone; take {pair!r} away, or change the sizes",
+    "driver": "driver {name!r}",
+    "the_driver": "the driver",
     "excess": "{why}; the links {links} are determined more than once (by {extra} among others); remove a "
     "driver, a redundant link or a redundant guide",
     "drivers_0": "no drivers",

@@ -1,7 +1,6 @@
 """模型文件中的键可写的内容。"""
 
 WORDS = {
-    "remedy": "{text}",
     "add_key": "请补上 {key_}：{form}",
     "just": "{value}",
     "one_of": "{names} 之一",

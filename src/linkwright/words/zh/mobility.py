@@ -10,6 +10,10 @@ WORDS = {
     "cannot_be_driven_by_several": "“{name}”按格吕布勒公式自由度为 {mobility}，不能驱动，却给出了{drivers}",
     "blocked": "{why}；{pairs} 的各轮互相卡死：沿“{carrier}”上的这一回路传动比之积不为 1，"
     "各轮都不能转动；请去掉“{pair}”，或改变轮的大小",
+    "blocked_pairs": "{why}；{pairs} 互相卡死：它们对转角与位移的要求只有静止时才能同时满足；"
+    "请去掉“{pair}”，或改变尺寸",
+    "driver": "原动件“{name}”",
+    "the_driver": "原动件",
     "excess": "{why}；构件 {links} 受到重复约束（{extra} 等）；请去掉一个原动件、"
     "一个多余的构件或一个多余的移动副",
     "drivers_0": " 0 个原动件",
