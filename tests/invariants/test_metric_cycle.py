@@ -77,6 +77,11 @@ def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
         ("quick_return_ratio", ["pitman.length"]),
         ("peak_jerk", ["pitman.length"]),
         ("swing_angle", ["pitman.length"]),
+        ("peak_input_torque", ["pitman.length"]),
+        ("peak_shaking_moment", ["pitman.length"]),
+        ("energy_fluctuation", ["pitman.length", "jaw.mass"]),
+        ("transmission_angle", ["pitman.length"]),
+        ("velocity_ratio", ["pitman.length"]),
     ],
 )
 def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: list[str]) -> None:

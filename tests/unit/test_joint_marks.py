@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import pytest
 from tests.contract.test_joints_traced import loaded
+from tests.contract.test_joints_written import read
 
 import linkwright as lw
 from linkwright.joints.base import Joint, LackingError
@@ -209,3 +210,31 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
     assert bare.word() == "bare" and bare.point_on("one") == "j" and bare.fits(any_) is True
     assert bare.misfit(any_) is None and bare.pulls(any_) is None and bare.following(any_) is None
     assert tuple(bare.marks(any_, {})) == () and bare.work(any_) is None
+
+
+@pytest.mark.parametrize("kind", ["rack", "rack, right", "rack, by module", "rack, by points"])
+def test_what_follows_changed_dimensions_of_a_rack(kind: str) -> None:
+    """The pinion's radius and the line's direction from the dimensions; on which side the pinion lies."""
+    mechanism = read(kind)
+    rack = mechanism.joints["pair"]
+    way = rack.following(mechanism)
+    size = way.pinion.radius
+    assert size is not None and (way.rack, way.through) == ("base", "G")
+    product = size.factor * math.prod(mechanism.dimension(address) for address in size.times)
+    assert size.value == pytest.approx(0.08) == pytest.approx(product)
+    assert (
+        way.turn.value
+        == pytest.approx(mechanism.dimension(way.turn.times[0]))
+        == pytest.approx(rack.direction)
+    )
+    assert way.right == (kind == "rack, right") and way.pinion.toothed
+    assert (way.pinion.link, way.pinion.carrier, way.pinion.centre) == ("one", "one", "K")
+    wheel, line = rack.marks(mechanism, {("one", "K"): 0.4})
+    teeth = 20 if kind == "rack, by module" else None
+    assert (wheel.symbol, wheel.link, wheel.radius, wheel.turned, wheel.teeth) == (
+        "gear", "one", pytest.approx(0.08), 0.4, teeth,
+    )  # fmt: skip
+    assert wheel.at == pytest.approx((-0.1, 0.13)) and line.at == pytest.approx((0.15, 0.4))
+    assert (line.symbol, line.link, line.follows) == ("rack", "base", ("one", "K"))
+    assert line.turned == pytest.approx(rack.direction) and line.inside == way.right
+    assert way.pinion.teeth == teeth
