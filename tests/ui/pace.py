@@ -1,17 +1,21 @@
-"""What a drag costs the browser, and how smoothly ghost curves move: ``python -m tests.ui.pace``.
+"""What a drag costs the browser, how ghost curves move, how long opening takes: ``python -m tests.ui.pace``.
 
 From a pointer's move to new curves on the screen the page's main thread works (scripts, style, layout, recording of
 what is painted), threads fill the picture and the compositor puts it together. Chromium draws frames here as soon as
 they are ready instead of sixty times a second, so the clock from a move to its frame holds what the move needs and no
 waiting for the display; moves come at the pace of a display. Where other programs run beside it the clock is theirs
-too: a trace says the processor time of every kind of work. Playing is measured at the display's own pace.
+too: a trace says the processor time of every kind of work. Playing is measured at the display's own pace, opening a
+page from navigation to the frame with its drawing, a studio from the command to that frame, in a running browser.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 import sys
 import tempfile
+import time
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -23,7 +27,7 @@ from tests.ui.browser import Opened, browser
 
 import linkwright as lw
 
-MOVES, FRAMES, STEPS = 240, 120, 360
+MOVES, FRAMES, STEPS, OPENINGS = 240, 120, 360, 7
 UNLIMITED = ("--disable-frame-rate-limit", "--disable-gpu-vsync")
 #: Between two moves, ms: a display's frame.
 DISPLAY = 1000 / 60
@@ -175,6 +179,54 @@ _GHOSTS = (
 )
 
 
+#: Notes the first frame in which the machine is drawn, ms since navigation.
+_OPENED = """
+  const look = () => requestAnimationFrame(() => {
+    if (!document.querySelector('svg.machine .lw-pins *')) return look();
+    requestAnimationFrame(() => { window.drawnAt = performance.now(); });
+  });
+  look();
+"""
+
+
+def opening(folder: Path) -> Iterator[float]:
+    """Times (ms) of the six-bar's page from the disk."""
+    with browser() as chromium:
+        for _ in range(OPENINGS):
+            tab = chromium.new_context(viewport={"width": 1280, "height": 900}).new_page()
+            tab.add_init_script(_OPENED)
+            tab.goto((folder / "page.html").as_uri())
+            tab.wait_for_function("() => window.drawnAt")
+            yield float(tab.evaluate("() => window.drawnAt"))
+            tab.context.close()
+
+
+def studio_opening(folder: Path) -> Iterator[float]:
+    """Times (ms) of the studio from its command to the first picture."""
+    (folder / "machine.yaml").write_text(
+        lw.read_document("gallery:jaw_crusher_sixbar").text, encoding="utf-8"
+    )
+    command = [sys.executable, "-m", "linkwright", "studio", "machine.yaml", "--no-browser"]
+    with browser() as chromium:
+        for _ in range(OPENINGS):
+            tab = chromium.new_context(viewport={"width": 1280, "height": 900}).new_page()
+            begin = time.perf_counter()
+            with subprocess.Popen(
+                command,
+                cwd=folder,
+                stdout=subprocess.PIPE,
+                text=True,
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+            ) as process:
+                assert process.stdout is not None
+                tab.goto(next(word for word in process.stdout.readline().split() if word.startswith("http")))
+                tab.wait_for_selector("svg.machine .lw-pins *", state="attached")
+                tab.evaluate("() => new Promise(requestAnimationFrame)")
+                yield 1e3 * (time.perf_counter() - begin)
+                process.terminate()
+            tab.context.close()
+
+
 def main(arguments: list[str]) -> int:
     """All measurements; with a file's name they are written there as JSON too."""
     found: list[dict[str, Any]] = []
@@ -188,6 +240,8 @@ def main(arguments: list[str]) -> int:
             found.append(said("playing, from frame to frame", page.tab.evaluate(_PLAY, [FRAMES])))
             page.run(_GHOSTS)
             found.append(said("playing over 500 ghost curves", page.tab.evaluate(_PLAY, [FRAMES])))
+        found.append(said("a page opens from the disk", list(opening(Path(folder)))))
+        found.append(said("studio, from the command to its picture", list(studio_opening(Path(folder)))))
     if arguments:
         Path(arguments[0]).write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     return 0

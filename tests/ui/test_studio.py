@@ -93,6 +93,22 @@ def test_only_this_page_may_ask(tmp_path: Path) -> None:
     assert studio.server_address[0] == "127.0.0.1"
 
 
+def test_no_socket_is_opened_for_other_pages(tmp_path: Path) -> None:
+    """A hijack of web sockets: the server takes none, whoever asks and wherever."""
+    with serving(tmp_path) as studio:
+        for path in ("/", f"/?token={studio.token}", "/api/files", "/ws"):
+            connection = http.client.HTTPConnection("127.0.0.1", studio.server_port, timeout=20)
+            headers = {
+                "Upgrade": "websocket", "Connection": "Upgrade", "Origin": "https://evil.example",
+                "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": base64.b64encode(b"0" * 16).decode(),
+            }  # fmt: skip
+            connection.request("GET", path, headers=headers)
+            answer = connection.getresponse()
+            answer.read()
+            assert answer.status in (403, 404), path
+            connection.close()
+
+
 def test_files_below_the_folder_only(tmp_path: Path) -> None:
     inside, outside = tmp_path / "inside", tmp_path / "outside.yaml"
     inside.mkdir()
@@ -500,6 +516,7 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         errors: list[str] = []
         tab.on("pageerror", lambda error: errors.append(str(error)))
         tab.set_default_timeout(20_000)
+        begin = time.monotonic()
         tab.goto(studio.url)
         tab.wait_for_selector("svg.drafting")
         box = tab.locator("svg.drafting").bounding_box()
@@ -531,6 +548,7 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         tab.get_by_label("File name").fill("drawn.yaml")
         tab.get_by_role("button", name="Save", exact=True).click()
         tab.locator(".said", has_text="Saved.").wait_for()
+        assert time.monotonic() - begin < 120
         text = (tmp_path / "drawn.yaml").read_text()
         assert lw.solve_forces(lw.solve_motion(lw.loads(text))).input_torque.any()
         before = tab.locator("textarea").input_value()
