@@ -228,6 +228,11 @@ def test_a_cloud_of_tolerances_keeps_its_bound(opened: Opened, tmp_path: Path) -
     assert opened.tab.locator(".paper canvas").is_visible()
     opened.run("s => s.scatter(0)")
     assert opened.run("s => s.cloud.value") is None
+    opened.run("s => { s.shown.paths.clear(); s.sweep('crank.length'); }")
+    drawn = "s => [s.swept.value, s.view.pen.canvas.hidden]"
+    assert opened.run(drawn) == ["crank.length", False]
+    opened.run("s => s.sweep(null)")
+    assert opened.run(drawn) == [None, True]
 
 
 def test_locked_dimensions_stay(opened: Opened, tmp_path: Path) -> None:

@@ -227,7 +227,7 @@ function Tolerance({ page, session }: { page: Page; session: Session }) {
       </label>
       {cloud && (
         <p class="hint" role="status">
-          {page.say("cloud", { count: String(cloud.count), built: String(cloud.built), off: length(cloud.off), paths: [...session.shown.paths].join(", ") })}
+          {page.say("cloud", { count: String(cloud.count), built: String(cloud.built), off: length(cloud.off), paths: session.traced.join(", ") })}
         </p>
       )}
     </>

@@ -145,7 +145,12 @@ export class Session {
     this.variants.value = this.variants.value.filter((each) => each.number !== number);
   }
 
-  /** Paths of the shown points while a dimension varies about its present value, as far as the machine can. */
+  /** The points whose paths are looked at: the shown ones, all that move where none is shown. */
+  get traced(): string[] {
+    return this.shown.paths.size ? [...this.shown.paths] : this.data.points.filter(({ fixed }) => !fixed).map(({ key }) => key);
+  }
+
+  /** Paths of the traced points while a dimension varies about its present value, as far as the machine can. */
   sweep(address: string | null): void {
     this.swept.value = address;
     if (address) this.cloud.value = null;
@@ -163,7 +168,7 @@ export class Session {
       return;
     }
     const { model } = this, lengths = this.data.dimensions.filter((d) => d.geometry && d.unit !== "deg" && d.unit !== "rad");
-    const nominal = [...this.shown.paths].map((key) => ["x", "y"].map((axis) => model.main.row(`p:${key}.${axis}`).slice()));
+    const nominal = this.traced.map((key) => ["x", "y"].map((axis) => model.main.row(`p:${key}.${axis}`).slice()));
     let off = 0, built = 0;
     const count = this.ghosts(
       () => Object.fromEntries(lengths.map(({ address }) => [address, model.values[address] + width * (2 * Math.random() - 1)])),
@@ -185,7 +190,7 @@ export class Session {
       count = Math.max(FEWEST, Math.min(MOST, Math.floor((MOMENT * TRIED) / (performance.now() - begin + 0.1))));
       for (let k = 0; k < count; k++) {
         if (model.evaluate({ ...model.values, ...changed(k, count) })) continue;
-        const paths = [...this.shown.paths].map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
+        const paths = this.traced.map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
         rows.push(...paths);
         seen(paths);
       }
@@ -199,9 +204,8 @@ export class Session {
   foresee(values: Values | null): void {
     if (!values) return this.sweep(this.swept.value);
     const { model } = this, known = Object.entries(values).filter(([address]) => address in model.values);
-    const shown = this.shown.paths.size ? [...this.shown.paths] : this.data.points.filter(({ fixed }) => !fixed).map(({ key }) => key);
     const met = !model.evaluate({ ...model.values, ...Object.fromEntries(known) });
-    const paths = shown.map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
+    const paths = this.traced.map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
     model.evaluate(model.values);
     this.view?.ghosts(met ? paths : []);
   }
