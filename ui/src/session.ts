@@ -66,6 +66,10 @@ export class Session {
   /** Something has changed, and stays so. */
   touched(): void {
     this.version.value++;
+    this.settle();
+  }
+
+  private settle(): void {
     window.clearTimeout(this.resting);
     this.resting = 0;
     this.calm.value++;
@@ -74,7 +78,7 @@ export class Session {
   /** The machine is being moved: what the eye follows changes at once, the rest when the browser has time for it. */
   moved(): void {
     this.version.value++;
-    this.resting ||= window.setTimeout(() => idle(() => this.resting && this.touched()), REST);
+    this.resting ||= window.setTimeout(() => idle(() => this.resting && this.settle()), REST);
   }
 
   /** A change begins: what was before can be had back. */
