@@ -33,6 +33,7 @@ export class Chart {
   private curves: Curve[] = [];
   private ticks: string[] = [];
   private at: [number, number] = [NaN, NaN];
+  private fitted = 0;
   // Each curve with the scale it was drawn to: what stays is not found again.
   private written: Written[] = [];
 
@@ -112,7 +113,10 @@ export class Chart {
 
   private write(soft: string): void {
     const { pen } = this, [low, high, left, right] = this.ticks;
-    [pen.fillStyle, pen.font] = [soft, FONT];
+    pen.fillStyle = soft;
+    // A canvas forgets its font with its size; reading one takes longer than all else here.
+    if (this.fitted !== this.canvas.width) pen.font = FONT;
+    this.fitted = this.canvas.width;
     for (const [text, x, y, side] of [[low, LEFT - 5, H - BOTTOM + 3, "right"], [high, LEFT - 5, TOP + 9, "right"], [left, LEFT, H - 5, "left"], [right, W - RIGHT, H - 5, "right"]] as const) {
       pen.textAlign = side;
       pen.fillText(text ?? "", x, y);
