@@ -7,11 +7,11 @@ hold for all dimensions but the ``fixed`` ones.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.closed_loops import ClosedLoops, LoopBuilder, upstream
 from linkwright.kinematics.motion import Motion
