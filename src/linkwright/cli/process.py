@@ -5,6 +5,7 @@ from __future__ import annotations
 import _signal as signal  # type: ignore[import-not-found]  # signal itself imports a good deal first
 import os
 import sys
+import warnings
 
 #: Exit code of a process that was interrupted.
 INTERRUPTED = 130
@@ -18,6 +19,7 @@ def main() -> int:
     signal.signal(signal.SIGINT, _leave)  # nothing to tidy up before the command runs
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, and threads that wait spin
     _open_streams()
+    _draw_flat()
     from linkwright.cli.start import run
 
     try:
@@ -28,6 +30,12 @@ def main() -> int:
         return INTERRUPTED
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: let the process end in peace
+
+
+def _draw_flat() -> None:
+    """Keeps matplotlib from reading its axes in space, a tenth of the start of ``plot``: no command needs them."""
+    sys.modules["mpl_toolkits.mplot3d"] = None  # type: ignore[assignment]
+    warnings.filterwarnings("ignore", "Unable to import Axes3D")
 
 
 def _leave(number: int, frame: object) -> None:
