@@ -248,6 +248,10 @@ def test_code_of_another_version_is_not_found(base: Path, monkeypatch: pytest.Mo
     compiled = count_compilations(monkeypatch)
     assert works()
     assert len(cache._stamp()) == 32
+    stamp = cache._stamp.__wrapped__
+    whole = stamp()
+    monkeypatch.setattr(cache, "_SOURCES", ("table.py", "lines.py"))
+    assert stamp() not in (whole, monkeypatch.setattr(cache, "_SOURCES", ("lines.py",)) or stamp())
     monkeypatch.setattr(cache, "_stamp", lambda: "0" * 32)
     assert works()
     assert len(compiled) == 2
@@ -285,6 +289,9 @@ def test_a_file_that_cannot_take_its_place_leaves_nothing_behind(
         raise OSError("in the way")
 
     monkeypatch.setattr(os, "replace", refused)
+    with pytest.raises(OSError, match="in the way"):
+        cache._replace(base.parent / "file", b"content")
+    assert not base.parent.joinpath("file").exists()
     assert works()
     assert list(base.iterdir()) == []
 

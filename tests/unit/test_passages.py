@@ -11,20 +11,26 @@ import pytest
 from tests.invariants.test_limits_change_points import fourbar
 
 import linkwright as lw
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
 from linkwright.kinematics.change_points import (
     Passage,
+    _divided,
     closes,
     cut_off,
     is_way,
     mark_singular,
+    nearness,
     notes,
     parts,
     passages,
     signs,
+    signs_of_passages,
     way,
 )
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.mechanism.geometry import mechanism_size
 
 
 def row(
@@ -94,6 +100,7 @@ def test_a_group_has_its_other_sign_behind_every_change_point() -> None:
         "mode:a+b": [1, 1, -1, -1, 1, 1],
         "mode:c+d": [-1, 1, 1, 1, 1, -1],
     }
+    assert signs([passage(0)], {"a+b": -1.0}, 3)["mode:a+b"].tolist() == [-1, 1, 1]
     at = signs(passing, {"a+b": 1.0, "c+d": -1.0}, np.array([1.4, 1.6]))
     assert at["mode:a+b"].tolist() == [1, -1]
     assert signs([passage(-1, share=1.0)], {"a+b": 1.0}, 2)["mode:a+b"].tolist() == [1, 1]
@@ -144,21 +151,18 @@ cycle: {duration: 1 s}
 """
 
 
+@pytest.mark.parametrize("steps", [1, 2, 4, 20])
 @pytest.mark.parametrize(
-    ("law", "steps", "count"),
-    [("speed: 0.3 m/s, start: 1.7320508 m", 1, 2), ("speed: -0.3 m/s, start: 1.7320508 m", 2, 1),
-     ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s))", 1, 5), ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s))", 4, 2)],
+    ("law", "pace"),
+    [("speed: 0.3 m/s, start: 1.7320508 m", 0.3), ("speed: -0.3 m/s, start: 1.7320508 m", 0.3),
+     ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s) + 1)", 0.2 * np.pi)],
 )  # fmt: skip
-def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, steps: int, count: int) -> None:
-    """0.05 of the size is one part; the law's peak rate 0.2 pi m/s counts, not that of the positions."""
+def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, pace: float, steps: int) -> None:
+    """0.05 of the size is one part; the law's peak rate counts, not that of the positions."""
     mechanism = lw.loads(PUSHED.replace("LAW", law))
     solver, positions = MotionSolver(mechanism), over_cycle(mechanism, steps)
-    from linkwright.mechanism.geometry import mechanism_size
-
-    pace = 0.2 * np.pi if "sin" in law else 0.3
     assert parts(solver, positions) == int(np.ceil(pace / steps / mechanism_size(mechanism) / 0.05))
     assert parts(solver, replace(positions, cycle=False)) == 1
-    assert count >= 1
 
 
 @pytest.mark.parametrize(("steps", "count"), [(12, 11), (36, 4), (125, 2), (126, 1), (720, 1)])
@@ -190,11 +194,16 @@ def test_places_between_positions_follow_the_laws_or_lines() -> None:
      ((1, 2, 2, 1), ["meeting"], [0.0]),
      ((1, 3, 2.5, 2), [], []), ((2, 2, 1.5, 2), ["gap"], None)],
 )  # fmt: skip
+@pytest.mark.parametrize("start", [20.0, 170.0])
 @pytest.mark.parametrize("steps", [5, 24, 361])
 def test_the_same_passages_are_found_however_coarse_the_steps(
-    lengths: tuple[float, float, float, float], kinds: list[str], ends: list[float] | None, steps: int
+    lengths: tuple[float, float, float, float],
+    kinds: list[str],
+    ends: list[float] | None,
+    steps: int,
+    start: float,
 ) -> None:
-    mechanism = fourbar(*lengths, start=20.0)
+    mechanism = fourbar(*lengths, start=start)
     coarse, fine = (passages(MotionSolver(mechanism), over_cycle(mechanism, n), None) for n in (steps, 720))
     if kinds != ["gap"]:
         assert sorted(p.kind for p in coarse) == sorted(p.kind for p in fine) == kinds
@@ -210,4 +219,51 @@ def test_the_same_passages_are_found_however_coarse_the_steps(
         )
     for p in coarse:
         assert 0 <= p.before < steps and p.after == (p.before + 1) % steps and 0.0 < p.share <= 1.0
-        assert p.at == pytest.approx(np.radians(20.0) + 2 * np.pi * p.place / steps, abs=1e-9)
+        assert p.at == pytest.approx(np.radians(start) + 2 * np.pi * p.place / steps, abs=1e-9)
+
+
+def test_divided_steps_are_equal_parts_of_the_same_way() -> None:
+    mechanism = lw.load("gallery:crank_rocker")
+    solver = MotionSolver(mechanism)
+    for steps, closed, count in ((4, True, 20), (4, False, 21)):
+        whole = over_cycle(mechanism, steps)
+        along = (
+            whole
+            if closed
+            else replace(over_cycle(mechanism, steps, endpoint=True), closed=False, period=None)
+        )
+        fine = _divided(solver, along, 5)
+        assert (fine.count, fine.closed, fine.cycle, fine.period) == (count, closed, True, along.period)
+        assert fine.time[::5] == pytest.approx(along.time, abs=1e-15)
+        assert np.diff(fine.time) == pytest.approx(np.full(count - 1, (along.time[1] - along.time[0]) / 5))
+
+
+def test_how_near_a_dyad_comes_is_the_least_of_its_square_and_of_its_pins_distance() -> None:
+    """Four-bar: sin² of the transmission angle, and the distance of A and O2 over the size."""
+    mechanism = fourbar(1, 3, 2.5, 2, start=20.0)
+    motion = lw.solve_motion(mechanism, steps=36)
+    solver = MotionSolver(mechanism)
+    program = Program.of(solver.motion.trace, {"near": nearness(solver)})
+    known = motion.solver.nominal.parameters
+    found = NumpyProgram(program).run([known[name] for name in program.parameters], motion.positions.arrays)[
+        0
+    ]
+    gap = motion.point("A").position - [2.0, 0.0]
+    square = (gap**2).sum(axis=1)
+    cosine = (3**2 + 2.5**2 - square) / (2 * 3 * 2.5)
+    assert found == pytest.approx(
+        np.minimum(1.0 - cosine**2, square / mechanism_size(mechanism) ** 2), rel=1e-10
+    )
+    assert (found < 1.0 - cosine**2 - 1e-6).any() and (
+        found > square / mechanism_size(mechanism) ** 2 - 1e-12
+    ).any()
+
+
+def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart() -> None:
+    def shown(mechanism: lw.Mechanism, steps: int) -> tuple[str, ...] | None:
+        return signs_of_passages(MotionSolver(mechanism), over_cycle(mechanism, steps))
+
+    names = shown(fourbar(1, 3, 2.5, 2, start=20.0), 360)
+    assert names == ("quality:coupler+rocker", "fact:coupler+rocker|distance²")
+    assert shown(fourbar(1, 3, 2.5, 2, start=20.0), 24) is None
+    assert shown(lw.load("gallery:tangent_mechanism"), 720) is None

@@ -114,7 +114,7 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 
 
 def _radius(radius: Radius, link: str) -> float:
-    distance = radius[link] if isinstance(radius, Mapping) else radius
+    distance = radius.get(link, 0.0) if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
         raise RequestError(Sentence("forces.weight_radius", link=link, distance=distance))
     return distance
