@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -52,6 +53,26 @@ def test_between_two_positions_lies_what_is_solved_there(triad: Motion) -> None:
     way = followed(triad)
     q, there = at(triad, PLACES)
     agree(way.between(PLACES, q), there)
+
+
+@pytest.mark.parametrize("sure", [True, False])
+def test_a_law_that_is_no_straight_line_is_met_where_it_is(
+    monkeypatch: pytest.MonkeyPatch, sure: bool
+) -> None:
+    """Times at equal shares of a step are no equal shares of the driver's way."""
+    folder = Path(lw.__file__).parent / "gallery"
+    text = (folder / "triad.yaml").read_text("utf-8").split("expected:")
+    begin = "expected:" + text[1]
+    law = begin[begin.index("frame:") :].replace(
+        "speed: 10 rad/s}", "position: 2 rad*sin(t/(1 s))}\ncycle: {duration: 1 s}"
+    )
+    motion = lw.solve_motion(lw.loads(text[0] + law), steps=6)
+    places = np.array([0.5, 2.25, 4.75, 5.0])
+    q, there = at(motion, places)
+    if not sure:
+        read = Followed._read
+        monkeypatch.setattr(Followed, "_read", lambda *a: (read(*a)[0], np.zeros(len(a[1]), dtype=bool)))
+    agree(followed(motion).between(places, q), there)
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.05, 0.2])
