@@ -211,7 +211,8 @@ class Integral:
 
 def tails(values: Floats) -> Floats:
     """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""
-    return np.asarray(np.abs(values @ TO_LAST).max(axis=-1))
+    a, b, c = np.moveaxis(np.abs(values @ TO_LAST), -1, 0)
+    return np.asarray(np.maximum(np.maximum(a, b), c))
 
 
 Peak = tuple[NDArray[np.intp], Floats, Floats, Floats]

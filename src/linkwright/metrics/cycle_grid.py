@@ -132,8 +132,10 @@ class CycleGrid:
 
     def _tails(self, solved: Any, pieces: int) -> Floats:
         """How far polynomials are from meeting any stored output, (pieces,), as share of the outputs alike."""
-        found = np.zeros(pieces)
-        for rows in (solved.rows, *([solved.motion.rows] if self._forces else [])):
+        found, all_rows = np.zeros(pieces), [solved.rows]
+        if self._forces and solved.motion.rows is not solved.rows:
+            all_rows.append(solved.motion.rows)
+        for rows in all_rows:
             kinds: dict[str, list[int]] = {}
             for name, place in rows.index.items():
                 kind = name.partition(":")[0]

@@ -8,6 +8,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import vector_names
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
@@ -34,7 +36,7 @@ class SweptArea(Metric):
         }
         moving = dict.fromkeys(chain.from_iterable(keys.values()))
         motion.evaluate_together(chain.from_iterable(vector_names("p", key) for key in moving))
-        tracks = {key: convex_hull(motion.vector("p", key)[motion.ok]) for key in moving}
+        tracks = {key: convex_hull(_track(motion, key)) for key in moving}
         hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
         everything = np.vstack([*tracks.values(), frame])
@@ -44,3 +46,9 @@ class SweptArea(Metric):
         yield self.value(analysis, motion.mechanism.name, whole, remarks=(remark,), exact=False)
         for name, corners in hulls.items():
             yield self.value(analysis, name, area(corners), exact=False)
+
+
+def _track(motion: Motion, key: str) -> Floats:
+    """The places of a point, (n, 2) m; one where it is at rest."""
+    places: Floats = motion.vector("p", key)[motion.ok]
+    return places[:1] if (places == places[0]).all() else places
