@@ -19,8 +19,9 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
 from linkwright.plot.force_names import reaction_pairs
+from linkwright.plot.svg.render import natural_size
 from linkwright.report.case import Case
-from linkwright.report.document import Formula, Heading, Paragraph, Table, plain
+from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.report.numbers import typeset
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
@@ -320,3 +321,32 @@ def test_word_files_list_their_sections_with_links_that_lead_there() -> None:
     assert body.xpath('count(//w:instrText[contains(., "TOC")])') == 1
     kinds = body.xpath("//w:fldChar/@w:fldCharType")
     assert kinds.count("begin") == kinds.count("end") == kinds.count("separate") == 1
+
+
+def test_forces_of_many_joints_stand_in_figures_that_have_room_for_them() -> None:
+    model = lw.loads(_chain(9))
+    found = report(model, sections=["reactions"]).document.blocks
+    figures = [block for block in found if isinstance(block, Figure)]
+    # 9 pins of the frame and its crank's, 1 of crank and coupler; 8 pins of three links; the last one: 11 + 24 + 1
+    parts = ["", "", ""]  # 11, 12, 12, 1
+    assert [block.label for block in figures] == ["reactions", *parts, "hodographs", *parts]
+    drawn = lw.plot(lw.solve_forces(model, steps=36), "reactions").svg()
+    few = lw.plot(lw.solve_forces(model, steps=36), "reactions", of=["O", "G1"]).svg()
+    assert natural_size(drawn)[0] == natural_size(few)[0]
+    assert natural_size(drawn)[1] > natural_size(few)[1]
+
+
+def _chain(count: int) -> str:
+    """Four-bars that drive one another."""
+    places = ", ".join(f"G{i}: [{0.2 * i} m, {0.03 * (-1) ** i} m]" for i in range(1, count + 1))
+    links = "".join(
+        f"  coupler_{i}: {{points: [P{i - 1}, P{i}], length: 0.21 m, mass: 1 kg}}\n"
+        f"  rocker_{i}: {{points: [G{i}, P{i}], length: 0.18 m, mass: 1 kg}}\n"
+        for i in range(1, count + 1)
+    )
+    modes = ", ".join(f"P{i}: left" for i in range(1, count + 1))
+    return (
+        f"format: 1\nname: chain\nframe: {{points: {{O: [0 m, 0 m], {places}}}}}\n"
+        f"links:\n  crank: {{points: [O, P0], length: 0.05 m}}\n{links}"
+        f"assembly: {{{modes}}}\ndriver: {{turn: crank, about: O, speed: 60 rpm}}\ngravity: [0, -9.81 m/s²]\n"
+    )

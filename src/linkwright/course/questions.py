@@ -25,6 +25,8 @@ from linkwright.words.sentence import Sentence
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
+#: Height of a sheet's drawing, mm, and the least; rows with room beside it, and the height of one more.
+TALLEST, LOWEST, ROWS, ROW = 62.0, 30.0, 25, 5.0
 Files = dict[str, bytes]
 
 
@@ -127,8 +129,10 @@ def sheets(found: Variants, language: str) -> Files:
         page.append(Heading(say("course.sheet_number"), 1))
         page.append(Paragraph(say("course.sheet_name")))
         page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
-        page.append(Figure(literal(found.name), ((drawing(found, each, language), 0.5),), tallest=62.0))
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each))
+        beyond = max(len(rows) + len(found.task.questions) - ROWS, 0)
+        tallest = max(TALLEST - ROW * beyond, LOWEST)
+        page.append(Figure(literal(found.name), ((drawing(found, each, language), 0.5),), tallest=tallest))
         page.append(Table(say("course.given"), (say("report.name"), say("report.value")), rows, "<<"))
         asked = tuple((literal(q.name), "…" * 14, q.unit) for q in found.task.questions)
         page.append(

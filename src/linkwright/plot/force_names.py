@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+
+from linkwright.errors import RequestError
+from linkwright.registry import no_such
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -24,6 +27,16 @@ def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
         links = [link for link in joint.joined if link != "frame"]
         found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
     return found
+
+
+def chosen_pairs(mechanism: Mechanism, names: Sequence[str]) -> list[tuple[str, str]]:
+    """The pairs of the joints that are named, else all; raises RequestError for a joint without any."""
+    pairs = reaction_pairs(mechanism)
+    known = list(dict.fromkeys(joint for joint, _ in pairs))
+    for name in names:
+        if name not in known:
+            raise RequestError(no_such("joint", name, known))
+    return [pair for pair in pairs if pair[0] in names] if names else pairs
 
 
 def reaction_index(mechanism: Mechanism, joint: str, on: str) -> str:

@@ -36,6 +36,8 @@ CHINESE = (
     "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei", "WenQuanYi Micro Hei",
     "WenQuanYi Zen Hei", "Droid Sans Fallback", "AR PL UMing CN",
 )  # fmt: skip
+#: Families with the small pictures that people write among words.
+PICTURES = ("Noto Color Emoji", "Segoe UI Emoji", "Apple Color Emoji", "Twemoji", "Noto Emoji", "Symbola")
 #: Width of a line of formulas, em; and of a formula's left side beyond which its right side begins a new line.
 LINE, LEFT = 41.0, 9.0
 #: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
@@ -69,9 +71,9 @@ _HEAD = """\
   inset: (x: 4.5pt, y: 3pt))
 #let lw-is-html = sys.inputs.form == "html"
 #let lw-title(body) = if lw-is-html {{ html.elem("h1", attrs: (class: "title"))[#body] }} else {{
-  align(center, text(19pt, weight: "bold", body)) }}
+  align(center, {{ set par(justify: false); text(19pt, weight: "bold", body) }}) }}
 #let lw-under(body) = if lw-is-html {{ html.elem("p", attrs: (class: "under"))[#body] }} else {{
-  align(center, body) }}
+  align(center, {{ set par(justify: false); body }}) }}
 #let lw-table(columns, align, kind, head, ..cells) = {{
   set text(8.8pt)
   set par(justify: false)
@@ -197,8 +199,8 @@ def fonts(language: str) -> tuple[str, ...]:
     chinese = tuple(name for name in CHINESE if name in known)
     if language == "zh" and not chinese:
         check_fonts("中", ())
-    latin = tuple(name for name in LATIN if name in known)
-    return (*latin, *chinese)
+    latin, pictures = (tuple(name for name in each if name in known) for each in (LATIN, PICTURES))
+    return (*latin, *chinese, *pictures)
 
 
 class _Writer:

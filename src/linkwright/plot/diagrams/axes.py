@@ -68,6 +68,10 @@ def equal(axes: Axes) -> None:
     axes.axvline(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)
 
 
+#: Height of a row of a legend, inches, and rows for which a figure has room as it is.
+ROW, FREE_ROWS = 0.19, 4
+
+
 class Legend:
     """Entries in the order in which they come, each once."""
 
@@ -96,7 +100,9 @@ class Legend:
         if not entries:
             return
         wide = max(sum(2.0 if ord(c) > 0x2E7F else 1.0 for c in label) for label in entries)
-        room = figure.get_size_inches()[0] * 72.0
-        columns = int(max(1, min(len(entries), room // (wide * 4.9 + 42))))
+        width, height = figure.get_size_inches()
+        columns = int(max(1, min(len(entries), width * 72.0 // (wide * 4.9 + 42))))
+        rows = -(-len(entries) // columns)
+        figure.set_size_inches(width, height + ROW * max(rows - FREE_ROWS, 0))
         shown = [f" {label}" if label.startswith("_") else label for label in entries]
         figure.legend(list(entries.values()), shown, loc="outside lower center", ncols=columns)

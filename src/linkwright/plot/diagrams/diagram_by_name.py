@@ -75,7 +75,7 @@ def plot(
             ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``hodographs``,
             ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison
             ``comparison`` (the default) or ``pivot_hodograph``; other results have one kind each.
-        of: outputs, links or points that the diagram is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
+        of: outputs, links, points or joints that it is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
             metrics or curves of a study, a comparison or a table.
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
         axes: ``"frame"``, or a link in whose axes forces are resolved.

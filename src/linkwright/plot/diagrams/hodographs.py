@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.hodograph import draw_hodograph
 from linkwright.plot.diagrams.picture import INK, new_figure
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.force_names import reaction_pairs
-from linkwright.registry import no_such
+from linkwright.plot.force_names import chosen_pairs
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,7 +29,7 @@ class Hodographs(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         require_forces(sources[0].forces)
-        pairs = _chosen(reaction_pairs(sources[0].mechanism), request.of)
+        pairs = chosen_pairs(sources[0].mechanism, request.of)
         columns = min(ROW, len(pairs))
         rows = -(-len(pairs) // columns)
         figure = new_figure(request.size or (WIDE * columns, HIGH * rows))
@@ -46,12 +44,3 @@ class Hodographs(Kind):
         framed(figure, f"{sources[0].label}: {title}" if len(sources) == 1 else title, request)
         legend.put(figure)
         return figure
-
-
-def _chosen(pairs: list[tuple[str, str]], names: Sequence[str]) -> list[tuple[str, str]]:
-    """The pairs of the joints that are named, else all."""
-    known = list(dict.fromkeys(joint for joint, _ in pairs))
-    for name in names:
-        if name not in known:
-            raise RequestError(no_such("joint", name, known))
-    return [pair for pair in pairs if pair[0] in names] if names else pairs

@@ -16,16 +16,19 @@ from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Extremes, Source
 from linkwright.plot.diagrams.units import size
-from linkwright.plot.force_names import reaction_pairs
+from linkwright.plot.force_names import chosen_pairs
 from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("reactions")
 class Reactions(OverInput):
-    """Sizes of the forces in all joints; or of one joint: size, and components in the frame's or a link's axes."""
+    """Sizes of the forces in all joints, or in those that ``of`` names.
+
+    Of one joint: size, and components in the frame's or a link's axes.
+    """
 
     name = "reactions"
-    options = ("joint", "on", "axes", "static")
+    options = ("of", "joint", "on", "axes", "static")
 
     def output(self, source: Source, request: Request) -> Output | str | None:
         return main_output(source.motion)
@@ -51,7 +54,7 @@ def require_forces(forces: Forces) -> None:
 
 def _of_all(source: Source, request: Request) -> Panel:
     mechanism, sizes, signals = source.mechanism, {}, {}
-    for joint, link in reaction_pairs(mechanism):
+    for joint, link in chosen_pairs(mechanism, request.of):
         force = source.closed(source.forces.reaction(joint, on=link))
         shared = len(mechanism.joints[joint].joined) > 2
         label = f"{joint} ({link})" if shared else joint

@@ -11,8 +11,8 @@ from linkwright.report.section import SECTIONS, Section
 from linkwright.words.sentence import Sentence
 
 KINDS = ("sva", "angles", "paths")
-#: Height of a diagram, mm: two of them share a page.
-TALLEST = 104.0
+#: Share of the text's width of a diagram, and its height, mm: two of them share a page.
+SHARE, TALLEST = 0.78, 104.0
 
 
 @SECTIONS.register("curves")
@@ -28,7 +28,7 @@ class Curves(Section):
         yield from pictures(case, KINDS)
 
 
-def pictures(case: Case, kinds: tuple[str, ...], share: float = 0.78) -> Iterator[Block]:
+def pictures(case: Case, kinds: tuple[str, ...], share: float = SHARE) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
         try:

@@ -12,9 +12,10 @@ from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
 from linkwright.report.numbers import faded
 from linkwright.report.section import SECTIONS, Section
-from linkwright.report.sections.curves import pictures
+from linkwright.report.sections.curves import SHARE
+from linkwright.report.sections.curves import TALLEST as SHORT
 
-#: Hodographs in one figure, and its height, mm.
+#: Joint forces in one figure, and the height of one of hodographs, mm.
 MOST, TALLEST = 12, 225.0
 
 
@@ -37,26 +38,33 @@ class Reactions(Section):
             yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
         if not case.mechanism.drivers:
             return
-        yield from pictures(case, ("reactions",))
-        yield from _hodographs(case)
+        parts = _parts(case)
+        yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
+        panels = [sum(joint in part for joint, _ in reaction_pairs(case.mechanism)) for part in parts]
+        yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
-def _hodographs(case: Case) -> Iterator[Block]:
-    """Hodographs of all joint forces, a page full in each figure."""
-    panels = Counter(joint for joint, _ in reaction_pairs(case.mechanism))
-    figures: list[list[str]] = [[]]
-    for joint, count in panels.items():
-        if figures[-1] and sum(panels[each] for each in figures[-1]) + count > MOST:
-            figures.append([])
-        figures[-1].append(joint)
-    for number, joints in enumerate(figures):
+def _parts(case: Case) -> list[list[str]]:
+    """The joints, as many together as fit into one figure."""
+    forces = Counter(joint for joint, _ in reaction_pairs(case.mechanism))
+    parts: list[list[str]] = [[]]
+    for joint, count in forces.items():
+        if parts[-1] and sum(forces[each] for each in parts[-1]) + count > MOST:
+            parts.append([])
+        parts[-1].append(joint)
+    return parts
+
+
+def _figures(
+    case: Case, kind: str, parts: list[list[str]], shares: list[float], tallest: float
+) -> Iterator[Block]:
+    """A figure of some joints each, or why there is none."""
+    caption = case.say(f"report.caption_{kind}")
+    for number, (joints, share) in enumerate(zip(parts, shares, strict=True)):
         try:
-            picture = case.diagram("hodographs", of=joints)
+            picture = case.diagram(kind, of=joints)
         except LinkwrightError as error:
-            yield Paragraph(literal(case.told(error)), "missing")
+            yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
             continue
-        caption = case.say("report.caption_hodographs")
-        share = min(1.0, 0.34 * min(3, sum(panels[each] for each in joints)))
-        if number:
-            caption = case.say("report.continued", caption=caption)
-        yield Figure(caption, ((picture, share),), "" if number else "hodographs", TALLEST)
+        title = case.say("report.continued", caption=caption) if number else caption
+        yield Figure(title, ((picture, share),), "" if number else kind, tallest)
