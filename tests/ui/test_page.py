@@ -339,6 +339,17 @@ def test_loads_of_every_kind_are_found_again(
     agrees(kept_open, mechanism.with_dimensions(changes), forces=True, tolerance=1e-9)
 
 
+def test_a_phase_that_cannot_be_found_hides_the_forces(kept_open: Opened, tmp_path: Path) -> None:
+    """Driven backwards, a group without closed form has limits in another order: no force is shown for one."""
+    load = "{kind: torque, on: plate, ramp: [1 N·m, 9 N·m], phase: {of: plate, from: max, to: min}}"
+    text = lw.read_document("gallery:triad").text + f"loads:\n  extra: {load}\n"
+    kept_open.open(lw.export(lw.loads(text), tmp_path / "backwards.html", steps=STEPS))
+    speed = kept_open.values()["driver.speed"]
+    for given, shown in ((-speed, False), (speed, True)):
+        kept_open.run("(s, v) => s.take({...s.model.values, 'driver.speed': v})", given)
+        assert kept_open.run("s => s.model.forces") == shown
+
+
 def test_the_changed_file_keeps_comments_and_units(opened: Opened, tmp_path: Path) -> None:
     mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
     opened.open(path)

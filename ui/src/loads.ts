@@ -84,6 +84,8 @@ class Acting {
     const rising = ends[1] === "max";
     const sign = (x: number) => (rising ? x > 0 : x < 0);
     if (moving && !ramp) return { acts: rate.map((x) => Number(sign(x))), share: empty() };
+    // Backwards through the positions their times fall, and limits do not come one after the other.
+    if (!(this.course.period > 0)) return { acts: empty().fill(NaN), share: empty() };
     const limits = this.limits(), stretches = this.stretches(moving ? limits : outermost(limits));
     const [acts, share] = [empty(), empty()];
     if (!stretches.length) return { acts: acts.fill(NaN), share };
