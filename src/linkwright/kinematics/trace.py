@@ -96,8 +96,13 @@ def _judge(motion: MotionTrace) -> None:
     """Outcome of the position: the first group that is out of reach or singular, or has a pair that does not fit."""
     outcome: Scalar = 0.0
     valid: Mask = True
+    sizes = [(joint.joined, joint.fits(motion.dimensions)) for joint in motion.mechanism.joints.values()]
+    doubtful = [(joined, fits) for joined, fits in sizes if fits is not True]
     for number, placed in reversed(list(enumerate(motion.placed.values(), 1))):
-        fits = _fits(motion, placed.group)
+        fits: Mask = True
+        for joined, each in doubtful:
+            if not set(placed.group.links).isdisjoint(joined):
+                fits = motion.trace.logic("and", fits, each)
         good = motion.trace.logic("and", placed.valid, fits)
         if good is True:
             continue
@@ -105,12 +110,3 @@ def _judge(motion: MotionTrace) -> None:
         outcome = select(good, outcome, lost)
         valid = motion.trace.logic("and", good, valid)
     motion.valid, motion.outcome = valid, outcome
-
-
-def _fits(motion: MotionTrace, group: Group) -> Mask:
-    """Whether the sizes of all pairs at a group's links fit."""
-    found: Mask = True
-    for joint in motion.mechanism.joints.values():
-        if set(group.links) & set(joint.joined):
-            found = motion.trace.logic("and", found, joint.fits(motion.dimensions))
-    return found
