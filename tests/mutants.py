@@ -76,7 +76,7 @@ def equivalents() -> dict[str, str]:
 def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float) -> Trial:
     source = (SOURCE / mutant.path).read_text("utf-8")
     key, place = mutant.key(source), f"{mutant.path}:{mutant.lines[0]}"
-    reason = known.get(key) or known.get(f"{key.rsplit(' | ', 1)[0]} | *")
+    reason = known.get(key) or known.get(f"{mutant.path} | {mutant.changed_lines(source)[0]} | *")
     if reason:
         return Trial(key, mutant.kind, place, "equivalent", reason, 0.0)
     tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
