@@ -275,7 +275,7 @@ NAMES = {
     "sensitivity": "各尺寸影响多大：精确导数",
     "Study": "参数研究的表",
     "study": "设计指标随尺寸变化的表",
-    "free_curve": "画出自由曲线的四至十杆机构",
+    "free_curve": "画出自由曲线的四至十二杆机构",
     "function_generation": "函数综合",
     "motion_generation": "刚体导引",
     "cognates": "同源机构",

@@ -8,6 +8,7 @@ start, direction and part of every curve is tried, and place, size and turn do n
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
@@ -37,9 +38,9 @@ M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
 #: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
-#: Joints of each level, with the dyads, structures and draws of its atlas; the last level starts from the others.
-LEVELS = ((5, 1, 1, 40000), (8, 2, 100, 960), (10, 3, 300, 400))
-EDITION = 3
+#: Joints of each level; numbers of dyads in its atlas, with the structures of each and the draws of each structure.
+LEVELS = ((5, ((1, 1, 40000),)), (8, ((2, 100, 960),)), (10, ((3, 300, 400), (4, 200, 300))))
+EDITION = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,23 +149,27 @@ def _complex(curves: NDArray[np.int8]) -> Complexes:
 
 def make(level: int) -> Atlas:
     """The atlas of a level, from its own seed: the same everywhere."""
-    joints, dyads, structures, draws = LEVELS[level]
+    joints, kinds = LEVELS[level]
     draw = np.random.default_rng(level + 1)
-    found = _structures(dyads, joints, structures, draw)
-    kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * structures
-    seeds = draw.integers(1 << 60, size=structures)
+    found = [
+        (nodes, draws) for dyads, count, draws in kinds for nodes in _structures(dyads, joints, count, draw)
+    ]
+    kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * len(found)
+    seeds = draw.integers(1 << 60, size=len(found))
 
     def work(first: int, last: int) -> None:
         for number in range(first, last):
-            kept[number] = _draws(found[number], draws, np.random.default_rng(seeds[number]))
+            kept[number] = _draws(*found[number], np.random.default_rng(seeds[number]))
 
-    spread_over(structures, 1, cores(), work)
+    spread_over(len(found), 1, cores(), work)
     parts = [each for each in kept if each is not None]
     which = np.concatenate(
         [np.column_stack([np.full(len(x), k), np.arange(len(x))]) for k, (x, _) in enumerate(parts)]
     )
     curves = np.concatenate([curve for _, curve in parts])
-    return Atlas(tuple(found), tuple(x for x, _ in parts), which.astype(np.int32), curves)
+    return Atlas(
+        tuple(nodes for nodes, _ in found), tuple(x for x, _ in parts), which.astype(np.int32), curves
+    )
 
 
 def _structures(dyads: int, joints: int, count: int, draw: np.random.Generator) -> list[Whole]:
@@ -207,14 +212,14 @@ def atlas(level: int) -> Atlas:
 
 def _path(level: int) -> Path | None:
     base = folder()
-    name = "-".join(str(each) for each in (EDITION, *LEVELS[level]))
+    name = "-".join(re.findall(r"\d+", str((EDITION, *LEVELS[level]))))
     return None if base is None else base / f"free_curves-{name}.npz"
 
 
 def _read(path: Path, level: int) -> Atlas:
     with np.load(path, allow_pickle=False) as file:
         which, curves, structures, numbers = (file[key] for key in ("which", "curves", "structures", "x"))
-    count, joints = LEVELS[level][2], structures[:, 0]
+    count, joints = sum(each[1] for each in LEVELS[level][1]), structures[:, 0]
     nodes = tuple(np.ascontiguousarray(row[1 : 1 + 4 * row[0]]) for row in structures)
     rows = np.bincount(which[:, 0], minlength=count)
     ends = np.cumsum(rows * 2 * (joints - 2))

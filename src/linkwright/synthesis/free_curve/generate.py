@@ -1,4 +1,4 @@
-"""Free curves: linkages of four to ten bars whose last point draws a given curve."""
+"""Free curves: linkages of four to twelve bars whose last point draws a given curve."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def free_curve(
             ``.svg``; ``file_unit``: length of one unit there, m.
         closed: whether the last point joins the first; not given: where they are the same point.
         joints: most joints (pivots, pins, points of links and the drawing point), 5 to 12: a four-bar has 5, a
-            six-bar up to 8, an eight-bar up to 10.
+            six-bar up to 8; with 10 there are eight- and ten-bars, with 12 twelve-bars as well.
         transmission_angle: least of every dyad over the whole turn, rad.
         size: greatest distance of any joint from the curve's centroid over the turn, in rms radii of the curve.
         error: an error that is good enough: linkages within it come with the fewest links first; 0: the least

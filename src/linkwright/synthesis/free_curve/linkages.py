@@ -12,7 +12,7 @@ from linkwright.synthesis.free_curve.nodes import Complexes, Design, Node, node_
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
 from linkwright.synthesis.linkage import Linkage
 
-KINDS = {4: "four_bar", 6: "six_bar", 8: "eight_bar", 10: "ten_bar"}
+KINDS = {4: "four_bar", 6: "six_bar", 8: "eight_bar", 10: "ten_bar", 12: "twelve_bar"}
 
 
 class Placed:
