@@ -10,6 +10,7 @@ ROOT = Path(linkwright.__file__).parent
 #: Errors of the program itself, which no user can do anything about.
 OF_THE_PROGRAM = {
     "ValueError", "TypeError", "RuntimeError", "NotImplementedError", "AssertionError", "KeyError", "AttributeError",
+    "FrozenInstanceError",
 }  # fmt: skip
 SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]{2,}")
 
