@@ -83,7 +83,9 @@ _COMPOSITORS = ("Compositor", "VizCompositorThread")
 
 
 def traced(page: Opened) -> tuple[list[float], dict[str, list[float]]]:
-    """Of a drag: times by the clock (ms) from each move to its frame, and processor times (ms) by kind of work."""
+    """Times by the clock (ms) from each move of a drag to its frame; of a second one, which a trace makes slower,
+    processor times (ms) by kind of work."""
+    times = page.tab.evaluate(_DRAG, [MOVES, DISPLAY])
     client = page.tab.context.browser.new_browser_cdp_session()
     events: list[dict[str, Any]] = []
     ended: list[bool] = []
@@ -91,7 +93,7 @@ def traced(page: Opened) -> tuple[list[float], dict[str, list[float]]]:
     client.on("Tracing.tracingComplete", lambda _: ended.append(True))
     config = {"includedCategories": list(_CATEGORIES)}
     client.send("Tracing.start", {"transferMode": "ReportEvents", "traceConfig": config})
-    times = page.tab.evaluate(_DRAG, [MOVES, DISPLAY])
+    page.tab.evaluate(_DRAG, [MOVES, DISPLAY])
     client.send("Tracing.end")
     while not ended:
         page.tab.wait_for_timeout(50)
