@@ -105,14 +105,15 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "points",
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
     "objective_loads": "{name!r} has friction, loads that divide by an output or follow a link that turns through, "
-    "or no single turn at constant speed, so no gradient of many designs is found; use sensitivity, which takes one "
-    "design at a time",
+    "or no single turn at constant speed, so no gradient of many designs is found; for outputs use "
+    "sensitivity, which takes one design at a time, for design numbers study",
     "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
-    "found; use sensitivity",
+    "found; for outputs use sensitivity, for design numbers study",
     "objective_turns": "{name!r}: {links} turns so far between two positions that its turns cannot be counted; "
     "give more steps, or more inputs",
     "objective_turned_loads": "{name!r}: loads go by limits of what a wheel, rack, belt or cam on {links} moves, "
-    "whose turns are counted from position to position, so no gradient of many designs is found; use sensitivity",
+    "whose turns are counted from position to position, so no gradient of many designs is found; for outputs use "
+    "sensitivity, for design numbers study",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",
     "objective_idle": "{names} has no influence on what is asked; leave it out",

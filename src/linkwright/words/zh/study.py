@@ -91,11 +91,12 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
     "objective_loads": "{name!r} 含有摩擦，或载荷以输出为除数、取决于整转构件的转角，或原动件不是匀速转一整周，"
-    "因此不能成批求梯度；请用 sensitivity，它逐个方案计算",
-    "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；请用 sensitivity",
+    "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
+    "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；输出的梯度请用 sensitivity，"
+    "设计指标请用 study",
     "objective_turns": "“{name}”：{links} 在相邻两个位置之间转得太多，不能确定整圈数；请增加步数或输入位置",
     "objective_turned_loads": "“{name}”：载荷取决于 {links} 上的齿轮、齿条、带或凸轮所带动构件的极限，"
-    "而其整圈数逐位置累计，不能成批求梯度；请用 sensitivity",
+    "而其整圈数逐位置累计，不能成批求梯度；输出的梯度请用 sensitivity，设计指标请用 study",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
