@@ -78,7 +78,7 @@ def test_the_balanced_model_is_written_and_has_no_shaking_force(
         ([FOUR, "--radius", "80"], 2, "has no unit"),
         ([FOUR, "--radius", "0 mm"], 2, "above zero"),
         ([FOUR, "--radius", "crnk=80mm"], 2, 'did you mean "crank"'),
-        ([FOUR, "--radius", "crank=80mm"], 2, "on jaw"),
+        ([FOUR, "--radius", "crank=80mm"], 2, "on 'jaw'; add"),
         ([FOUR, "--radius", "80mm", "--share", "2"], 2, "--share"),
         (["gallery:jaw_crusher_sixbar", "--radius", "80mm"], 1, "neither a four-bar nor a slider-crank"),
     ],

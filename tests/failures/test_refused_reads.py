@@ -64,7 +64,7 @@ TRUSS = "'Triangular truss on a pin and a roller' has no driver, so "
         (lambda: balance(model(), radius=0.0),
          "the radius of the counterweight on 'crank' is 0 m; give a positive one"),
         (lambda: balance(model(), radius={"crank": 0.1}),
-         "the radius of the counterweight on 'rocker' is 0 m; give a positive one"),
+         "no radius is given for the counterweight on 'rocker'; add it to the radii, or give one for all"),
         (lambda: balance(model("triad"), radius=0.1),
          "'Triad (class III group)' is neither a four-bar nor a slider-crank; counterweights by formula are for "
          "these two, other mechanisms are balanced by varying masses and mass centres in a study"),

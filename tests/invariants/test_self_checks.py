@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
 
 MODEL = """
@@ -99,33 +100,30 @@ def test_a_falsified_mass_shows_in_the_balance(forces: Forces) -> None:
         assert (fresh.balance_residual >= missing - 1e-8).all()
 
 
+def falsify(patch: pytest.MonkeyPatch, part: str, by: float) -> None:
+    """Let a row of the results be larger than it is."""
+    right = Rows.row
+
+    def wrong(self: Rows, name: str, evaluate: Evaluate) -> np.ndarray:
+        return right(self, name, evaluate) + by * (name == part)
+
+    patch.setattr(Rows, "row", wrong)
+
+
 @pytest.mark.parametrize("part", ["driver_power", "power"])
 def test_falsified_powers_show_in_the_power_residual(
     forces: Forces, part: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    right = Forces.fetch
-    monkeypatch.setattr(
-        Forces,
-        "fetch",
-        lambda self, names: [
-            row + 7.0 if name == part else row for name, row in zip(names, right(self, names), strict=True)
-        ],
-    )
+    fresh = again(forces)
+    falsify(monkeypatch, part, 7.0)
     sign = 1.0 if part == "driver_power" else -1.0
-    assert again(forces).power_residual == pytest.approx(np.full(16, 7.0 * sign), abs=1e-8)
+    assert fresh.power_residual == pytest.approx(np.full(16, 7.0 * sign), abs=1e-8)
 
 
 def test_both_ways_to_the_torque_are_two_ways(forces: Forces, monkeypatch: pytest.MonkeyPatch) -> None:
     assert forces.input_torque_from_power == pytest.approx(forces.input_torque, rel=1e-10, abs=1e-9)
-    right = Forces.fetch
-    monkeypatch.setattr(
-        Forces,
-        "fetch",
-        lambda self, names: [
-            row + 6.0 * (n == "power") for n, row in zip(names, right(self, names), strict=True)
-        ],
-    )
     fresh = again(forces)
+    falsify(monkeypatch, "power", 6.0)
     assert fresh.input_torque_from_power - fresh.input_torque == pytest.approx(np.ones(16), abs=1e-8)
 
 

@@ -114,7 +114,9 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 
 
 def _radius(radius: Radius, link: str) -> float:
-    distance = radius.get(link, 0.0) if isinstance(radius, Mapping) else radius
+    if isinstance(radius, Mapping) and link not in radius:
+        raise RequestError(Sentence("forces.weight_no_radius", link=link))
+    distance = radius[link] if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
         raise RequestError(Sentence("forces.weight_radius", link=link, distance=distance))
     return distance

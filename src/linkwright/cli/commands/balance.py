@@ -23,17 +23,6 @@ ENDINGS = (".yaml", ".yml")
 NOTHING = 1e-12
 
 
-class _Radii(dict[str, float]):
-    """Radii by link; one that is not given is refused."""
-
-    def __init__(self, radii: dict[str, float], say: Say) -> None:
-        super().__init__(radii)
-        self._say = say
-
-    def __missing__(self, link: str) -> float:
-        raise UsageError(self._say("balance.no_radius", link=link))
-
-
 def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     """The command's options."""
     parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
@@ -82,7 +71,7 @@ def _share(text: str, say: Say) -> float:
     return share
 
 
-def _radius(text: str, mechanism: Mechanism, say: Say) -> float | _Radii:
+def _radius(text: str, mechanism: Mechanism, say: Say) -> float | dict[str, float]:
     """One radius, or radii by link from ``crank=80 mm, rod=40 mm``; raises UsageError."""
     if "=" not in text:
         return _length(text, say)
@@ -96,7 +85,7 @@ def _radius(text: str, mechanism: Mechanism, say: Say) -> float | _Radii:
             hint = say("cli.did_you_mean", name=offer) if offer else ""
             raise UsageError(say("balance.no_link", link=link) + hint)
         radii[link] = _length(given, say)
-    return _Radii(radii, say)
+    return radii
 
 
 def _length(text: str, say: Say) -> float:

@@ -197,7 +197,7 @@ def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
     found: list[float] = []
     for turn in grid[valley & (rough < rough.min() + 2 * grid[1])]:
         bounds: Sequence[float] = (turn - grid[1], turn + grid[1])
-        found.append(float(minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-5}).fun))
+        found.append(float(minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-7}).fun))
     return min(found)
 
 

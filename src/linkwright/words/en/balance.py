@@ -17,8 +17,6 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "output_help": "write the balanced model to a .yaml file",
     "bad_share": '--share: "{text}" is no share; give a number from 0 (nothing) to 1 (everything)',
     "bad_radius": '--radius: "{text}" is no radius; give a length above zero, such as 80mm',
-    "no_radius": "--radius: no radius is given for the counterweight on {link}; add {link}=… to the list, or "
-    "give one length for all",
     "no_link": '--radius: there is no link "{link}"',
     "none": "No counterweight is needed: the links have no mass, or their mass centres lie where they must.",
     "column.link": "counterweight on",

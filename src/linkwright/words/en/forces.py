@@ -6,6 +6,8 @@ WORDS = {
     "one_sum": "with several drivers the powers give one sum, not the effort of one driver",
     "no_driver": "{name!r} has no driver, so it has no input torque",
     "share": "share is {share:g}; give a number from 0 (nothing) to 1 (everything)",
+    "weight_no_radius": "no radius is given for the counterweight on {link!r}; add it to the radii, or "
+    "give one for all",
     "weight_radius": "the radius of the counterweight on {link!r} is {distance:g} m; give a positive one",
     "not_balanced": "{name!r} is neither a four-bar nor a slider-crank; counterweights by formula are for "
     "these two, other mechanisms are balanced by varying masses and mass centres in a study",
