@@ -1,5 +1,6 @@
 """The tests import each other's helpers as `tests....`, and keep compiled code out of the user's cache."""
 
+import gc
 import os
 import sys
 import tempfile
@@ -11,3 +12,9 @@ if ROOT not in sys.path:
 
 os.environ.setdefault("LINKWRIGHT_CACHE", str(Path(tempfile.gettempdir()) / "linkwright-tests-cache"))
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores; threads that wait spin
+
+
+def pytest_collection_finish() -> None:
+    """What importing and collecting left stays: the collector need not look through it during the tests."""
+    gc.collect()
+    gc.freeze()

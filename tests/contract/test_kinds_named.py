@@ -56,9 +56,15 @@ def classes(registry: Registry) -> set[str]:
     return {each.__name__ for each in own if not each.__module__.endswith((".base", ".lower"))}
 
 
-def asked(tree: ast.AST, names: set[str], kinds: set[str]) -> Iterator[int]:
+def told(text: str) -> list[ast.AST]:
+    """What in a source may name a kind."""
+    kinds = (ast.Call, ast.MatchClass, ast.Compare, ast.ImportFrom)
+    return [node for node in ast.walk(ast.parse(text)) if isinstance(node, kinds)]
+
+
+def asked(nodes: list[ast.AST], names: set[str], kinds: set[str]) -> Iterator[int]:
     """Lines that ask for a class of ``names`` or compare a ``kind`` with a word of ``kinds``."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Call) and ast.unparse(node.func) in ("isinstance", "issubclass"):
             mentioned = {each.id for each in ast.walk(node.args[1]) if isinstance(each, ast.Name)}
         elif isinstance(node, ast.MatchClass):
@@ -73,9 +79,9 @@ def asked(tree: ast.AST, names: set[str], kinds: set[str]) -> Iterator[int]:
             yield node.lineno if hasattr(node, "lineno") else 0
 
 
-def imported(tree: ast.AST, room: str, names: set[str]) -> Iterator[str]:
+def imported(nodes: list[ast.AST], room: str, names: set[str]) -> Iterator[str]:
     """Classes of ``names`` that a file imports from the room."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"linkwright.{room}."):
             yield from (each.name for each in node.names if each.name in names)
 
@@ -92,10 +98,12 @@ def named() -> Counter[str]:
             word in text
             for word in ("isinstance", "kind", "case ", *(f"linkwright.{room}." for room in ROOMS))
         ):
-            tree = ast.parse(text)
+            nodes = told(text)
             for room, (names, kinds) in known.items():
                 if file.parts[0] != room:
-                    found[file.as_posix()] += len([*asked(tree, names, kinds), *imported(tree, room, names)])
+                    found[file.as_posix()] += len(
+                        [*asked(nodes, names, kinds), *imported(nodes, room, names)]
+                    )
     return +found
 
 
@@ -113,8 +121,6 @@ def test_solvers_ask_the_element() -> None:
 )
 def test_a_named_kind_is_found(line: str) -> None:
     found = [
-        each
-        for registry in ROOMS.values()
-        for each in asked(ast.parse(line), classes(registry), set(registry))
+        each for registry in ROOMS.values() for each in asked(told(line), classes(registry), set(registry))
     ]
     assert found

@@ -1,16 +1,14 @@
 """How fast this processor is, so that an answer at once means a share of its work and no time by the clock."""
 
 import time
-from functools import cache
 
 #: Plain loops of ``STEPS`` that two seconds held on the machine on which the bound was set.
 LOOPS = 75
 STEPS = 300_000
 
 
-@cache
 def at_once() -> float:
-    """Processor time, s, of the work that took two seconds there."""
+    """Processor time, s, that the work of two seconds there takes here and now: the pace of a processor changes."""
     least = float("inf")
     for _ in range(3):
         began, total = time.process_time(), 0
