@@ -1,6 +1,7 @@
 """Flywheels of textbooks: torque given by areas or curves, no mechanism.
 
-Areas and curves: Khurmi and Gupta, Theory of Machines, ch. 16 (examples on turning moment diagrams).
+Areas and curves: Khurmi and Gupta, Theory of Machines, ch. 16 (examples on turning moment diagrams); fluctuations,
+powers and flywheels of the examples are compared in test_published.
 """
 
 from math import pi
@@ -15,11 +16,9 @@ from linkwright.machine import (
     energy_fluctuation,
     equivalent_torque,
     fluctuation_from_areas,
-    flywheel_inertia,
     motor,
     on_faster_shaft,
     rim,
-    speed_fluctuation,
     steady_running,
     true_speed,
 )
@@ -30,29 +29,14 @@ RPM = 2 * pi / 60
 def test_areas_of_a_turning_moment_diagram() -> None:
     areas = [295, -685, 40, -340, 960, -270]
     found = fluctuation_from_areas(areas, torque_scale=5.0, angle_scale=pi / 180)
-    assert found.value == pytest.approx(85.957, abs=5e-4)
     assert (found.low, found.high) == (4, 1)
-    assert speed_fluctuation(found.value, 1800 * RPM, 36 * 0.15**2) == pytest.approx(0.2987e-2, abs=5e-7)
-
-
-def test_engine_against_its_mean_torque() -> None:
-    engine = TorqueCurve.from_function("20000 + 9500*sin(2*theta) - 5700*cos(2*theta)")
-    speed = 180 * RPM
-    assert motor(engine.mean, speed).power == pytest.approx(376.99e3, abs=5)
-    found = energy_fluctuation(engine)
-    assert found.value == pytest.approx(11078.81, abs=5e-3)
-    assert flywheel_inertia(found.value, speed, 0.01) == pytest.approx(3118.1, abs=5e-2)
 
 
 def test_engine_against_a_load_that_varies() -> None:
     engine = TorqueCurve.from_function("5000 + 600*sin(2*theta)")
     load = TorqueCurve.from_function(lambda theta: 5000 + 500 * np.sin(theta))
-    inertia, speed = 500 * 0.4**2, 150 * RPM
-    found = energy_fluctuation(engine, load)
-    assert found.value == pytest.approx(1204.1667, abs=5e-5)
-    assert speed_fluctuation(found.value, speed, inertia) == pytest.approx(6.1004e-2, abs=5e-7)
     (slow, least), (fast, most) = engine.minus(load).extremes()
-    assert (least / inertia, most / inertia) == pytest.approx((-12.203, 12.203), abs=5e-4)
+    assert least == pytest.approx(-most, rel=1e-9)
     assert np.degrees([slow, fast]) == pytest.approx([127.63, 232.37], abs=5e-3)
 
 

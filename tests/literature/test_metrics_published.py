@@ -17,19 +17,19 @@ def of(name: str, steps: int = 360) -> MetricsTable:
 
 @pytest.mark.parametrize("steps", [36, 360, 361])
 def test_slider_crank_of_the_printing_press(steps: int) -> None:
-    """平臺印刷機主傳動機構運動簡圖設計: K 1.0343, stroke 397.60610 mm, 78.71266° and 68.40943°.
-
-    K beyond the printed digits from θ = asin(e/(l - r)) - asin(e/(l + r)).
-    """
-    theta = asin(60.5 / (702.5 - 198)) - asin(60.5 / (702.5 + 198))
+    """Its printed numbers are compared in test_published; here H = √((l + r)² - e²) - √((l - r)² - e²),
+    K = (π + θ)/(π - θ) with θ = asin(e/(l - r)) - asin(e/(l + r)), cos μ = (r ∓ e)/l, at any number of steps."""
+    r, rod, e = 0.198, 0.7025, 0.0605
+    theta = asin(e / (rod - r)) - asin(e / (rod + r))
+    working, returning = acos((r - e) / rod), acos((r + e) / rod)
     table = of("slider_crank_offset", steps)
-    assert table.value("quick_return_ratio") == pytest.approx(1.0343, abs=5e-5)
     assert table.value("quick_return_ratio") == pytest.approx((pi + theta) / (pi - theta), rel=1e-12)
-    assert table.value("stroke") == pytest.approx(0.39760610, abs=5e-9)
-    strokes = [degrees(row.value) for row in table["transmission_angle_of_stroke"]]
-    assert strokes == pytest.approx([78.71266, 68.40943], abs=5e-6)
+    stroke = sqrt((rod + r) ** 2 - e**2) - sqrt((rod - r) ** 2 - e**2)
+    assert table.value("stroke") == pytest.approx(stroke, abs=1e-11)
+    strokes = [row.value for row in table["transmission_angle_of_stroke"]]
+    assert strokes == pytest.approx([working, returning], abs=1e-9)
     smallest = table["transmission_angle", "rod+slider"]
-    assert degrees(smallest.value) == pytest.approx(68.40943, abs=5e-6)
+    assert smallest.value == pytest.approx(returning, abs=1e-9)
     assert degrees(smallest.at) % 360 == pytest.approx(270, abs=1e-4)
     assert table.value("pressure_angle") == pytest.approx(pi / 2 - smallest.value)
 

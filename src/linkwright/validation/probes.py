@@ -225,8 +225,10 @@ def regression(given: Mapping[str, Any]) -> Find:
 
     held = {name: parts.Numbers(tuple(given[name])) for name in ("x", "y")}
     found = parts.Samples(held, regressions={"r": parts.Fitting("y", ("x",))}).solve().regressions["r"]
-    intercept, slope = found.coefficients
-    values = {"intercept": intercept, "slope": slope, "deviation": found.deviation}
+    coefficients = zip(("intercept", "slope"), found.coefficients, found.errors, strict=True)
+    values = {"deviation": found.deviation, "determination": found.determination}
+    for name, value, error in coefficients:
+        values |= {name: value, f"error of {name}": error}
     return lambda what: float(values[what])
 
 
