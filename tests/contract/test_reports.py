@@ -107,6 +107,22 @@ def test_own_text_and_hostile_names_come_out_as_written() -> None:
     assert any(isinstance(b, Paragraph) and b.kind == "bullet" for b in found.document.blocks)
 
 
+def test_characters_that_no_font_has_are_told_once_the_pdf_is_made() -> None:
+    """A private character, which no font defines, beside Greek, Chinese and formula signs, which are there."""
+    crank = lw.load("gallery:crank_rocker")
+    text = {"text": {"task": "x \U0010fffd, Ω ≤ 曲柄 ² and $\\mu \\ge 0$"}}
+    found = report(replace(crank, report=text), sections=["task"])
+    found.content(".html")
+    assert not found.missing
+    for _ in range(2):
+        found.content(".pdf")
+        (said,) = found.missing
+        assert "no font here has \U0010fffd:" in said
+    plain = report(crank, sections=["task"])
+    plain.content(".pdf")
+    assert not plain.missing
+
+
 @pytest.mark.parametrize("name", ["cam_roller", "simple_beam"])
 def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     found = report(["gallery:crank_rocker", f"gallery:{name}"], sections=["structure"], language="zh")

@@ -49,7 +49,7 @@ class Report:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """What the report lacks, and why."""
+        """What the report lacks, and why; once its PDF is made, also the characters that no font has."""
         return tuple(self.document.missing)
 
     @property
@@ -63,9 +63,13 @@ class Report:
         Raises LinkwrightError for another ending, a package or a font that is not there.
         """
         if ending in (".pdf", ".html"):
-            from linkwright.report.typst_pages import compiled
+            from linkwright.report.typst_pages import compiled, without_glyph
 
-            return compiled(self.document, ending[1:])
+            made = compiled(self.document, ending[1:])
+            lost = without_glyph(self.document) if ending == ".pdf" else ""
+            if lost:
+                self._miss(Sentence("report.no_glyph", characters=" ".join(lost)).say(self.document.language))
+            return made
         if ending == ".docx":
             from linkwright.report.word_pages import word
 
@@ -75,6 +79,11 @@ class Report:
 
             return pages(self.document)[0].encode()
         raise RequestError(Sentence("report.bad_ending", ending=ending, endings=ENDINGS))
+
+    def _miss(self, sentence: str) -> None:
+        """Notes what the report lacks, once."""
+        if sentence not in self.document.missing:
+            self.document.missing.append(sentence)
 
     def save(self, path: str | Path) -> Path:
         """Write it, whole or not at all; the ending of ``path`` says which form."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import lru_cache
+from itertools import chain
 from typing import Any
+from unicodedata import category
 
 from linkwright.errors import LinkwrightError
 from linkwright.plot.svg.fonts import check_fonts
@@ -48,6 +50,10 @@ TEXT, TOGETHER = 170.0, 32
 ACROSS = 112
 #: Warnings of Typst that say nothing about the page.
 _EXPECTED = ("html export is under active", "was ignored during HTML export", "equation was ignored")
+#: Categories of characters that leave no mark of their own: controls, formats, accents, spaces.
+_NO_INK = ("Cc", "Cf", "Mn", "Zs", "Zl", "Zp")
+#: What Typst says of a text for which no font has a glyph.
+_NO_GLYPH = "could not be displayed"
 _HEAD = """\
 #set document(title: {title}, author: ())
 #set page(paper: "a4", margin: (x: 20mm, top: 24mm, bottom: 22mm), numbering: "1", header: context {{
@@ -153,6 +159,32 @@ def compiled(document: Document, form: str) -> bytes:
         raise LinkwrightError(Sentence("report.typst_says", sentence="; ".join(dict.fromkeys(said))))
     assert isinstance(found, bytes)
     return found if form == "pdf" else _styled(found, document)
+
+
+def without_glyph(document: Document) -> str:
+    """The characters of a document for which no font is found: the PDF has boxes there."""
+    text, pictures = pages(document)
+    rare = {c for c in chain(text, *pictures.values()) if not c.isascii() and category(c) not in _NO_INK}
+    families = fonts(document.language)
+    if _printed("".join(sorted(rare)), families):
+        return ""
+    return "".join(c for c in sorted(rare) if not _printed(c, families))
+
+
+@lru_cache(maxsize=512)
+def _printed(text: str, families: tuple[str, ...]) -> bool:
+    """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
+    import typst as program
+
+    source = (
+        f"#set document(date: datetime(year: 2000, month: 1, day: 1), title: {quoted('-')})\n"
+        f"#set text(font: {_listed(families)})\n#{quoted(text)}"
+    )
+    try:
+        program.compile(source.encode(), format="pdf", pdf_standards="a-2b")
+    except program.TypstError as error:
+        return _NO_GLYPH not in str(error)
+    return True
 
 
 def typst_fault(text: str) -> str:

@@ -24,9 +24,9 @@ EDGE, HEAD = 9.0, 12.0
 LEAST, LINE = 150.0, 4.4
 #: Length of the line that shows a picture's scale, and the space for it, mm.
 BAR, BAR_SPACE = 20.0, 7.0
-#: A picture flatter than FLAT mm is drawn up to WIDE mm long; one that stays below THIN mm has its arrows side by
-#: side, SIDE mm apart.
-FLAT, WIDE, THIN, SIDE = 12.0, 190.0, 3.0, 3.0
+#: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
+#: has room beneath it; one that stays below THIN mm has its arrows side by side, SIDE mm apart.
+FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
 #: Shorter arrows are not drawn, mm.
 LEAST_ARROW = 0.1
 #: Distance of a name from its place, and between the points that stand for a line, mm.
@@ -72,10 +72,11 @@ def scale_for(largest: float, millimetres: float) -> float:
 
 def scale_of_picture(places: Floats, millimetres: float) -> float:
     """A round scale with which places (n, 2) are so many millimetres long, or more where they would be too flat."""
-    thin, long = sorted(float(each) for each in np.ptp(places, axis=0))
-    if long <= 0 or not thin * WIDE / long >= THIN / 2:
+    across, up = (float(each) for each in np.ptp(places, axis=0))
+    thin, long, most = (across, up, HIGH) if up > across else (up, across, WIDE)
+    if long <= 0 or not thin * most / long >= THIN / 2:
         return scale_for(long, millimetres)
-    return scale_for(long, min(WIDE, max(millimetres, FLAT * long / thin)))
+    return scale_for(long, min(most, max(millimetres, FLAT * long / thin)))
 
 
 def side_by_side(pairs: list[tuple[Floats, Floats]]) -> list[tuple[Floats, Floats]]:

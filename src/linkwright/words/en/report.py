@@ -250,6 +250,8 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "needs_typst": 'reports need typst; install it with: pip install "linkwright[report]"',
     "needs_word": 'Word files need python-docx; install it with: pip install "linkwright[report]"',
     "typst_says": "the report cannot be set: {sentence}",
+    "no_glyph": "no font here has {characters}: boxes stand there in the PDF; install a font that has them "
+    "(small pictures: Noto Color Emoji) or write a word instead",
     "bad_ending": 'the ending "{ending}" is no form of a report; use {endings}',
     "no_machine": "a report needs a machine; name a model file",
     "no_section": 'there is no section "{name}"; {hint}',

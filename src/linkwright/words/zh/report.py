@@ -238,6 +238,8 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "needs_typst": '编写说明书需要 typst；请安装：pip install "linkwright[report]"',
     "needs_word": '生成 Word 文件需要 python-docx；请安装：pip install "linkwright[report]"',
     "typst_says": "说明书无法排版：{sentence}",
+    "no_glyph": "现有字体中没有 {characters}：PDF 中显示为方框；"
+    "请安装含有这些字符的字体（表情符号：Noto Color Emoji），或改写为文字",
     "bad_ending": '说明书没有后缀为 "{ending}" 的形式；可用 {endings}',
     "no_machine": "说明书需要一台机器；请给出模型文件",
     "no_section": '没有名为 "{name}" 的一节；{hint}',
