@@ -128,8 +128,10 @@ class Piecewise:
         last = int(np.searchsorted(self.edges, high, "left"))
         edges, values = self.edges[first : last + 1].copy(), self.values[first:last].copy()
         edges[0], edges[-1] = low, high
-        for cut in {0, last - first - 1}:
-            values[cut] = self(nodes(edges[cut : cut + 2])[0])
+        cut = 0.5 * (
+            edges[[[0], [-2]]] + edges[[[1], [-1]]] + (edges[[[1], [-1]]] - edges[[[0], [-2]]]) * NODES
+        )
+        values[[0, -1]] = self(cut.ravel()).reshape(2, POINTS)
         return Piecewise(edges, values, tolerance=self.tolerance)
 
     # integral -----------------------------------------------------------------------------
@@ -211,8 +213,8 @@ class Integral:
 
 def tails(values: Floats) -> Floats:
     """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""
-    a, b, c = np.moveaxis(np.abs(values @ TO_LAST), -1, 0)
-    return np.asarray(np.maximum(np.maximum(a, b), c))
+    last = np.abs(values @ TO_LAST)
+    return np.asarray(np.maximum(np.maximum(last[..., 0], last[..., 1]), last[..., 2]))
 
 
 Peak = tuple[NDArray[np.intp], Floats, Floats, Floats]

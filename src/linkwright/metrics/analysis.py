@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -69,7 +69,7 @@ class Analysis:
         motion, forces = (result.motion, result) if isinstance(result, Forces) else (result, None)
         return _known.get(result, "", lambda: cls(motion, forces))
 
-    @property
+    @cached_property
     def input_dimension(self) -> str:
         """``angle`` or ``length``: of the first driver's coordinate."""
         return "angle" if next(iter(self.motion.positions.rotary.values()), True) else "length"
@@ -138,14 +138,12 @@ class Analysis:
             return lambda each: (each.motion if isinstance(each, Forces) else each).link(link).angle
 
         def read(solved: Motion | Forces) -> Floats:
-            name = words_name(output)
-            rows = solved.rows
+            name, rows, evaluate = words_name(output), solved.rows, partial(self._read, solved=solved)
+            kept.setdefault(name)
+            together = isinstance(solved, Forces) or self.forces is None
             if name not in rows.index and name not in rows.extra:
-                kept.setdefault(name)
-                together = isinstance(solved, Forces) or self.forces is None
-                missing = [each for each in kept if each not in rows.extra] if together else [name]
-                rows.fetch(tuple(missing), lambda names: self._read(names, solved))
-            return rows.extra[name]
+                rows.fetch(tuple(kept) if together else (name,), evaluate)
+            return rows.row(name, evaluate)
 
         return read
 
@@ -167,11 +165,13 @@ class Analysis:
         return self._parts[summary]
 
     def _summarised(self, summary: Summary) -> Extreme:
+        kind = summary.kind
+        if kind in ("max", "min", "mean", "rms") and (known := self._known(summary.output, kind)):
+            return known
+        output, signal = self.output(summary.output), self.signal(summary.output)
         nothing = Extreme(float("nan"), float("nan"), float("nan"), True)
-        output, kind = self.output(summary.output), summary.kind
         if output is not None and kind in ("argmax", "argmin", "range"):
             return self._of_limits(output, kind)
-        signal = self.signal(summary.output)
         if kind in ("mean", "rms"):
             return replace(nothing, value=(self.mean_of if kind == "mean" else self.rms_of)(signal))
         if kind == "excess":
@@ -201,27 +201,38 @@ class Analysis:
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
-        known = None if output.endswith(".angle") else self._together(words_name(output)).get(side)
-        if known is not None:
+        if known := self._known(output, kind):
             return known
         signal = self.signal(output)
         return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
 
-    def _together(self, name: str) -> dict[str, Extreme]:
-        """Extremes of an output, where polynomials meet it, found at once with those of all that were asked for."""
+    def _known(self, output: str, kind: str) -> Extreme | None:
+        """A maximum, minimum, mean or root mean square of an output, where polynomials meet it, found at once with
+        those of all that were asked for."""
+        if output.endswith(".angle"):
+            return None
+        name = words_name(output)
         if name not in self._met:
             missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
-            self._met |= self._extremes(missing)
-        return self._met[name]
+            self._met |= self._summaries(missing)
+        return self._met[name].get(kind)
 
-    def _extremes(self, names: tuple[str, ...]) -> dict[str, dict[str, Extreme]]:
+    def _summaries(self, names: tuple[str, ...]) -> dict[str, dict[str, Extreme]]:
         grid = self.grid
         found: dict[str, dict[str, Extreme]] = {name: {} for name in names}
         if grid is None:
             return found
         solved = grid.motion if self.forces is None else grid.forces
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
-        values = rows.reshape(len(names), -1, POINTS).swapaxes(1, 2)
+        pieces = rows.reshape(len(names), -1, POINTS)
+        with np.errstate(all="ignore"):
+            means, met = grid.means(pieces)
+            squares, even = grid.means(pieces * pieces)
+            sizes = np.sqrt(squares)
+        for kind, size, known in (("mean", means, met), ("rms", sizes, even)):
+            for k in np.flatnonzero(known).tolist():
+                found[names[k]][kind] = Extreme(float(size[k]), float("nan"), float("nan"), True)
+        values = pieces.swapaxes(1, 2)
         bound = grid.tolerance * np.abs(values).max(axis=(1, 2))
         both = np.concatenate([values, -values])
         piece, place, top, rough = largest(both, both.max(axis=1))
@@ -254,7 +265,7 @@ class Analysis:
     @cached_property
     def grid(self) -> CycleGrid | None:
         """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
-        return cycle_grid(self.resolver, self.motion, self.forces)
+        return cycle_grid(self.resolver, self.motion, self.forces, tuple(self._words))
 
     def mean_of(self, signal: Callable[..., Floats]) -> float:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).

@@ -110,8 +110,10 @@ class Number:
     def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
         """Value, place, and whether it is exact between the positions, of one machine."""
         parts = [analysis.part(part) for part in self.parts]
-        with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
-            found = self.formula(*(np.float64(part.value) for part in parts))
+        found: Scalar = parts[0].value
+        if self.formula is not _itself:
+            with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
+                found = self.formula(*(np.float64(part.value) for part in parts))
         assert isinstance(found, float)
         return float(found), self.at(*parts), all(part.exact for part in parts)
 
@@ -177,6 +179,16 @@ class Metric(ABC):
         """Its values as formulas; ``analysis``: of the machine, or of the one from which designs start."""
         return ()
 
+    def asked(self, analysis: Analysis) -> tuple[Number, ...]:
+        """These formulas, found once per analysis, whose outputs are evaluated together with all that are asked for
+        before the first value is read."""
+        key = ("numbers", self.name)
+        if key not in analysis.kept:
+            analysis.kept[key] = numbers = tuple(self.numbers(analysis))
+            analysis.ask(part for number in numbers for part in number.parts)
+        found: tuple[Number, ...] = analysis.kept[key]
+        return found
+
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
         """What is to be said about a value of a formula."""
         return ()
@@ -185,9 +197,7 @@ class Metric(ABC):
         """The values, from what several numbers share; none where no position is reached."""
         if not analysis.motion.ok.any():
             return
-        numbers = tuple(self.numbers(analysis))
-        analysis.ask(part for number in numbers for part in number.parts)
-        for number in numbers:
+        for number in self.asked(analysis):
             value, at, exact = number.measured(analysis)
             remarks = self.remarks(value, at, analysis)
             yield self.value(

@@ -8,10 +8,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.core.piecewise import (
     POINTS,
     SMOOTH,
+    WEIGHTS,
     Extreme,
     Piecewise,
     edges_between,
@@ -49,14 +51,20 @@ _NOISE = 96
 class CycleGrid:
     """Motion, and forces if they were solved, at the Gauss points of pieces between ``start`` and ``end``, s.
 
-    Edges lie where loads begin or end to act; pieces that still are not smooth are halved.
+    ``asked``: outputs that will be wanted beside those that are stored. Edges lie where loads begin or end to act;
+    pieces that still are not smooth are halved.
     """
 
     def __init__(
-        self, resolver: Resolver, motion: Motion, forces: Forces | None, start: float, end: float
+        self,
+        resolver: Resolver,
+        motion: Motion,
+        forces: Forces | None,
+        span: tuple[float, float],
+        asked: tuple[str, ...],
     ) -> None:
         self.resolver, self._motion, self._forces = resolver, motion, forces
-        self.start, self.end = start, end
+        (self.start, self.end), self._asked = span, asked
         self._curves: Recent[Callable[[Any], Floats], Piecewise] = Recent(8)
 
     @cached_property
@@ -94,6 +102,11 @@ class CycleGrid:
             return found
         return Piecewise(self.edges, pieces, self._function(signal, of), self.edges, tolerance)
 
+    def means(self, values: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+        """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere."""
+        met = tails(values).max(axis=1) <= self.tolerance * np.abs(values).max(axis=(1, 2))
+        return 0.5 * (values @ WEIGHTS) @ np.diff(self.edges) / (self.end - self.start), met
+
     def extremes_between(
         self, kind: str, wanted: Sequence[tuple[Piecewise, tuple[float, float]]]
     ) -> list[Extreme]:
@@ -116,7 +129,7 @@ class CycleGrid:
         """
         of = "motion" if self._forces is None else "forces"
         edges = edges_between(self.start, self.end, PIECES, self._switches())
-        solved = self.resolver.at(nodes(edges).ravel(), of)
+        solved = self.resolver.at(nodes(edges).ravel(), of, self._asked)
         before = np.inf
         for _ in range(HALVINGS):
             tail = self._tails(solved, len(edges) - 1)
@@ -126,7 +139,7 @@ class CycleGrid:
                 break
             before = level
             edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
-            solved = self.resolver.at(nodes(edges).ravel(), of)
+            solved = self.resolver.at(nodes(edges).ravel(), of, self._asked)
         noisy = len(edges) > 2 and bool((tail > SMOOTH).mean() > 0.5)
         return edges, solved, float(np.quantile(tail, 0.9)) if noisy else 0.0
 
@@ -187,7 +200,9 @@ def _twice(curve: Piecewise, period: float) -> Piecewise:
     return Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
 
 
-def cycle_grid(resolver: Resolver, motion: Motion, forces: Forces | None) -> CycleGrid | None:
+def cycle_grid(
+    resolver: Resolver, motion: Motion, forces: Forces | None, asked: tuple[str, ...]
+) -> CycleGrid | None:
     """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
     if not resolver.possible or motion.steps < 3 or not motion.ok.all():
         return None
@@ -196,7 +211,7 @@ def cycle_grid(resolver: Resolver, motion: Motion, forces: Forces | None) -> Cyc
         end = start + float(np.sign(motion.time[-1] - start)) * positions.period
     else:
         end = float(motion.time[-1])
-    grid = CycleGrid(resolver, motion, forces, min(start, end), max(start, end))
+    grid = CycleGrid(resolver, motion, forces, (min(start, end), max(start, end)), asked)
     try:
         return grid if grid.motion.ok.all() else None
     except LinkwrightError:

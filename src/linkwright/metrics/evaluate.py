@@ -35,7 +35,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     chosen = {name: METRICS[name]() for name in (_usual() if asked is None else asked)}
     applying = {name for name, metric in chosen.items() if metric.applies(analysis)}
     for name in applying:
-        analysis.ask(part for number in chosen[name].numbers(analysis) for part in number.parts)
+        chosen[name].asked(analysis)
     for name, metric in chosen.items():
         if name in applying:
             rows += metric.evaluate(analysis)

@@ -52,13 +52,13 @@ class Resolver:
         """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
         return self._between is not None
 
-    def at(self, time: Floats, of: str = "motion") -> Any:
-        """Motion, or Forces with ``of="forces"``, at some times, s."""
+    def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
+        """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
         if of != "forces":
             return self.motion(time)
-        return self._at_once(time) or self.forces(self.motion(time))
+        return self._at_once(time, asked) or self.forces(self.motion(time))
 
-    def _at_once(self, time: Floats) -> Forces | None:
+    def _at_once(self, time: Floats, asked: tuple[str, ...]) -> Forces | None:
         """Forces with their motion in one evaluation, where all positions are reached and no mode changes."""
         from linkwright.kinetostatics.run import solved_at_once
 
@@ -77,7 +77,7 @@ class Resolver:
             known.design,
             positions,
             motion,
-            (),
+            asked,
             lambda each: _SameCycle(each, self._signals),
         )
 

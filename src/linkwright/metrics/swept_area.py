@@ -36,7 +36,7 @@ class SweptArea(Metric):
         }
         moving = dict.fromkeys(chain.from_iterable(keys.values()))
         motion.evaluate_together(chain.from_iterable(vector_names("p", key) for key in moving))
-        tracks = {key: convex_hull(_track(motion, key)) for key in moving}
+        tracks = {key: _track(motion, key) for key in moving}
         hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
         everything = np.vstack([*tracks.values(), frame])
