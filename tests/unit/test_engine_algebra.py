@@ -29,7 +29,7 @@ def written(t: Trace, value: Scalar) -> str:
     """A value as it is written down, by the trace's own lines."""
     if not isinstance(value, Value):
         return f"{value:g}"
-    node = t.nodes[value.index]
+    node = t.node(value.index)
     if node.op == "constant":
         return f"{node.constant:g}"
     args = [written(t, Value(t, i)) for i in node.args]
@@ -97,8 +97,8 @@ def test_formulas_are_written_in_their_shortest_form(
     found = formula(x, y)
     said = written(t, found)
     assert said == (expected if expected != "way" else "lookup(x)")
-    before = len(t.nodes)
-    assert formula(x, y) == found and len(t.nodes) == before
+    before = len(t.lines)
+    assert formula(x, y) == found and len(t.lines) == before
 
 
 def test_a_line_varies_if_one_of_its_arguments_does() -> None:
@@ -108,7 +108,7 @@ def test_a_line_varies_if_one_of_its_arguments_does() -> None:
                           (t.select(a < 1.0, a, 2.0), False), (t.select(a < 1.0, a, x), True),
                           (t.lookup("way", a), False), (t.lookup("way", x), True), (t.state("s"), True)):  # fmt: skip
         assert isinstance(value, Value)
-        assert bool(t.nodes[value.index].varies) is varies
+        assert bool(t.node(value.index).varies) is varies
 
 
 @pytest.mark.parametrize(("a", "b"), list(pairs(ONES, (*ONES, math.inf))))

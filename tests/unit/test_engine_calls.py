@@ -99,6 +99,24 @@ def test_repeated_calls_keep_what_they_found(count: int) -> None:
         line().repeated({"x": X})
 
 
+def test_outputs_that_nobody_holds_make_room_for_the_next() -> None:
+    """A view keeps them as well as they do themselves; nobody can write them."""
+    t = Trace()
+    compiled = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x"), "x": t.position("x")}))
+    assert compiled is not None
+    again, given = compiled.repeated({"x": X}), np.array([2.0])
+    address = again(given).__array_interface__["data"][0]
+    given[0] = 3.0
+    row = again(given)[0]
+    assert row.__array_interface__["data"][0] == address
+    given[0] = 5.0
+    other = again(given)
+    assert row == pytest.approx(3.0 * X, rel=1e-15)
+    assert other[0] == pytest.approx(5.0 * X, rel=1e-15)
+    with pytest.raises(ValueError, match="read-only"):
+        other[0, 0] = 1.0
+
+
 def test_states_without_next_values_are_not_compiled() -> None:
     t = Trace()
     with pytest.raises(

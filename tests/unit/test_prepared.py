@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.study.prepared import is_near
 
 CASES = [
     ("jaw_crusher_sixbar", {"pitman.length": 1.262, "jaw.mass": 950.0}),
@@ -33,6 +34,29 @@ def test_same_as_solving_alone(name: str, changes: dict[str, float], backend: st
         want = alone.reaction(joint, on=on)
         assert np.abs(found.reaction(joint, on=on) - want).max() <= 1e-9 * (np.abs(want).max() + 1)
     assert found.mechanism.dimensions() == mechanism.with_dimensions(changes).dimensions()
+
+
+def test_what_is_held_of_a_result_stays_as_it_is() -> None:
+    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    prepared, length = lw.prepare(mechanism, vary=["pitman.length"]), mechanism.dimension("pitman.length")
+    torque = prepared.solve({"pitman.length": length}).input_torque
+    reaction = prepared.solve({"pitman.length": 1.01 * length}).reaction("O5", on="jaw")
+    for _ in range(3):
+        prepared.solve({"pitman.length": 1.02 * length})
+    assert np.array_equal(torque, prepared.solve({"pitman.length": length}).input_torque)
+    again = prepared.solve({"pitman.length": 1.01 * length}).reaction("O5", on="jaw")
+    assert np.array_equal(reaction, again) and not np.array_equal(reaction, torque[:, None])
+
+
+@pytest.mark.parametrize("swing", [0.0, 0.01, 0.05, 0.3])
+def test_positions_are_near_by_the_largest_step_and_the_least_distance(swing: float) -> None:
+    """Whether a step is found to be short by one sum or looked for makes no difference."""
+    turn, found = np.linspace(0.0, 2.0 * np.pi, 60), []
+    for least in (0.0, 0.019, 0.021, 0.05, 0.0501, 0.2, 0.9):
+        row = least + swing * (1.0 + np.cos(turn)) / 2.0
+        found.append(is_near(row))
+        assert found[-1] == (row.min() < 0.02 + np.abs(np.diff(row)).max())
+    assert found[0] and not found[-1]
 
 
 FAR = [

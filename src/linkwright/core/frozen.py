@@ -36,7 +36,9 @@ _FROZEN = frozenset({FrozenDict, str, tuple, float})
 
 
 def locked(array: NDArray[S]) -> NDArray[S]:
-    """A view of an array that cannot be written."""
+    """A view of an array that cannot be written; the array itself if it cannot."""
+    if not array.flags.writeable:
+        return array
     view = array.view()
     view.setflags(write=False)
     return view

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from ctypes import addressof, c_char
+from sys import getrefcount
 from typing import Any, TypeGuard
 
 import numpy as np
@@ -26,10 +27,33 @@ def address_of(array: NDArray[np.float64] | NDArray[np.int64]) -> int:
 
 def aligned(shape: tuple[int, ...]) -> Floats:
     """An uninitialised C-contiguous array that starts at a cache line."""
-    count = math.prod(shape)
-    room = np.empty(count + _LINE // 8)
-    start = (-address_of(room) % _LINE) // 8
-    return room[start : start + count].reshape(shape)
+    return _at_a_line(shape)[0]
+
+
+def _at_a_line(shape: tuple[int, ...]) -> tuple[Floats, int]:
+    """Such an array and its address."""
+    room: Any = np.empty(math.prod(shape) + _LINE // 8)
+    address = addressof(c_char.from_buffer(room))
+    skipped = -address % _LINE
+    return np.ndarray(shape, np.float64, room, skipped), address + skipped
+
+
+class _Lent:
+    """Read-only outputs in other hands."""
+
+    __slots__ = ("_room", "address", "rows")
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self.rows, self.address = _at_a_line(shape)
+        self.rows.setflags(write=False)
+        self._room = self.rows.base  # which every view of them holds
+
+    def holders(self) -> int:
+        """:data:`_UNHELD`, and one more for every other holder of the outputs or of a view of them."""
+        return getrefcount(self.rows) + getrefcount(self._room)
+
+
+_UNHELD = _Lent((1,)).holders()
 
 
 class Inputs:
@@ -156,10 +180,10 @@ class SingleCall:
         self._seen: object = None
         self._bound: object = None
         self._out: Floats | None = None
+        self._lent: _Lent | None = None
         self._block = self.inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
         self.shape = (len(program.outputs), self.inputs.length)
-        self._room = math.prod(self.shape) + _LINE // 8
 
     def fits(
         self, positions: Arrays, fields: Arrays, length: int | None = None, tables: Tables | None = None
@@ -185,12 +209,18 @@ class SingleCall:
 
     def new_out(self) -> Floats:
         """An array of its own for the outputs, which starts at a cache line."""
-        room: Any = np.empty(self._room)
-        address = addressof(c_char.from_buffer(room))
-        skipped = -address % _LINE
-        self._out = None
-        self._block[Block.OUT] = address + skipped
-        return np.ndarray(self.shape, np.float64, room, skipped)
+        self._out = self._lent = None
+        out, self._block[Block.OUT] = _at_a_line(self.shape)
+        return out
+
+    def free_out(self) -> Floats:
+        """The same, read-only: the one before where neither it nor a view of it is held any more."""
+        lent = self._lent
+        if lent is None or lent.holders() > _UNHELD:
+            self._out = None
+            lent = self._lent = _Lent(self.shape)
+            self._block[Block.OUT] = lent.address
+        return lent.rows
 
     def set_out(self, out: Floats) -> None:
         """Where the outputs go."""
@@ -198,5 +228,5 @@ class SingleCall:
             return
         if not _is_plain(out, self.shape):
             raise ValueError(f"out must be a C-contiguous array of floats of the shape {self.shape}")
-        self._out = out
+        self._out, self._lent = out, None
         self._block[Block.OUT] = address_of(out)

@@ -148,6 +148,7 @@ class CompiledProgram:
     def repeated(self, positions: Arrays, *, tables: Tables | None = None) -> Callable[[Floats], Floats]:
         """:meth:`run` of one design (parameters,) after another on positions and tables that are looked at once.
 
+        Outputs are read-only; those that nobody holds any more, nor a view of them, make room for the next ones.
         Raises ValueError as :meth:`run`, and for programs that take fields or carry states.
         """
         if self.program.fields or self.program.next_states:
@@ -162,7 +163,7 @@ class CompiledProgram:
             if call is None:
                 call = own.call = SingleCall(self.program, self.width, positions, _NONE, tables=tables)
             call.set_parameters(parameters)
-            out = call.new_out()
+            out = call.free_out()
             function(call.address)
             return out
 

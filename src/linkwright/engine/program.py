@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace
+from linkwright.engine.trace import COMPARISONS, Entry, Node, Scalar, Trace
 
 SYMBOLS = {
     "add": "+",
@@ -43,9 +43,9 @@ class Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}
         carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
-        kept = needed(trace.nodes, [*wanted.values(), *carried.values()])
+        kept = needed(trace.lines, [*wanted.values(), *carried.values()])
         number = {old: new for new, old in enumerate(kept)}
-        nodes = tuple(_renumbered(trace.nodes[old], number) for old in kept)
+        nodes = tuple(_renumbered(trace.lines[old], number) for old in kept)
         return cls(
             nodes,
             tuple((name, number[old]) for name, old in wanted.items()),
@@ -145,22 +145,20 @@ def _spelled(node: Node) -> str:
     return f"{node.op}({', '.join(names)})"
 
 
-def needed(nodes: Sequence[Node], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
+def needed(lines: Sequence[Entry], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
     """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out."""
     seen = set(wanted)
     stack = list(seen)
     while stack:
         index = stack.pop()
         if index not in stop:
-            for arg in nodes[index].args:
+            for arg in lines[index][1]:
                 if arg not in seen:
                     seen.add(arg)
                     stack.append(arg)
     return sorted(seen)
 
 
-def _renumbered(node: Node, number: Mapping[int, int]) -> Node:
-    if not node.args:
-        return node
-    op, args, constant, name, varies = node
+def _renumbered(line: Entry, number: Mapping[int, int]) -> Node:
+    op, args, constant, name, varies = line
     return Node(op, tuple([number[i] for i in args]), constant, name, varies)

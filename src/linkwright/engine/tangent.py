@@ -27,8 +27,8 @@ def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
     if any(seed.trace is not t for seed in seeds):
         raise ValueError("a value and what it is differentiated by must be of one trace")
     found: dict[int, Scalar] = {seed.index: rate for seed, rate in seeds.items()}
-    for index in needed(t.nodes, [value.index], stop=found):
-        node = t.nodes[index]
+    for index in needed(t.lines, [value.index], stop=found):
+        node = t.node(index)
         if index in found or not any(a in found for a in node.args) or node.op in WITHOUT_SLOPE:
             continue
         args = [_line(t, a) for a in node.args]
@@ -37,7 +37,7 @@ def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
 
 
 def _line(t: Trace, index: int) -> Scalar:
-    node = t.nodes[index]
+    node = t.node(index)
     return node.constant if node.op == "constant" else Value(t, index)
 
 

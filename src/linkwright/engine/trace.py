@@ -36,8 +36,9 @@ class Node(NamedTuple):
     varies: bool = False  # differs from position to position (else one value per design)
 
 
-#: Makes a line without the detour through its keyword arguments.
-_new_node = tuple.__new__
+#: The fields of a :class:`Node` as a trace keeps them: a plain tuple of what cannot refer to anything is no longer
+#: looked at by the garbage collector, a named one is for as long as it lives.
+Entry = tuple[str, tuple[int, ...], float, str, bool]
 
 
 class Value:
@@ -112,7 +113,7 @@ class Value:
         raise TypeError("a traced value has no truth value yet; use select(condition, a, b)")
 
     def __repr__(self) -> str:
-        return f"Value({self.index}: {self.trace.nodes[self.index].op})"
+        return f"Value({self.index}: {self.trace.lines[self.index][0]})"
 
 
 Scalar = Value | float
@@ -123,25 +124,29 @@ Mask = Value | bool
 class Trace:
     """The lines written so far, with equal lines shared."""
 
-    nodes: list[Node] = field(default_factory=list)
+    lines: list[Entry] = field(default_factory=list)
     _known: dict[tuple[object, ...], int] = field(default_factory=dict)
+
+    def node(self, index: int) -> Node:
+        """A line by its number."""
+        return Node(*self.lines[index])
 
     # inputs -------------------------------------------------------------------------------
     def parameter(self, name: str) -> Value:
         """One number per design (a length, a mass, the sign of an assembly mode)."""
-        return self._line(Node("parameter", name=name))
+        return self._line("parameter", name=name)
 
     def position(self, name: str) -> Value:
         """One number per position, the same for all designs (the input's sine)."""
-        return self._line(Node("position", name=name, varies=True))
+        return self._line("position", name=name, varies=True)
 
     def field_input(self, name: str) -> Value:
         """One number per design and position (a load found from an earlier result)."""
-        return self._line(Node("field", name=name, varies=True))
+        return self._line("field", name=name, varies=True)
 
     def state(self, name: str) -> Value:
         """A number carried from one position to the next (the start of an iteration)."""
-        return self._line(Node("state", name=name, varies=True))
+        return self._line("state", name=name, varies=True)
 
     # operations ---------------------------------------------------------------------------
     def add(self, a: Scalar, b: Scalar) -> Scalar:
@@ -214,9 +219,9 @@ class Trace:
         if isinstance(a, float | int):
             return -a
         index = a.index
-        node = self.nodes[index]
-        if node[0] == "neg":
-            return Value(self, node[1][0])
+        line = self.lines[index]
+        if line[0] == "neg":
+            return Value(self, line[1][0])
         known = self._known.get(("neg", index))
         return self._operation("neg", a) if known is None else Value(self, known)
 
@@ -244,8 +249,8 @@ class Trace:
         """A table's value at x, or its derivative; the table itself is given with every call."""
         if order >= _CONSTANT_DERIVATIVES:
             return 0.0
-        args = (self.lift(x),)
-        return self._line(Node("lookup", args, float(order), table, self.nodes[args[0]].varies))
+        at = self.lift(x)
+        return self._line("lookup", (at,), float(order), table, self.lines[at][4])
 
     def compare(self, op: str, a: Scalar, b: Scalar) -> Mask:
         if isinstance(a, float | int) and isinstance(b, float | int):
@@ -277,7 +282,7 @@ class Trace:
             if value.trace is not self:
                 raise ValueError("values of two different traces cannot be combined")
             return value.index
-        return self._line(Node("constant", constant=float(value))).index
+        return self._line("constant", constant=float(value)).index
 
     def _pair(self, op: str, a: Scalar, b: Scalar) -> Value:
         """An operation on two numbers."""
@@ -287,9 +292,9 @@ class Trace:
         key = (op, i, j)
         index = self._known.get(key)
         if index is None:
-            nodes = self.nodes
-            index = self._known[key] = len(nodes)
-            nodes.append(_new_node(Node, (op, (i, j), 0.0, "", nodes[i][4] or nodes[j][4])))
+            lines = self.lines
+            index = self._known[key] = len(lines)
+            lines.append((op, (i, j), 0.0, "", lines[i][4] or lines[j][4]))
         return Value(self, index)
 
     def _operation(self, op: str, *values: Scalar | bool) -> Value:
@@ -299,25 +304,32 @@ class Trace:
         key = (op, *args)
         index = self._known.get(key)
         if index is None:
-            nodes = self.nodes
-            index = self._known[key] = len(nodes)
-            nodes.append(_new_node(Node, (op, args, 0.0, "", any(nodes[i].varies for i in args))))
+            lines = self.lines
+            index = self._known[key] = len(lines)
+            lines.append((op, args, 0.0, "", any(lines[i][4] for i in args)))
         return Value(self, index)
 
-    def _line(self, node: Node) -> Value:
-        key = (node.op, node.name, *node.args, repr(node.constant))
+    def _line(
+        self,
+        op: str,
+        args: tuple[int, ...] = (),
+        constant: float = 0.0,
+        name: str = "",
+        varies: bool = False,
+    ) -> Value:
+        key = (op, name, *args, repr(constant))
         index = self._known.get(key)
         if index is None:
-            index = self._known[key] = len(self.nodes)
-            self.nodes.append(node)
+            index = self._known[key] = len(self.lines)
+            self.lines.append((op, args, constant, name, varies))
         return Value(self, index)
 
     def _negated(self, value: Scalar) -> Value | None:
         """The value under a negation, if the last operation was one."""
         if isinstance(value, Value):
-            node = self.nodes[value.index]
-            if node[0] == "neg":
-                return Value(self, node[1][0])
+            line = self.lines[value.index]
+            if line[0] == "neg":
+                return Value(self, line[1][0])
         return None
 
 

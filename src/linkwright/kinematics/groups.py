@@ -104,8 +104,10 @@ class GroupTracer:
 
     def _trial(self, group: Group, start: TreeJoint | None, end: str) -> dict[str, Pose]:
         """Poses along one chain with slides at zero; with ``start`` in the axes of its child, unturned."""
-        poses = dict(self.poses)
-        for step in reversed(list(group.path(end))):
+        steps = list(group.path(end))[::-1]
+        first = steps[0].parent if steps else end
+        poses = {first: self.poses[first]}
+        for step in steps:
             parent = poses[step.parent]
             if step == start:
                 pose = pair_of(step, self.dimensions).place(parent, UNTURNED)

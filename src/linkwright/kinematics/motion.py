@@ -14,7 +14,7 @@ from linkwright.core.frozen import FrozenDict, locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.names import canonical, find_point, vector_names
+from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -50,12 +50,13 @@ class Rows:
         place = self.index.get(name)
         return self.fetch((name,), evaluate)[0] if place is None else self.values[place]
 
-    def pair(self, names: tuple[str, str], evaluate: Evaluate) -> Floats:
+    def pair(self, name: str, evaluate: Evaluate) -> Floats:
         """The two components of a vector output, (n, 2); a view of the stored rows where they lie together."""
-        first = self.index.get(names[0])
-        if first is not None and self.index.get(names[1]) == first + 1:
+        x, y = f"{name}.x", f"{name}.y"
+        first = self.index.get(x)
+        if first is not None and self.index.get(y) == first + 1:
             return self.values[first : first + 2].T
-        return locked(np.stack(self.fetch(names, evaluate), axis=1))
+        return locked(np.stack(self.fetch((x, y), evaluate), axis=1))
 
     def fetch(self, names: tuple[str, ...], evaluate: Evaluate) -> list[Floats]:
         """The rows of some outputs, (n,) each; ``evaluate`` supplies those that are not stored."""
@@ -248,7 +249,7 @@ class Motion:
 
     def vector(self, prefix: str, key: str) -> Floats:
         """A vector output, (n, 2)."""
-        return self.rows.pair(vector_names(prefix, key), self.evaluate)
+        return self.rows.pair(f"{prefix}:{key}", self.evaluate)
 
     def row(self, prefix: str, key: str) -> Floats:
         """A scalar output, (n,)."""

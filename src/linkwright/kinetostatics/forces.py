@@ -179,7 +179,7 @@ class Forces:
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.motion.design.base.joints[joint].joined
         if link != links[0]:
-            return self.rows.pair((f"r:{joint}|{link}.x", f"r:{joint}|{link}.y"), self.evaluate)
+            return self.rows.pair(f"r:{joint}|{link}", self.evaluate)
         total = np.zeros((self.steps, 2))
         for other in links[1:]:
             total -= self._reaction(joint, other)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from array import array
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Literal
@@ -91,11 +92,12 @@ class Prepared:
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
         known = {**self.solver.nominal.parameters, **self._loads.known}
-        self._base = np.array([known.get(name, np.nan) for name in self.program.parameters])
+        self._base = array("d", [known.get(name, np.nan) for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
-        self._own = threading.local()
-        self._plain = not (self.program.fields or self.program.states)
-        self._fine = is_way(positions) and parts(self.solver, positions) == 1
+        self._own = _Numbers(self._base)
+        plain = not (self.program.fields or self.program.states)
+        self._at_once = plain and is_way(positions) and parts(self.solver, positions) == 1
+        self._modes = self.solver.assembly.modes
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[object, ...]]:
         return Prepared, (self.mechanism, self.vary, self.positions, self.backend)
@@ -132,13 +134,9 @@ class Prepared:
             LinkwrightError: a dimension that is zero in the starting design, and was not named in ``vary``.
             PositionError: a position cannot be reached, and ``failures`` is ``raise``.
         """
-        design = Design(self.mechanism, self.solver.assembly.modes, changes)
-        if not (self._plain and self._fine):
-            return self._solve_in_turn(design, failures)
-        values = self._values(changes)
-        if values is None:
-            return self._solve_in_turn(design, failures)
-        if _is_near(values[-2]):
+        design = Design(self.mechanism, self._modes, changes)
+        values = self._values(changes) if self._at_once else None
+        if values is None or is_near(values[-2]):
             return self._solve_in_turn(design, failures)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
         fields = {name: values[self._index[name]] for name in self._loads.fields}
@@ -146,34 +144,32 @@ class Prepared:
 
     def _values(self, changes: Mapping[str, float]) -> Floats | None:
         """Outputs (names, n); None where a load has no value, or its limit positions are not certain."""
-        loads, table = self._loads, self._table(changes)
+        self._change(changes)
+        loads, own = self._loads, self._own
         if not loads.fields:
-            return self._evaluate(table)
+            return self._evaluate(own.table)
         for limits in (loads.near, loads.searched):
             found = limits(changes)
             if found is None:
                 continue
             for name, value in found.items():
                 if name in self._places:
-                    table[self._places[name]] = value
-            values = self._evaluate(table)
+                    own.numbers[self._places[name]] = value
+            values = self._evaluate(own.table)
             if loads.agree(found, values, self._index):
                 return values if loads.finite(values, self._index) else None
         return None
 
-    def _table(self, changes: Mapping[str, float]) -> Floats:
-        """The program's numbers; one array for each thread, read where it lies."""
-        table: Floats | None = getattr(self._own, "table", None)
-        if table is None:
-            table = self._own.table = np.empty_like(self._base)
-        table[:] = self._base
+    def _change(self, changes: Mapping[str, float]) -> None:
+        """Sets the program's numbers to those of a design."""
+        numbers = self._own.numbers
+        numbers[:] = self._base
         for address, value in changes.items():
             place = self._places.get(address)
             if place is not None:
-                table[place] = value
+                numbers[place] = value
             elif address not in self.vary:
                 self._refuse_fixed(address)
-        return table
 
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
@@ -188,11 +184,24 @@ class Prepared:
         return run_forces(MotionRun(solver, self.positions).solve(failures), False)
 
 
-def _is_near(row: Floats) -> bool:
+class _Numbers(threading.local):
+    """One thread's numbers of a program, written through ``numbers``, read as ``table`` where they lie."""
+
+    def __init__(self, base: array[float]) -> None:
+        self.numbers = base[:]
+        self.table: Floats = np.frombuffer(self.numbers)
+
+
+def is_near(row: Floats) -> bool:
     """Whether a change point or a gap may lie between two positions, by how near every position (n,) is to one."""
     steps = row[1:] - row[:-1]
+    least = row[row.argmin()] - NEAR
+    if (
+        least > 0.0 and steps.dot(steps) < least * least
+    ):  # the largest step is no longer than all of them together
+        return False
     largest = max(steps[steps.argmax()], -steps[steps.argmin()])  # many times faster than min and max
-    return bool(row[row.argmin()] < NEAR + largest)
+    return bool(least < largest)
 
 
 class _Followed:
@@ -205,6 +214,10 @@ class _Followed:
         self.known = {**constants(traced), **loads.constants}
         self._own = threading.local()
         self.rates = {output: rate_name(traced, output) for output in loads.outputs}
+        self._limits = [
+            (rate, limit_name(output, "max"), limit_name(output, "min"))
+            for output, rate in self.rates.items()
+        ]
 
     @classmethod
     def of(cls, prepared: Prepared) -> _Followed:
@@ -230,7 +243,8 @@ class _Followed:
 
     def finite(self, values: Floats, index: Mapping[str, int]) -> bool:
         """Whether every load has a value everywhere."""
-        return all(np.isfinite(values[index[f"load:{name}"]]).all() for name in self.loads.fallible)
+        fallible = self.loads.fallible
+        return not fallible or all(np.isfinite(values[index[f"load:{name}"]]).all() for name in fallible)
 
     # limit positions ----------------------------------------------------------------------------
     def searched(self, changes: Mapping[str, float]) -> dict[str, float] | None:
@@ -265,14 +279,14 @@ class _Followed:
     def agree(self, limits: Mapping[str, float], values: Floats, index: Mapping[str, int]) -> bool:
         """Whether the rates change their signs at these limit positions, and nowhere else."""
         step = self.known["step of the input"] + 2.0 * AT
-        for output, name in self.rates.items():
-            rises = (values[index[name]] > 0.0).tobytes()
+        for rate, highest, lowest in self._limits:
+            rises = (values[index[rate]] > 0.0).tobytes()
             rises += rises[:1]
-            for kind, turn in (("max", b"\1\0"), ("min", b"\0\1")):
+            for limit, turn in ((highest, b"\1\0"), (lowest, b"\0\1")):
                 place = rises.find(turn)
                 if place < 0 or rises.rfind(turn) != place:
                     return False
-                way = limits[f"limit:{output}:{kind}"] - self._inputs[place]
+                way = limits[limit] - self._inputs[place]
                 if (way * self._sense + AT) % TURN > step:
                     return False
         return True
@@ -292,7 +306,7 @@ class _Followed:
         return CycleProgram(tuple(self.loads.stages(self.traced)))
 
     @cached_property
-    def _begin(self) -> tuple[CompiledProgram, Floats, dict[str, Floats]] | None:
+    def _begin(self) -> tuple[CompiledProgram, array[float], dict[str, Floats]] | None:
         """Newton's steps compiled, their numbers, and the limits where they begin."""
         known = self.searched({})
         compiled = compile_program(near_limits(self.traced, self.loads.outputs, self.loads.valued))
@@ -302,34 +316,41 @@ class _Followed:
             f"near:{output}": np.resize([known[limit_name(output, kind)] for kind in ("max", "min")], LANES)
             for output in self.loads.outputs
         }
-        return compiled, np.array(self._numbers(compiled.program.parameters, {})), starts
+        return compiled, array("d", self._numbers(compiled.program.parameters, {})), starts
 
     def _numbers(self, names: Iterable[str], changes: Mapping[str, float]) -> list[float]:
         known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
         return [known[name] for name in names]
 
     def _with_speed(self, changes: Mapping[str, float]) -> bool:
-        drivers = self.traced.mechanism.drivers
-        return bool(self.fields) and any(name.rpartition(".")[0] in drivers for name in changes)
+        return not self._of_drivers.isdisjoint(changes)
+
+    @cached_property
+    def _of_drivers(self) -> frozenset[str]:
+        """Addresses of the drivers' dimensions, where there are loads."""
+        mechanism = self.traced.mechanism
+        known = mechanism.dimensions() if self.fields else ()
+        return frozenset(name for name in known if name.rpartition(".")[0] in mechanism.drivers)
 
 
 class _Newton:
     """One thread's call of Newton's steps to the limit positions of a design."""
 
-    def __init__(self, compiled: CompiledProgram, base: Floats, starts: Mapping[str, Floats]) -> None:
+    def __init__(self, compiled: CompiledProgram, base: array[float], starts: Mapping[str, Floats]) -> None:
         program = compiled.program
-        self._base, self._numbers = base, base.copy()
+        self._base, self._numbers = base, base[:]
         self._places = {name: place for place, name in enumerate(program.parameters)}
-        self._rows = np.empty((len(program.outputs), LANES))
-        self._run = compiled.bound(self._numbers, starts, self._rows)
         names = program.output_names
-        self._moved = [place for place, name in enumerate(names) if name.startswith("moved:")]
-        self._found = [
-            (place, side, f"{name}:{kind}")
-            for place, name in enumerate(names)
-            if place not in self._moved
-            for side, kind in enumerate(("max", "min"))
-        ]
+        self._rows = array("d", bytes(8 * LANES * len(names)))
+        out = np.frombuffer(self._rows).reshape(-1, LANES)
+        self._run = compiled.bound(np.frombuffer(self._numbers), starts, out)
+        self._moved, self._found = [], []
+        for row, name in enumerate(names):
+            for lane, kind in enumerate(("max", "min"), start=row * LANES):
+                if name.startswith("moved:"):
+                    self._moved.append(lane)
+                else:
+                    self._found.append((lane, f"{name}:{kind}"))
 
     def limits(self, changes: Mapping[str, float]) -> dict[str, float] | None:
         """Limits, and values there, by name; None where the steps do not come to an end."""
@@ -338,7 +359,8 @@ class _Newton:
             if address in self._places:
                 self._numbers[self._places[address]] = value
         self._run()
-        rows = self._rows.tolist()
-        if not all(max(rows[place]) <= CONVERGED for place in self._moved):
-            return None
-        return {name: rows[place][side] for place, side, name in self._found}
+        rows = self._rows
+        for place in self._moved:
+            if not rows[place] <= CONVERGED:
+                return None
+        return {name: rows[place] for place, name in self._found}
