@@ -25,7 +25,7 @@ from tests.ui.browser import browser, needs_chromium
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
-from linkwright.server import search
+from linkwright.server import search, work
 from linkwright.server.address import recalled
 from linkwright.server.edits import edited, with_values
 from linkwright.server.files import Files
@@ -651,6 +651,35 @@ def test_a_hand_leaves_short_numbers_and_a_limit_a_machine_that_moves(tmp_path: 
         assert tab.locator("textarea").input_value() == text
         got = tab.evaluate("() => linkwright.sessions[0].model.values['crank.length']")
         assert got == lw.loads(text).dimension("crank.length")
+
+
+def test_the_file_of_the_command_is_solved_while_the_browser_opens(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once, for the first window that asks for the file as it was; a changed text, and a second window, ask anew."""
+    text = lw.read_document("gallery:crank_rocker").text
+    (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
+    solved: list[str] = []
+
+    def counted(text: str, language: str) -> dict[str, Any]:
+        time.sleep(0.2)
+        solved.append(text)
+        return {"text": text, "language": language}
+
+    monkeypatch.setattr(work, "solved", counted)
+    changed = text + "# changed\n"
+    for asks, times in ((["en", text], 1), (["zh", text], 2), (["en", changed], 2)):
+        solved.clear()
+        with serving(tmp_path, "a.yaml") as studio:
+            studio.work.foresee("a.yaml", "en")
+            body = {"language": asks[0], "text": asks[1]}
+            assert asked(studio, "solve", body) == (200, body)
+            assert solved == [text, asks[1]][:times]
+            assert asked(studio, "solve", body) == (200, body)
+            assert solved[times:] == [asks[1]]
+    with serving(tmp_path) as studio:
+        studio.work.foresee("../a.yaml", "en")
+        assert asked(studio, "solve", {"text": changed}) == (200, {"text": changed, "language": "en"})
 
 
 @needs_chromium

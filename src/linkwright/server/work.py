@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -32,6 +34,8 @@ class Work:
     def __init__(self, files: Files) -> None:
         self.files = files
         self.background = Background()
+        self._solving = threading.Lock()
+        self._foreseen: tuple[str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "gallery": gallery_names()},
             "open": self._open,
@@ -41,7 +45,7 @@ class Work:
             ),
             "state": lambda a: files.state(_text(a, "name"), _text(a, "window")),
             "save": lambda a: files.save(_text(a, "name"), _text(a, "text"), _text(a, "version")),
-            "solve": self._solve,
+            "solve": lambda a: self._solve(_text(a, "text"), _language(a)),
             "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
             "curve": lambda a: self.background.begin(
                 "curve", linkages(a["points"], bool(a["closed"])), _language(a)
@@ -74,32 +78,26 @@ class Work:
             return read_source(f"gallery:{_text(asked, 'gallery')}")[0]
         return str(self.files.open(_text(asked, "name"))["text"])
 
-    def _solve(self, asked: Plain) -> Plain:
-        """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
-        text, language = _text(asked, "text"), _language(asked)
-        mechanism, findings = read_text(text, "model")
-        found: Plain = {
-            "findings": [_finding(each, language) for each in findings],
-            "model": None,
-            "sentence": "",
-            "optimize": {},
-        }
-        try:
-            found["picture"] = picture(text)
-            if mechanism is not None:
-                from linkwright.kinematics.solve import solve_motion
-                from linkwright.page.content import page_data
-                from linkwright.structure import structure
+    def foresee(self, name: str, language: str) -> None:
+        """Begins to solve a file that a window will ask for first: the browser is opened meanwhile."""
+        with suppress(LinkwrightError, OSError):
+            text = str(self.files.open(name)["text"])
+            self._solving.acquire()
+            threading.Thread(target=self._prepare, args=(text, language), daemon=True).start()
 
-                found["mobility"] = structure(mechanism).mobility
-                found["optimize"] = dict(mechanism.optimize)
-                motion = solve_motion(mechanism, steps=360)
-                found["picture"] = completed(found["picture"], motion)
-                data, _ = page_data([(motion, text)], language)
-                found["model"] = data["models"][0]
-        except LinkwrightError as error:
-            found["sentence"] = error.say(language)
-        return found
+    def _prepare(self, text: str, language: str) -> None:
+        try:
+            self._foreseen = (text, language, solved(text, language))
+        finally:
+            self._solving.release()
+
+    def _solve(self, text: str, language: str) -> Plain:
+        """The model of a text; what is being solved already is waited for, and used once."""
+        with self._solving:
+            foreseen, self._foreseen = self._foreseen, None
+            if foreseen is not None and foreseen[:2] == (text, language):
+                return foreseen[2]
+            return solved(text, language)
 
     def _optimize(self, asked: Plain) -> Plain:
         """Begins the optimisation that the text's section asks."""
@@ -133,6 +131,33 @@ class Work:
                 export(document.mechanism, path, language=language, **more)
             content = path.read_bytes()
         return {"name": path.name, "content": base64.b64encode(content).decode()}
+
+
+def solved(text: str, language: str) -> Plain:
+    """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
+    mechanism, findings = read_text(text, "model")
+    found: Plain = {
+        "findings": [_finding(each, language) for each in findings],
+        "model": None,
+        "sentence": "",
+        "optimize": {},
+    }
+    try:
+        found["picture"] = picture(text)
+        if mechanism is not None:
+            from linkwright.kinematics.solve import solve_motion
+            from linkwright.page.content import page_data
+            from linkwright.structure import structure
+
+            found["mobility"] = structure(mechanism).mobility
+            found["optimize"] = dict(mechanism.optimize)
+            motion = solve_motion(mechanism, steps=360)
+            found["picture"] = completed(found["picture"], motion)
+            data, _ = page_data([(motion, text)], language)
+            found["model"] = data["models"][0]
+    except LinkwrightError as error:
+        found["sentence"] = error.say(language)
+    return found
 
 
 def _finding(found: Finding, language: str) -> Plain:

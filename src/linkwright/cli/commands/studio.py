@@ -52,6 +52,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(Sentence("studio.no_port", port=options.port, reason=reason_of(problem))) from None
     remember(folder, Address(studio.server_port, studio.token))
     with studio:
+        if name is not None:
+            studio.work.foresee(name, session.language)
         session.show(session.say("studio.serving", url=studio.url))
         if not options.no_browser:
             webbrowser.open(studio.url)
