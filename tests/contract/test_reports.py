@@ -344,8 +344,10 @@ def test_forces_of_many_joints_stand_in_figures_that_have_room_for_them() -> Non
     found = report(model, sections=["reactions"]).document.blocks
     figures = [block for block in found if isinstance(block, Figure)]
     # 9 pins of the frame and its crank's, 1 of crank and coupler; 8 pins of three links; the last one: 11 + 24 + 1
-    parts = ["", "", ""]  # 11, 12, 12, 1
-    assert [block.label for block in figures] == ["reactions", *parts, "hodographs", *parts]
+    curves, rows = [""] * 3, [""] * 6  # 11, 12, 12, 1; two rows of hodographs: 6, 5, 6, 6, 6, 6, 1
+    assert [block.label for block in figures] == ["reactions", *curves, "hodographs", *rows]
+    wide, high = natural_size(figures[4].pictures[0][0])
+    assert 170.0 * figures[4].pictures[0][1] * high / wide < 115.0  # mm: a page has room for two
     drawn = lw.plot(lw.solve_forces(model, steps=36), "reactions").svg()
     few = lw.plot(lw.solve_forces(model, steps=36), "reactions", of=["O", "G1"]).svg()
     assert natural_size(drawn)[0] == natural_size(few)[0]

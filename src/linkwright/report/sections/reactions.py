@@ -15,8 +15,9 @@ from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.curves import SHARE
 from linkwright.report.sections.curves import TALLEST as SHORT
 
-#: Joint forces in one figure, and the height of one of hodographs, mm.
-MOST, TALLEST = 12, 225.0
+#: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
+#: figures; the height of one of hodographs, mm.
+MOST, IN_ROWS, TALLEST = 12, 6, 225.0
 
 
 @SECTIONS.register("reactions")
@@ -38,18 +39,19 @@ class Reactions(Section):
             yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
         if not case.mechanism.drivers:
             return
-        parts = _parts(case)
+        parts = _parts(case, MOST)
         yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
+        parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
         panels = [sum(joint in part for joint, _ in reaction_pairs(case.mechanism)) for part in parts]
         yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
-def _parts(case: Case) -> list[list[str]]:
-    """The joints, as many together as fit into one figure."""
+def _parts(case: Case, most: int) -> list[list[str]]:
+    """The joints, as many together as have no more forces than ``most``."""
     forces = Counter(joint for joint, _ in reaction_pairs(case.mechanism))
     parts: list[list[str]] = [[]]
     for joint, count in forces.items():
-        if parts[-1] and sum(forces[each] for each in parts[-1]) + count > MOST:
+        if parts[-1] and sum(forces[each] for each in parts[-1]) + count > most:
             parts.append([])
         parts[-1].append(joint)
     return parts
