@@ -31,6 +31,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
+from linkwright.mechanism.mechanism import Cycle
 
 
 def row(
@@ -267,3 +268,68 @@ def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart
     assert names == ("quality:coupler+rocker", "fact:coupler+rocker|distance²")
     assert shown(fourbar(1, 3, 2.5, 2, start=20.0), 24) is None
     assert shown(lw.load("gallery:tangent_mechanism"), 720) is None
+
+
+def found_between(mechanism: lw.Mechanism, begin: float, end: float, steps: int) -> list[Passage]:
+    """Passages of an open way between two crank angles, deg."""
+    cycle = Cycle(start=np.radians(begin), end=np.radians(end))
+    mechanism = replace(mechanism, cycle=cycle)
+    positions = over_cycle(mechanism, steps)
+    assert not positions.closed and positions.count == steps + 1
+    return passages(MotionSolver(mechanism), positions, None)
+
+
+@pytest.mark.parametrize("steps", [7, 40, 131])
+@pytest.mark.parametrize(
+    ("begin", "end"),
+    [(20, 179.9), (20, 181), (178, 300), (179.9, 200), (180.1, 300), (200, 90), (20, 180), (180, 60)],
+)
+def test_open_ways_have_the_change_points_between_their_ends_only(
+    begin: float, end: float, steps: int
+) -> None:
+    """Crank 1, coupler 3, rocker 2, frame 4: at 180° alone, the ends counted."""
+    found = found_between(fourbar(1, 3, 2, 4, start=begin), begin, end, steps)
+    if not min(begin, end) <= 180 <= max(begin, end):
+        assert found == []
+        return
+    (p,) = found
+    assert p.kind == "change"
+    assert p.place / steps == pytest.approx((180 - begin) / (end - begin), abs=1e-7)
+    assert p.at == pytest.approx(np.pi, abs=1e-6)
+    assert p.flips == (pytest.approx(p.place), np.inf)
+    assert 0 <= p.before <= steps and p.share <= 1.0
+
+
+@pytest.mark.parametrize("steps", [3, 5, 30])
+@pytest.mark.parametrize("start", [210.0, 150.0, 20.0])
+def test_a_stretch_out_of_reach_lies_behind_the_last_position_that_can_be(start: float, steps: int) -> None:
+    """A crank of 1.05 m: A and O2 are more than 5 m apart from 160° to 200°."""
+    edge = np.arccos((1.05**2 + 16.0 - 25.0) / 8.4)
+    mechanism = fourbar(1.05, 3, 2, 4, start=start)
+    found = passages(MotionSolver(mechanism), over_cycle(mechanism, steps), None)
+    angles = np.radians(start + 360.0 * np.arange(steps) / steps)
+    hidden = not (np.cos(angles) < np.cos(edge)).any()
+    assert [p.kind for p in found] == (["gap"] if hidden else [])
+    for p in found:
+        assert np.cos(p.at) == pytest.approx(np.cos(edge), abs=1e-9)
+        assert np.sin(p.at) > 0.0
+        assert p.place == pytest.approx(
+            ((edge - np.radians(start)) % (2 * np.pi)) / (2 * np.pi) * steps, abs=1e-7
+        )
+        assert (p.before, p.after) == (int(p.place), (int(p.place) + 1) % steps)
+
+
+@pytest.mark.parametrize("steps", [4, 9, 50])
+@pytest.mark.parametrize(
+    ("begin", "end"), [(-80, 80), (-80, 91), (-91, 80), (-100, 100), (60, 300), (100, -80)]
+)
+def test_guides_become_parallel_between_the_ends_of_an_open_way(begin: float, end: float, steps: int) -> None:
+    """A slotted arm that is square to its rod's guide at 0° is along it at 90° and at 270°."""
+    found = found_between(lw.load("gallery:tangent_mechanism"), begin, end, steps)
+    low, high = min(begin, end), max(begin, end)
+    expected = sorted((a for a in (-90.0, 90.0, 270.0) if low < a < high), reverse=end < begin)
+    assert [p.kind for p in found] == ["pole"] * len(expected)
+    assert [np.degrees(p.at) for p in found] == pytest.approx(expected, abs=1e-9)
+    assert [p.place / steps for p in found] == pytest.approx(
+        [(a - begin) / (end - begin) for a in expected], abs=1e-9
+    )

@@ -64,6 +64,51 @@ def test_partial_summaries_are_those_of_the_reached_positions() -> None:
     assert found["B.y max"][0] == pytest.approx(np.nanmax(motion.point("B").position[:, 1]), rel=1e-12)
 
 
+OPEN_AT_180 = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: NOMINAL m}
+  coupler: {points: [A, B], length: 3 m, mass: 2 kg}
+  rocker: {points: [O2, B], length: 2 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 1 rad/s, start: START deg}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+@pytest.mark.parametrize("nominal", ["0.8", "1"])
+@pytest.mark.parametrize("start", ["20.5", "0"])
+@pytest.mark.parametrize("steps", [12, 36])
+def test_designs_barred_at_a_change_point_have_their_reached_positions(
+    steps: int, start: str, nominal: str
+) -> None:
+    """Crank 1 m passes 180° with the other sign, 10 µm more does not, though it can be assembled on both sides; 1.2 m
+    is barred for longer. A position on the change point itself has no numbers."""
+    mechanism = lw.loads(OPEN_AT_180.replace("START", start).replace("NOMINAL", nominal))
+    cranks = [0.8, 1.0, 1.0 + 1e-5, 0.9, 1.2]
+    outputs = ["rocker.angular_velocity max", "B.y min", "driver.effort peak"]
+    whole, part = (
+        sweep(mechanism, {"crank.length": cranks}, outputs=outputs, steps=steps, partial=partial)
+        for partial in (False, True)
+    )
+    for k, crank in enumerate(cranks):
+        motion = lw.solve_motion(
+            mechanism.with_dimensions({"crank.length": crank}), steps=steps, failures="mark"
+        )
+        count = int(motion.ok.sum())
+        assert whole.assembled[k] == part.assembled[k] == count
+        expected = [
+            np.nanmax(motion.link("rocker").angular_velocity),
+            np.nanmin(motion.point("B").position[:, 1]),
+            np.nanmax(np.abs(lw.solve_forces(motion).input_torque)),
+        ]
+        for name, value in zip(outputs, expected, strict=True):
+            assert part[name][k] == pytest.approx(value, rel=1e-6)
+            assert whole[name][k] == (part[name][k] if count == steps else pytest.approx(np.nan, nan_ok=True))
+    assert part.assembled[2] < steps
+
+
 def _reductions(values: np.ndarray) -> dict[str, float]:
     return {
         "min": values.min(),

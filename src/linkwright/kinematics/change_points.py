@@ -364,9 +364,11 @@ class _Search:
 
     def _centred(self, name: str, place: float) -> float:
         """The zero of the root (which passes through zero in a straight line) from its values on both sides."""
+        first, last = (-np.inf, np.inf) if self.positions.closed else (0.0, self.positions.count - 1.0)
         for h in (1e-2, 1e-3):
-            a, b = np.sqrt(np.maximum(self._evaluate((name,), np.array([place - h, place + h]))[0], 0.0))
-            place += float(h * (a - b) / (a + b)) if a + b > 0 else 0.0
+            if first + h <= place <= last - h:
+                a, b = np.sqrt(np.maximum(self._evaluate((name,), np.array([place - h, place + h]))[0], 0.0))
+                place += float(h * (a - b) / (a + b)) if a + b > 0 else 0.0
         return place
 
     def _passage(self, group: str, place: float, quality: float, kind: Kind) -> Passage:

@@ -148,7 +148,8 @@ def sweep(
             ``rms_input_torque``, ``peak_reaction O5`` (those of :func:`metrics` that are formulas of such summaries);
             they are exact between positions.
         steps: positions over the cycle.
-        partial: keep summaries over the positions that a design reaches, where it does not reach all.
+        partial: keep summaries over the positions that a design reaches on its way from the first one that it can
+            be in, where it does not reach all; such designs are found one by one.
         threads: None for all cores; results do not depend on it.
         backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
         progress: called with (designs done, designs); what it raises stops the sweep.

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import refusal
@@ -19,6 +20,9 @@ from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+
+#: The field that is 1 at the positions that a design reaches on its way through change points, else 0.
+REACHED = "reached"
 
 
 class OneByOne:
@@ -46,11 +50,20 @@ class OneByOne:
         solver = MotionSolver(traced.mechanism.with_dimensions(changes))
         return evaluated(solver, solver.nominal, traced)
 
+    @property
+    def valid(self) -> Mask:
+        """Whether a position is solved and, on a way through change points, reached."""
+        motion = self.traced.solver.motion
+        if not self.flipping:
+            return motion.valid
+        reached = motion.trace.compare("less", 0.5, motion.trace.field_input(REACHED))
+        return motion.trace.logic("and", motion.valid, reached)
+
     def inputs(self, names: tuple[str, ...], motion: Motion) -> dict[str, Floats]:
         """The inputs (n,) by name; raises LinkwrightError where a load fails for this design."""
         modes = motion.solver.assembly.modes
         found = {f"mode:{name}": np.full(motion.steps, sign) for name, sign in modes.items()}
-        found |= {**motion.states, **motion.modes}
+        found |= {**motion.states, **motion.modes, REACHED: motion.ok.astype(float)}
         if any(name not in found for name in names):
             found |= run_forces(motion, False).fields
         return {name: found[name] for name in names}
@@ -60,7 +73,7 @@ class OneByOne:
     ) -> tuple[dict[str, Floats], dict[int, str]]:
         """Inputs (designs, n) by name, and the sentences of the designs for which they cannot be found."""
         designs = len(next(iter(columns.values())))
-        rows = {name: np.zeros((designs, self.traced.positions.count)) for name in names}
+        rows = {name: np.ones((designs, self.traced.positions.count)) for name in names}
         failed: dict[int, str] = {}
         for index in range(designs):
             try:

@@ -24,7 +24,7 @@ from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.change_points import ChangePoints, near_enough
 from linkwright.study.iterated_groups import MARGIN, Following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.study.one_by_one import OneByOne, changes_of
+from linkwright.study.one_by_one import OneByOne
 from linkwright.study.traced import NEAREST, VALID, Traced
 
 Floats = NDArray[np.float64]
@@ -161,7 +161,8 @@ class SweepRun:
 
     def _one_by_one(self, source: OneByOne, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
         """Two passes: the motion of each design with its loads, then the summaries of the block."""
-        program = _fed(source.traced.program(source.traced.quantities(self.quantities)))
+        quantities = source.traced.quantities(self.quantities)
+        program = _fed(source.traced.program(quantities, {VALID: source.valid}))
         rows, failed = source.rows(program.fields, part)
         return self._reduced(source.traced, program, part, rows), failed
 
@@ -203,31 +204,26 @@ class SweepRun:
         return OneByOne(Traced(self.mechanism, self.columns, self.positions, flipping=True), flipping=True)
 
     def _through_change_points(self, results: Results, part: Mapping[str, Floats], first: int) -> Results:
-        """The same results, those of designs that touch a change point between two positions done again.
-
-        Designs that cannot pass there count the positions that they reach, and have no summaries.
-        """
+        """The same results, those of designs that touch a change point between two positions, or cannot pass there,
+        done again over the positions that they reach; if asked for in part, of all that do not pass."""
+        if self.program.states or self.positions.count < 3:
+            return results
+        count = np.asarray(results["valid.count"])
+        whole = count == self.positions.count
         with np.errstate(invalid="ignore"):
             near = np.flatnonzero(
-                (np.asarray(results[f"{NEAREST}.min"]) < near_enough(self.positions))
-                & (results["valid.count"] == self.positions.count)
+                (np.asarray(results[f"{NEAREST}.min"]) < near_enough(self.positions)) & whole
             )
-        if not len(near) or self.program.states or self.positions.count < 3:
-            return results
-        touching = near[self._touching.designs({a: c[near] for a, c in part.items()})]
-        reached = {k: int(self._flipping.motion(changes_of(part, k)).ok.sum()) for k in touching.tolist()}
-        barred = [k for k, count in reached.items() if count < self.positions.count]
-        touching = np.setdiff1d(touching, barred)
-        self.through.update((first + touching).tolist())
-        if len(touching):
-            found = self._one_by_one(self._flipping, {a: c[touching] for a, c in part.items()})
-            again = self._noted(found, first + touching)
+        if len(near):
+            near = near[self._touching.designs({a: c[near] for a, c in part.items()})]
+        if self.manner.partial:
+            near = np.append(near, np.flatnonzero(~whole & (count > 0)))
+        self.through.update((first + near).tolist())
+        if len(near):
+            found = self._one_by_one(self._flipping, {a: c[near] for a, c in part.items()})
+            again = self._noted(found, first + near)
             for name, column in again.items():
-                results[name][touching] = column
-        for column in results.values():
-            if column.dtype.kind == "f":
-                column[barred] = np.nan
-        results["valid.count"][barred] = [reached[k] for k in barred]
+                results[name][near] = column
         return results
 
     def _reduced(

@@ -90,7 +90,7 @@ class Traced:
         return {name: self.named.quantity(name) for name in dict.fromkeys(names)}
 
     def program(
-        self, quantities: Mapping[str, Quantity], more: Mapping[str, Scalar] | None = None
+        self, quantities: Mapping[str, Quantity], more: Mapping[str, Scalar | bool] | None = None
     ) -> Program:
         """What the quantities need, ``more`` outputs, the truth output ``valid``, and how near change points are."""
         motion = self.solver.motion
