@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cache
 
 import numpy as np
@@ -9,11 +10,20 @@ import pytest
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.kinematics.certificate import Certificate, End, _Step, certify, cubic
+from linkwright.kinematics.certificate import (
+    Certificate,
+    End,
+    _Step,
+    certify,
+    cubic,
+    distance_to_others,
+)
 from linkwright.kinematics.closed_loops import ClosedLoops
 
 Floats = NDArray[np.float64]
-MACHINES = ("triad", "class_four_group", "fourth_order_group", "stephenson_sixbar_triad", "slotted")
+MACHINES = (
+    "triad", "class_four_group", "fourth_order_group", "stephenson_sixbar_triad", "slotted", "geared", "mixed",
+)  # fmt: skip
 SLOTTED = """format: 1
 name: Triad with a slot
 frame: {points: {O1: [0 mm, 0 mm], O2: [130 mm, -210 mm], O3: [360 mm, 90 mm]}}
@@ -23,15 +33,40 @@ drawing: {A: [30 mm, 0 mm], P: [210 mm, 90 mm], Q: [190 mm, -10 mm], R: [235 mm,
 joints: {slot: {kind: prismatic, guide: bar, through: A, direction: [A, E], block: plate, at: P}}
 driver: {turn: crank, about: O1, speed: 10 rad/s}
 """
+#: Wheels that turn against each other: one rotation is -2/3 of the other, which is unknown.
+GEARED = """format: 1
+name: Geared five-bar moved at its pin
+frame: {points: {O: [0 mm, 0 mm], P: [500 mm, 0 mm], Q: [900 mm, 0 mm]}}
+links: {crank: {points: [O, X]}, wheel_a: {points: [P, A]}, wheel_b: {points: [Q, B]}, bar_a: {points: [A, I]},
+  bar_b: {points: [B, I]}, bar: {points: [X, I]}}
+drawing: {X: [60 mm, 0 mm], A: [430 mm, 190 mm], B: [960 mm, 230 mm], I: [690 mm, 560 mm]}
+joints: {mesh: {kind: gear, links: [wheel_a, wheel_b], ratio: -1.5, carrier: frame}}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+"""
+OWN = {"slotted": SLOTTED, "geared": GEARED}
 
 
 @cache
 def followed(name: str) -> tuple[ClosedLoops, Floats]:
     """The loops of a machine of one driver, and their coordinates at 36 inputs, (36, n + 1)."""
-    motion = lw.solve_motion(lw.loads(SLOTTED) if name == "slotted" else lw.load(f"gallery:{name}"), steps=36)
+    if name == "mixed":
+        return in_other_unknowns(*followed("slotted"))
+    motion = lw.solve_motion(lw.loads(OWN[name]) if name in OWN else lw.load(f"gallery:{name}"), steps=36)
     assert motion.followed is not None
     q = next(iter(motion.positions.coordinates.values()))[0]
     return motion.followed.follower.loops, np.column_stack([motion.followed.coordinates, q])
+
+
+def in_other_unknowns(loops: ClosedLoops, rows: Floats) -> tuple[ClosedLoops, Floats]:
+    """The same loops in unknowns of which the old ones are sums and differences, as pairs make them."""
+    n = loops.n
+    sign = (-1.0) ** np.arange(n)
+    shares = np.eye(n + loops.d)
+    shares[:n, :n] = 0.5 * (np.eye(n) + np.outer(sign * loops.scale, sign / loops.scale))
+    other = copy(loops)
+    other.turning, other.sliding = loops.turning @ shares, loops.sliding @ shares
+    other.coordinates = np.concatenate([other.turning, other.sliding])
+    return other, np.linalg.solve(shares, rows.T).T
 
 
 def end(loops: ClosedLoops, near: Floats, q: float, scale: float = 1.0) -> End:
@@ -115,3 +150,88 @@ def test_a_step_to_another_assembly_is_refused(name: str) -> None:
     apart = End(b.x, b.y + np.append(0.4 * loops.scale, 0.0), b.rate, b.second, b.sign)
     assert not certify(loops, a, apart, still(loops)).certified
     assert not certify(loops, a, b, np.full(loops.d, 0.5)).certified
+
+
+def test_shares_of_unknowns_have_both_signs() -> None:
+    """What the bounds are tried on: wheels against each other, and unknowns that are differences of others."""
+    geared, mixed = followed("geared")[0], followed("mixed")[0]
+    assert geared.turning[:, : geared.n].min() == pytest.approx(-2.0 / 3.0)
+    for rows in (mixed.turning[:, : mixed.n], mixed.sliding[:, : mixed.n] / mixed.size):
+        assert ((rows < -0.1).any(axis=1) & (rows > 0.1).any(axis=1)).any()
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_no_other_assembly_lies_within_the_distance(name: str) -> None:
+    """Nearer than that the Jacobian changes by too little, ½ |A (J(u) - J(y))| ρ ≤ ρ, and Newton's method from all
+    around finds no other root."""
+    loops, rows = followed(name)
+    random = np.random.default_rng(3)
+    for y in rows[::12]:
+        y = np.append(end(loops, y, y[-1]).y[: loops.n], y[-1])
+        (far,) = distance_to_others(loops, y[None, :])
+        assert 1e-4 < far < 2.0 * np.pi
+        jacobian = loops.jacobian(loops.slopes(loops.turned(y)))
+        room = far * loops.scale
+        for corner in random.choice([-1.0, 1.0], (300, loops.n)):
+            there = loops.jacobian(loops.slopes(loops.turned(y + np.append(corner * room, 0.0))))
+            assert (np.abs(np.linalg.solve(jacobian, there - jacobian)) @ room <= 2.0 * room).all()
+        for start in random.uniform(-3.0, 3.0, (40, loops.n)):
+            root = loops.newton(y + np.append(start * loops.scale, 0.0))
+            if root is not None:
+                off = loops.largest(root - y)
+                assert off < 1e-9 or off >= far
+
+
+DRIVEN = """format: 1
+name: Triad on a block that is driven along a driven crank
+frame: {points: {O1: [0 mm, 0 mm], O2: [130 mm, -210 mm], O3: [360 mm, 90 mm]}}
+links: {crank: {points: [O1, C]}, shoe: {points: [A]}, bar_1: {points: [A, P]}, bar_2: {points: [O2, Q]},
+  bar_3: {points: [O3, R]}, plate: {points: [P, Q, R]}}
+drawing: {C: [20 mm, 0 mm], A: [30 mm, 5 mm], P: [210 mm, 90 mm], Q: [190 mm, -10 mm], R: [235 mm, 5 mm]}
+joints: {run: {kind: prismatic, guide: crank, through: C, direction: 0 deg, block: shoe, at: A, offset: 5 mm}}
+drivers:
+  spin: {turn: crank, about: O1, speed: 1 rad/s}
+  push: {slide: run, position: "10 mm + 4 mm*sin(2*t/(1 s))"}
+cycle: {duration: 6 s}
+"""
+
+
+@pytest.mark.parametrize("off", [(0.02, 0.0), (0.0, 2e-3), (-0.03, 1e-3)])
+@pytest.mark.parametrize("index", [0, 9, 20])
+def test_bounds_hold_where_laws_leave_the_cubic(index: int, off: tuple[float, float]) -> None:
+    """Turn and slide of a driven block may be off by as much, each way, at every place of the step."""
+    motion = lw.solve_motion(lw.loads(DRIVEN), steps=36)
+    assert motion.followed is not None
+    loops = motion.followed.follower.loops
+    drive = [motion.positions.coordinates[name] for name in loops.drivers]
+    known: list[End] = []
+    for x in (0.0, 0.05):
+        (q, first, second) = (np.array([each[k][index] for each in drive]) for k in range(3))
+        q, first = q + x * first + 0.5 * x * x * second, first + x * second
+        near = (
+            motion.followed.coordinates[index] if not known else (known[0].y + x * known[0].rate)[: loops.n]
+        )
+        y = loops.newton(np.concatenate([near, q]))
+        assert y is not None
+        rate, bend, jacobian = loops.rates(y, first, second)
+        known.append(End(x, y, rate, bend, float(np.linalg.slogdet(jacobian)[0])))
+    a, b = known
+    deviation = np.abs(off)
+    step = _Step(loops, a, b, deviation)
+    still_off = _Step(loops, a, b, np.zeros(2)).residual_bound()
+    tube = np.full(loops.n, 1e-3) * loops.scale
+    bound, bent = step.residual_bound(), step.deviation_of_jacobian(tube)
+    corners = np.random.default_rng(index).choice([-1.0, 1.0], (12, loops.n)) * tube
+    largest, changed = np.zeros(loops.n), np.zeros((loops.n, loops.n))
+    for x in np.linspace(a.x, b.x, 5):
+        moved = (np.eye(loops.n) - (x - 0.025) * step.N) @ step.A
+        for way in ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)):
+            p = cubic(a, b, np.array([x]))[0] + np.concatenate([np.zeros(loops.n), way * deviation])
+            largest = np.maximum(largest, np.abs(moved @ loops.gap(loops.turned(p))))
+            for corner in corners:
+                there = loops.jacobian(loops.slopes(loops.turned(p + np.append(corner, np.zeros(2)))))
+                changed = np.maximum(changed, np.abs(np.eye(loops.n) - moved @ there))
+    assert (changed <= bent).all() and (bent <= 5.0 * changed.max()).all()
+    assert (still_off < largest).any()
+    assert (largest <= bound).all()
+    assert (bound <= 20.0 * largest.max()).all()

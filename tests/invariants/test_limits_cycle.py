@@ -206,3 +206,78 @@ def test_two_turns_through_a_change_point_show_the_limits_of_both_modes() -> Non
     assert degrees(two[0].input) == pytest.approx(degrees(acos(0.875)), abs=1e-12)
     mirrored = sorted((2 * pi - each.input) % (4 * pi) for each in two)
     assert mirrored == pytest.approx(sorted(each.input for each in two), abs=1e-9)
+
+
+TURNED = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 0.3 m}}
+driver: {turn: crank, about: O, speed: SPEED rad/s, start: START deg}
+"""
+
+
+@pytest.mark.parametrize("steps", [9, 10, 24])
+@pytest.mark.parametrize(("speed", "start"), [(2.0, 0.0), (-2.0, 10.0), (0.5, 90.0), (3.0, -200.0)])
+@pytest.mark.parametrize(
+    ("turns", "endpoint"), [(1.0, False), (1.0, True), (2.0, False), (0.7, False), (1.55, False)]
+)
+def test_a_circle_reverses_at_its_four_ends(
+    steps: int, speed: float, start: float, turns: float, endpoint: bool
+) -> None:
+    """x = r cos θ and y = r sin θ: place, time, value, kind and the position before, on plain numbers."""
+    text = TURNED.replace("SPEED", f"{speed}").replace("START", f"{start}")
+    motion = lw.solve_motion(
+        replace(lw.loads(text), cycle=Cycle(turns=turns)), steps=steps, endpoint=endpoint
+    )
+    closed, begin = turns in (1.0, 2.0), radians(start)
+    time, period = motion.time, turns * 2 * pi / abs(speed)
+    for axis, shift in (("x", 0.0), ("y", pi / 2)):
+        expected = []
+        for k in range(-12, 13):
+            at = (k * pi + shift - begin) / speed
+            inside = -1e-12 < at < period - 1e-12 if closed else 1e-12 < at < period - 1e-12
+            if inside:
+                expected.append((max(at, 0.0), "max" if k % 2 == 0 else "min"))
+        found = limit_positions(motion, f"A.{axis}")
+        assert [each.kind for each in found] == [kind for _, kind in sorted(expected)]
+        for each, (at, kind) in zip(found, sorted(expected), strict=True):
+            assert each.time == pytest.approx(at, abs=1e-14)
+            assert each.input == pytest.approx(begin + speed * at, abs=1e-14)
+            assert each.value == pytest.approx(0.3 if kind == "max" else -0.3, abs=1e-16)
+            last = period if each.index == len(time) - 1 else time[each.index + 1]
+            assert time[each.index] <= each.time < last + 1e-14
+
+
+ARM = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, C], length: 1 m}, arm: {points: [C, T], length: LENGTH m}}
+drivers:
+  spin: {turn: crank, about: O, speed: SPEED rad/s, start: START deg}
+  wrist: {turn: arm, about: C, speed: SPEED rad/s, start: START deg}
+"""
+
+
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("length", "start"), [(0.26, 2.0), (0.26, 358.0), (0.28, 0.5), (0.251, 2.0), (0.24, 2.0)]
+)
+def test_two_reversals_between_neighbours_of_a_machine_at_constant_speed(
+    length: float, start: float, speed: float
+) -> None:
+    """x = cos θ + ρ cos 2θ has its maxima at 0° and, for ρ > 1/4, at 180°, and minima where cos θ = -1/(4 ρ); at
+    18 steps two of these lie between two positions. For ρ < 1/4 the rate dips and does not reach zero."""
+    text = ARM.replace("LENGTH", f"{length}").replace("SPEED", f"{speed}").replace("START", f"{start}")
+    found = limit_positions(lw.solve_motion(lw.loads(text), steps=18), "T.x")
+    if length > 0.25:
+        side = pi - acos(1.0 / (4.0 * length))
+        expected = {0.0: "max", pi: "max", side: "min", 2 * pi - side: "min"}
+    else:
+        expected = {0.0: "max", pi: "min"}
+    assert len(found) == len(expected)
+    for at, kind in expected.items():
+        each = min(found, key=lambda e: abs(np.exp(1j * e.input) - np.exp(1j * at)))
+        assert each.kind == kind
+        assert each.value == pytest.approx(np.cos(at) + length * np.cos(2 * at), abs=1e-13)
+        assert abs(np.exp(1j * each.input) - np.exp(1j * at)) < 1e-11
+    assert [each.time for each in found] == sorted(each.time for each in found)

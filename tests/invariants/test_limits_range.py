@@ -186,3 +186,47 @@ def test_end_is_the_last_position_that_solves() -> None:
     assert inside.ok.all()
     outside = lw.solve_motion(mechanism, at=[start - 1e-9, end + 1e-9, radians(180)], failures="mark")
     assert not outside.ok.any()
+
+
+SIX = """
+format: 1
+frame: {points: {O1: [0 mm, 0 mm], E: [180 mm, 0 mm], G: [300 mm, 200 mm]}}
+links:
+  crank: {points: [O1, A], length: 50 mm}
+  base: {points: [O2]}
+  coupler: {points: [A, B], length: 180 mm, also: {C: [110 mm, 70 mm]}}
+  rocker: {points: [O2, B], length: 130 mm}
+  bar: {points: [C, D], length: 190 mm}
+  ram: {points: [D]}
+joints:
+  bed: {kind: prismatic, guide: frame, through: E, direction: 0 deg, block: base, at: O2}
+  way: {kind: prismatic, guide: frame, through: G, direction: 20 deg, block: ram, at: D}
+"""
+HELD = '"SHIFT mm + 1 mm*t/(1 s)"'
+
+
+@pytest.mark.parametrize("shift", ["20", "12.5"])
+def test_a_pushed_ram_goes_as_far_as_the_crank_would_take_it(shift: str) -> None:
+    """Driven at its ram the six-bar is a triad; its fold is where the crank-driven one reverses its ram. The second
+    driver, which holds a bearing, stays at its start."""
+    assembly = "assembly: {B: left, D: forward}\n"
+    still = HELD.replace("SHIFT", shift).replace("+ 1 mm", "+ 0 mm")
+    drivers = (
+        "drivers: {turn: {turn: crank, about: O1, speed: 1 rad/s}, hold: {slide: bed, position: STILL}}\n"
+    )
+    cranked = lw.loads(SIX + assembly + drivers.replace("STILL", still) + "cycle: {turns: 1}\n")
+    motion = lw.solve_motion(cranked, steps=90)
+    swing = sorted(each.value for each in limit_positions(motion, "way"))
+    drawn = {p: motion.point(p).position[20] for p in "ABCD"} | {"O2": motion.point("O2").position[20]}
+    drawing = ", ".join(f"{name}: [{float(x)!r} m, {float(y)!r} m]" for name, (x, y) in drawn.items())
+    start = float(motion.joint("way").displacement[20])
+    pushed = lw.loads(
+        SIX
+        + f"drawing: {{{drawing}}}\ndrivers:\n  push: {{slide: way, speed: 0.01 m/s, start: {start!r} m}}\n"
+        + f"  hold: {{slide: bed, position: {HELD.replace('SHIFT', shift)}}}\ncycle: {{duration: 0.1 s}}\n"
+    )
+    found = input_range(pushed, "push")
+    assert not found.rotary and "is singular" in found.explain()
+    assert ends(found) == pytest.approx((swing[0], swing[-1]), abs=1e-13)
+    assert found.low is not None and found.high is not None
+    assert max(found.low.precision, found.high.precision) < 1e-12

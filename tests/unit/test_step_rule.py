@@ -1,0 +1,130 @@
+"""What a step of a sweep must fulfil to count as on the same assembly, against the exact rates of the motion."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from tests.invariants.test_certificate import SLOTTED
+
+import linkwright as lw
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.kinematics.branch import CORRECTION, MISFIT
+from linkwright.kinematics.cycle import at_times
+from linkwright.kinematics.step_rule import LARGEST, StepRule
+from linkwright.mechanism.geometry import mechanism_size
+from linkwright.study.traced import Traced
+
+BEGIN = 0.21
+
+
+@cache
+def traced() -> tuple[Traced, StepRule, NumpyProgram]:
+    """Margin and verdict at one position of a triad with a slide, and what is carried to the next one."""
+    mechanism = lw.loads(SLOTTED)
+    found = Traced(mechanism, (), at_times(mechanism, [0.0]), iterations=4)
+    rule = StepRule(found.solver.motion, found.solver.motion.trace.position("step"))
+    following = {f"next {name}": value for name, value in rule.following.items()}
+    outputs = {"margin": rule.margin, "kept": rule.kept, **following}
+    return found, rule, NumpyProgram(Program.of(found.solver.motion.trace, outputs))
+
+
+def evaluated(time: float, step: float, states: dict[str, float]) -> dict[str, float]:
+    """All outputs at one time."""
+    found, _, run = traced()
+    arrays = {**at_times(found.mechanism, [time]).arrays, "step": np.array([step])}
+    given = {name: np.array([[states[name]]]) for name in run.program.states}
+    values = run.run_designs(found.numbers(run.program)[None, :], arrays, {}, given, length=1)[0, :, 0]
+    return dict(zip(run.program.output_names, map(float, values), strict=True))
+
+
+def before(h: float) -> dict[str, float]:
+    """What the position at BEGIN carries to the next one, h seconds later."""
+    found, rule, _ = traced()
+    first = found.solver.states(at_times(found.mechanism, [BEGIN]))
+    states = {name: float(row[0]) for name, row in first.items()}
+    states |= {name: states[v] if isinstance(v, str) else v for name, v in rule.begin.items()}
+    began = evaluated(BEGIN, h, states)
+    assert began["kept"] == 1.0 and began["margin"] == 1.0  # nothing is asked of the first position
+    return {name: began[f"next {name}"] for name in states}
+
+
+def coordinates(h: float) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Of the links and slides that the rule carries: value, rate and second derivative at both ends of the step."""
+    found, rule, _ = traced()
+    motion = lw.solve_motion(found.mechanism, times=[BEGIN, BEGIN + h])
+    rows = {}
+    for name in rule.begin:
+        if name.startswith("rate:"):
+            joint, child = name.removeprefix("rate:").split(":")
+            if joint in found.mechanism.guides:
+                slide = motion.joint(joint)
+                both = np.stack([slide.displacement, slide.velocity, slide.acceleration])
+                both /= mechanism_size(found.mechanism)
+            else:
+                link = motion.link(child)
+                both = np.stack([link.angle, link.angular_velocity, link.angular_acceleration])
+            rows[f"{joint}:{child}"] = both[:, 0], both[:, 1]
+    return rows
+
+
+def parts(h: float, rows: dict[str, tuple[np.ndarray, np.ndarray]]) -> dict[str, tuple[float, float, float]]:
+    """Way, distance from what was predicted, and from the quintic through both ends' rates."""
+    return {
+        name: (
+            b[0] - a[0],
+            b[0] - a[0] - h * a[1] - 0.5 * h * h * a[2],
+            b[0] - a[0] - 0.5 * h * (a[1] + b[1]) - h * h / 12.0 * (a[2] - b[2]),
+        )
+        for name, (a, b) in rows.items()
+    }
+
+
+def margin(h: float, rows: dict[str, tuple[np.ndarray, np.ndarray]], gaps: list[float]) -> float:
+    found = parts(h, rows)
+    change = max(abs(way) for way, _, _ in found.values())
+    off = max(abs(each) for _, each, _ in found.values())
+    return 1.0 - max(off / (CORRECTION * change + 1e-10), max(gaps) / (MISFIT * change + 1e-10))
+
+
+@pytest.mark.parametrize("h", [-0.004, 0.002, 0.006, 0.012])
+def test_a_step_is_judged_by_its_correction_and_the_misfit_of_its_rates(h: float) -> None:
+    rows = coordinates(h)
+    assert any(name.startswith("slot:") for name in rows) and len(rows) > 2
+    found = evaluated(BEGIN + h, h, before(h))
+    assert found["margin"] == pytest.approx(
+        margin(h, rows, [abs(g) for *_, g in parts(h, rows).values()]), abs=1e-6 / MISFIT
+    )
+    assert found["kept"] == 1.0
+
+
+@pytest.mark.parametrize("share", [-0.9, 0.9, -1.1, 1.1])
+@pytest.mark.parametrize("which", ["rate", "second"])
+def test_rates_that_do_not_fit_the_way_are_refused(which: str, share: float) -> None:
+    """The rate (or second derivative) carried from before is wrong by so much that the quintic misses the way by a
+    share of what is allowed."""
+    h = 0.006
+    rows, carried = coordinates(h), before(h)
+    change = max(abs(way) for way, _, _ in parts(h, rows).values())
+    size = mechanism_size(traced()[0].mechanism)
+    for name, (_, _, gap) in parts(h, rows).items():
+        scale = size if name.startswith("slot:") else 1.0
+        wrong = share * MISFIT * change * scale / (0.5 * h if which == "rate" else h * h / 12.0)
+        found = evaluated(BEGIN + h, h, {**carried, f"{which}:{name}": carried[f"{which}:{name}"] + wrong})
+        assert abs(gap) < 0.05 * MISFIT * change
+        assert found["margin"] == pytest.approx(1.0 - abs(share), abs=0.06)
+        assert found["kept"] == float(abs(share) < 1.0)
+
+
+def test_other_signs_and_long_ways_are_refused() -> None:
+    h = 0.006
+    carried = before(h)
+    (sign,) = [name for name in carried if name.startswith("sign:")]
+    assert abs(carried[sign]) == 1.0 and carried["begun"] == 1.0
+    assert evaluated(BEGIN + h, h, {**carried, sign: -carried[sign]})["kept"] == 0.0
+    for h in (0.02, 0.04, 0.06):
+        change = max(abs(way) for way, _, _ in parts(h, coordinates(h)).values())
+        found = evaluated(BEGIN + h, h, before(h))
+        assert found["kept"] == float(change < LARGEST and found["margin"] > 0.0)

@@ -1,0 +1,92 @@
+"""After how many turns all wheels are back: counted by the numbers of teeth, and seen on the positions."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinematics.whole_turns import whole_turns
+
+FOURBAR = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [GROUND m, 0 m], O3: [GROUND m, 5 m]}}
+links:
+  crank: {points: [O1, A], length: CRANK m}
+  coupler: {points: [A, B], length: 3.2 m}
+  follower: {points: [O2, B], length: 2.5 m}
+  wheel: {points: {O3: [0 m, 0 m], W: [0.3 m, 0 m]}}
+joints: {mesh: {kind: gear, links: [follower, wheel], ratio: RATIO}}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 2 rad/s}
+"""
+#: A follower that turns once per turn of the crank, and one that swings.
+DRAG, ROCKER = ("1", "3"), ("4", "1")
+
+
+def fourbar(lengths: tuple[str, str], ratio: str) -> lw.Mechanism:
+    ground, crank = lengths
+    return lw.loads(FOURBAR.replace("GROUND", ground).replace("CRANK", crank).replace("RATIO", ratio))
+
+
+def seen(mechanism: lw.Mechanism, most: int) -> int | None:
+    """The first turn after which every link's direction is that of the beginning."""
+    motion = lw.solve_motion(mechanism, times=np.pi * np.arange(most + 1.0))
+    back = [
+        k
+        for k in range(1, most + 1)
+        if all(
+            abs(motion.link(n).direction[k] - motion.link(n).direction[0]).max() < 1e-9
+            for n in mechanism.links
+        )
+    ]
+    return back[0] if back else None
+
+
+@pytest.mark.parametrize("ratio", ["-1", "-1/2", "-2/3", "0.4", "-3", "-1.5"])
+@pytest.mark.parametrize("lengths", [DRAG, ROCKER])
+def test_a_wheel_on_a_follower_is_back_when_the_follower_has_turned_it_whole(
+    lengths: tuple[str, str], ratio: str
+) -> None:
+    mechanism = fourbar(lengths, ratio.replace("-2/3", "-0.66666666666666663").replace("-1/2", "-0.5"))
+    found = whole_turns(mechanism, np.pi)
+    turned = Fraction(ratio) if lengths is DRAG else Fraction(0)
+    assert found == max(turned.denominator, 1) == seen(mechanism, 6)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "turns"),
+    [
+        ("-0.14285714285714285", 7),
+        ("-0.001", 1000),
+        ("-0.000999000999000999", None),
+        ("-0.31830988618", None),
+    ],
+)
+def test_a_wheel_on_the_crank_itself(ratio: str, turns: int | None) -> None:
+    """1/7, 1/1000; cycles of more than 1000 turns are not looked for, and 1/π never comes back."""
+    text = FOURBAR.replace("O3: [GROUND m, 5 m]", "O3: [0 m, 5 m]").replace(
+        "links: [follower,", "links: [crank,"
+    )
+    mechanism = lw.loads(text.replace("GROUND", "4").replace("CRANK", "1").replace("RATIO", ratio))
+    assert whole_turns(mechanism, np.pi) == turns
+
+
+RACK = FOURBAR.replace("O3: [GROUND m, 5 m]", "G: [0 m, -2 m]").replace(
+    "wheel: {points: {O3: [0 m, 0 m], W: [0.3 m, 0 m]}}", "rack: {points: [R]}"
+).replace(
+    "mesh: {kind: gear, links: [follower, wheel], ratio: RATIO}",
+    "slide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: R}, "
+    "mesh: {kind: rack, pinion: follower, rack: rack, through: R, radius: 2 m}",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("lengths", "turns"), [(DRAG, None), (ROCKER, 1)])
+def test_a_rack_is_back_only_with_a_follower_that_swings(lengths: tuple[str, str], turns: int | None) -> None:
+    """Once round it has gone the pinion's circumference on."""
+    mechanism = lw.loads(RACK.replace("GROUND", lengths[0]).replace("CRANK", lengths[1]))
+    slide = lw.solve_motion(mechanism, times=[0.0, np.pi]).joint("slide").displacement
+    assert abs(slide[1] - slide[0]) == pytest.approx(0.0 if turns else 4.0 * np.pi, abs=1e-9)
+    assert whole_turns(mechanism, np.pi) == turns
