@@ -128,9 +128,7 @@ class Piecewise:
         last = int(np.searchsorted(self.edges, high, "left"))
         edges, values = self.edges[first : last + 1].copy(), self.values[first:last].copy()
         edges[0], edges[-1] = low, high
-        cut = 0.5 * (
-            edges[[[0], [-2]]] + edges[[[1], [-1]]] + (edges[[[1], [-1]]] - edges[[[0], [-2]]]) * NODES
-        )
+        cut = np.concatenate([nodes(edges[:2]), nodes(edges[-2:])])
         values[[0, -1]] = self(cut.ravel()).reshape(2, POINTS)
         return Piecewise(edges, values, tolerance=self.tolerance)
 
@@ -165,13 +163,14 @@ def extremes_of(wanted: Sequence[tuple[Piecewise, str]]) -> list[Extreme]:
         values[k, :, :own] = signs[k] * each.values.T
         values[k, :, own:] = values[k, :, :1]
         tops[k, :own] = values[k, :, :own].max(axis=0)
-    piece, share, top, _ = largest(values, tops)
+    piece, share, top, rough = largest(values, tops)
+    bound = np.abs(values).max(axis=(1, 2), initial=0.0) * [each.tolerance for each, _ in wanted]
     found = []
     for k, (each, _) in enumerate(wanted):
         at = int(piece[k]) if piece[k] < len(each.values) else 0  # what fills up is the first piece again
         low, high = each.edges[at : at + 2]
         place = float(low + 0.5 * (share[k] + 1.0) * (high - low))
-        found.append(Extreme(place, signs[k] * float(top[k]), bool(each.smooth[at])))
+        found.append(Extreme(place, signs[k] * float(top[k]), bool(rough[k] <= bound[k])))
     return found
 
 

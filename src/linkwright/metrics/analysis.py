@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
+from math import isnan
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -30,6 +31,8 @@ from linkwright.metrics.summary import Summary, one
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
+#: Summaries that are found of all outputs at once.
+_TOGETHER = ("max", "min", "mean", "rms")
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,7 @@ class Analysis:
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._words: dict[str, None] = {}
-        self._met: dict[str, dict[str, Extreme]] = {}
+        self._met: dict[tuple[str, str], tuple[float, float] | None] = {}
         self._parts: dict[str, Extreme] = {}
 
     @classmethod
@@ -166,7 +169,7 @@ class Analysis:
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind
-        if kind in ("max", "min", "mean", "rms") and (known := self._known(summary.output, kind)):
+        if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
         output, signal = self.output(summary.output), self.signal(summary.output)
         nothing = Extreme(float("nan"), float("nan"), float("nan"), True)
@@ -212,37 +215,46 @@ class Analysis:
         if output.endswith(".angle"):
             return None
         name = words_name(output)
-        if name not in self._met:
-            missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
+        if (name, kind) not in self._met:
+            missing = tuple(each for each in {**self._words, name: None} if (each, kind) not in self._met)
             self._met |= self._summaries(missing)
-        return self._met[name].get(kind)
+        found = self._met[name, kind]
+        if found is None:
+            return None
+        value, time = found
+        return Extreme(value, time, time if isnan(time) else self.resolver.input_at(time), True)
 
-    def _summaries(self, names: tuple[str, ...]) -> dict[str, dict[str, Extreme]]:
+    def _summaries(self, names: tuple[str, ...]) -> dict[tuple[str, str], tuple[float, float] | None]:
+        """Values and times, s, by name and kind; None where polynomials do not meet the output."""
         grid = self.grid
-        found: dict[str, dict[str, Extreme]] = {name: {} for name in names}
         if grid is None:
-            return found
+            return {(name, kind): None for name in names for kind in _TOGETHER}
         solved = grid.motion if self.forces is None else grid.forces
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
-        pieces = rows.reshape(len(names), -1, POINTS)
+        pieces, count = rows.reshape(len(names), -1, POINTS), len(names)
         with np.errstate(all="ignore"):
             means, met = grid.means(pieces)
             squares, even = grid.means(pieces * pieces)
             sizes = np.sqrt(squares)
-        for kind, size, known in (("mean", means, met), ("rms", sizes, even)):
-            for k in np.flatnonzero(known).tolist():
-                found[names[k]][kind] = Extreme(float(size[k]), float("nan"), float("nan"), True)
-        values = pieces.swapaxes(1, 2)
-        bound = grid.tolerance * np.abs(values).max(axis=(1, 2))
+        values = np.ascontiguousarray(pieces.swapaxes(1, 2))
         both = np.concatenate([values, -values])
         piece, place, top, rough = largest(both, both.max(axis=1))
         time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
-        for k in np.flatnonzero(rough <= np.tile(bound, 2)).tolist():
-            kind, sign = ("max", 1.0) if k < len(names) else ("min", -1.0)
-            at = float(time[k])
-            found[names[k % len(names)]][kind] = Extreme(
-                sign * float(top[k]), at, self.resolver.input_at(at), True
-            )
+        smooth = rough <= np.tile(grid.tolerance * np.abs(values).max(axis=(1, 2)), 2)
+        never = np.full(count, np.nan)
+        found: dict[tuple[str, str], tuple[float, float] | None] = {}
+        for kind, columns in zip(
+            _TOGETHER,
+            (
+                (top[:count], time[:count], smooth[:count]),
+                (-top[count:], time[count:], smooth[count:]),
+                (means, never, met),
+                (sizes, never, even),
+            ),
+            strict=True,
+        ):
+            for name, size, at, good in zip(names, *(column.tolist() for column in columns), strict=True):
+                found[name, kind] = (size, at) if good else None
         return found
 
     def output(self, words: str) -> Output | None:
@@ -255,12 +267,12 @@ class Analysis:
         """Place of an output's outermost limit position, or the way between them."""
         if kind == "range":
             reached = value(self.motion, output)
-            values = [float(v) for v in reached[np.isfinite(reached)]]
-            values += [limit.value for limit in self.limits(output)]
+            ends = [limit.value for limit in self.limits(output)]
+            way = np.ptp(np.append(reached[np.isfinite(reached)], ends))
             exact = self.resolver.possible and bool(self.motion.ok.all())
-            return Extreme(max(values) - min(values), float("nan"), float("nan"), exact)
-        ends = [limit for limit in outermost(self.limits(output)) if limit.kind == kind.removeprefix("arg")]
-        return Extreme(ends[0].input, ends[0].time, ends[0].input, True)
+            return Extreme(float(way), float("nan"), float("nan"), exact)
+        end = next(each for each in outermost(self.limits(output)) if each.kind == kind.removeprefix("arg"))
+        return Extreme(end.input, end.time, end.input, True)
 
     @cached_property
     def grid(self) -> CycleGrid | None:

@@ -79,7 +79,8 @@ def _bends(chain: NDArray[np.complex128]) -> NDArray[np.bool_]:
 
 def area(corners: Floats) -> float:
     """Area of a polygon (m, 2), m², counter-clockwise positive."""
-    return 0.5 * float(cross(corners, np.roll(corners, -1, axis=0)).sum())
+    x, y = (corners[1:] - corners[0]).T
+    return 0.5 * float(x[:-1] @ y[1:] - y[:-1] @ x[1:])
 
 
 def crossings(path: Floats) -> list[tuple[float, float]]:

@@ -36,5 +36,7 @@ class PressureAngle(Metric):
             yield Number(group.name, (f"transmission_angle {group.name} min",), _complement)
 
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+        if not value > self.limit:
+            return ()
         limits: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(self.limit, "angle")}
-        return (Remark("pressure_angle.high", limits, warning=True),) if value > self.limit else ()
+        return (Remark("pressure_angle.high", limits, warning=True),)

@@ -21,8 +21,10 @@ SOURCE = "VDI 2123; Volmer, Getriebetechnik; TU Chemnitz, Getriebelexika: not be
 
 def low(value: float) -> tuple[Remark, ...]:
     """A warning where a transmission angle is below the recommended one."""
+    if not value < LIMIT:
+        return ()
     values: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(LIMIT, "angle")}
-    return (Remark("transmission_angle.low", values, warning=True),) if value < LIMIT else ()
+    return (Remark("transmission_angle.low", values, warning=True),)
 
 
 @METRICS.register("transmission_angle")
