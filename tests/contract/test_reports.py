@@ -22,7 +22,7 @@ from linkwright.plot.force_names import reaction_pairs
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.case import Case
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
-from linkwright.report.numbers import typeset
+from linkwright.report.numbers import typeset, without_rounding
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
 from linkwright.report.settings import settings
@@ -225,6 +225,29 @@ def test_gears_appear_with_their_own_formulas_and_no_vector_loop() -> None:
     sides = [" = ".join(b.sides) for b in found.document.blocks if isinstance(b, Formula)]
     assert sum("overrightarrow" in each for each in sides) == 1  # the dyad's loop alone
     assert any("omega_{2}" in each and "omega_{1}" in each and "overrightarrow" not in each for each in sides)
+
+
+def test_tables_hold_no_rounding_but_in_residuals() -> None:
+    """The shaper's guides carry no couple on pins at their points; its residuals are of the size of rounding."""
+    found = report("gallery:shaper_quick_return", sections=["tables", "appendix"]).document.blocks
+    tables = [block for block in found if isinstance(block, Table)]
+    small = {head for each in tables for head, *cells in zip(each.head, *each.rows, strict=True)
+             if any(re.search(r"10\^\{-1\d\}", cell) for cell in cells)}  # fmt: skip
+    assert small
+    assert all("Delta" in head for head in small), small
+
+
+def test_results_that_are_nothing_beside_the_largest_of_their_unit_are_zero() -> None:
+    columns = {
+        "A on rod.x [N]": np.array([2000.0, 3e-9, -1e-10]),
+        "guide on ram.couple [N·m]": np.array([3e-10, np.nan, 0.0]),
+        "power_residual [W]": np.array([1e-13, 0.0, 0.0]),
+        "driver power [W]": np.array([500.0, 0.0, 0.0]),
+    }
+    found = without_rounding(columns)
+    assert found["A on rod.x [N]"].tolist() == [2000.0, 3e-9, 0.0]
+    assert found["guide on ram.couple [N·m]"][0] == 3e-10  # the largest of its unit
+    assert found["power_residual [W]"][0] == 1e-13
 
 
 def test_columns_of_pages_are_aligned_and_the_title_is_there() -> None:

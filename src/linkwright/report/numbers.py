@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from linkwright.worked.symbols import tex
 DIGITS = 6
 #: An input or a number below this share of a turn (rad) or of a metre is zero but for rounding.
 FADED = 1e-9
+#: A result below this share of the largest one of its unit is rounding.
+ROUNDING = 1e-12
 #: Keeps a unit such as rad/s on one line.
 JOINER = "\u2060"
 _UNITS = {"rad": ("°", 180.0 / math.pi), "m": ("mm", 1e3)}
@@ -84,6 +87,21 @@ class Heads:
         last = name.rpartition(".")[2]
         links = (self.mechanism.frame, *self.mechanism.links.values())
         return last if sum(last in link.points for link in links) == 1 else name
+
+
+def without_rounding(columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Columns of results, zero where a number is nothing beside the largest of its unit; residuals as they are."""
+    largest: dict[str, float] = {}
+    for name, values in columns.items():
+        known = np.abs(values[np.isfinite(values)])
+        unit = name.rpartition(" [")[2]
+        largest[unit] = max(largest.get(unit, 0.0), float(known.max(initial=0.0)))
+    return {
+        name: values
+        if "_residual [" in name
+        else np.where(np.abs(values) < ROUNDING * largest[name.rpartition(" [")[2]], 0.0, values)
+        for name, values in columns.items()
+    }
 
 
 def column(values: Floats) -> list[str]:

@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph
-from linkwright.report.numbers import faded, typeset
+from linkwright.report.numbers import faded, typeset, without_rounding
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.cycle_tables import table, varies
 
@@ -24,9 +24,9 @@ class Appendix(Section):
     def blocks(self, case: Case) -> Iterator[Block]:
         say = case.say
         try:
-            columns = case.numbered_forces.columns()
+            columns = without_rounding(case.numbered_forces.columns())
         except LinkwrightError:
-            columns = case.numbered.motion.columns()
+            columns = without_rounding(case.numbered.motion.columns())
         yield Paragraph(say("report.appendix_text"))
         names = [name for name in columns if not name.startswith("driver [")]
         moving = [name for name in names if varies(columns[name])]

@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.numbers import column
+from linkwright.report.numbers import column, without_rounding
 from linkwright.report.section import SECTIONS, Section
 
 
@@ -29,11 +29,11 @@ class CycleTables(Section):
         elif case.mechanism.drivers:
             yield Paragraph(say("report.numbered_start", count=count))
         yield Paragraph(literal(case.links_text))
-        columns = numbered.motion.columns()
+        columns = without_rounding(numbered.motion.columns())
         for title, wanted in _motion_tables(case, columns):
             yield table(case, say(title), columns, wanted)
         try:
-            columns = case.numbered_forces.columns()
+            columns = without_rounding(case.numbered_forces.columns())
         except LinkwrightError as error:
             yield Paragraph(literal(case.told(error)), "missing")
             return
