@@ -384,13 +384,16 @@ ITERATED = (
     "triad", "class_four_group", "fourth_order_group", "rack_and_rocker", "stephenson_sixbar_triad", "wedge",
 )  # fmt: skip
 
+#: Dimensions of guides and welds.
+GUIDED = (".offset", ".direction", ".block_angle", ".angle")
+
 
 @pytest.mark.parametrize("name", ITERATED)
 def test_changed_assemblies_are_certified_as_by_the_solver(
     kept_open: Opened, tmp_path: Path, name: str
 ) -> None:
-    """After drags of points and changes of every third dimension a page certifies as many positions as the solver,
-    and says so; where its rows leave the branch it does not."""
+    """After drags of points and changes of every third dimension, and of all that guides and welds have, a page
+    certifies as many positions as the solver, and says so; where its rows leave the branch it does not."""
     mechanism, path = made(tmp_path, name)
     kept_open.open(path)
     note = kept_open.tab.locator(".note").first
@@ -401,11 +404,13 @@ def test_changed_assemblies_are_certified_as_by_the_solver(
         ".map(d => d.address)"
     )
     nominal = {each: mechanism.dimension(each) for each in kept_open.values()}
-    for step in (*keys[-2:], *addresses[::3]):
+    guided = [each for each in kept_open.values() if each.endswith(GUIDED)]
+    assert set(guided) <= set(addresses)
+    for step in (*keys[-2:], *dict.fromkeys([*addresses[::3], *guided])):
         if step in keys:
             kept_open.drag(step, 3.0, 2.0)
         else:
-            kept_open.run("(s, a) => s.take({...s.model.values, [a]: 1.01 * s.model.values[a]})", step)
+            kept_open.run("(s, a) => s.take({...s.model.values, [a]: 1.01 * s.model.values[a] + 1e-3})", step)
         changed = {a: v for a, v in kept_open.values().items() if v != nominal[a]}
         fixed = kept_open.run("s => s.data.loops.fixed")
         if set(changed) & set(fixed):
@@ -418,6 +423,48 @@ def test_changed_assemblies_are_certified_as_by_the_solver(
     assert note.inner_text().startswith("The assembly is certified at every position")
     count = kept_open.run("s => s.model.n")
     assert kept_open.run(_SLIPPED) == [count - 40, 0]
+
+
+#: A triad whose third leg slides on the frame.
+SLIDING = """
+format: 1
+name: Triad with a slide
+frame: {points: {O1: [0 mm, 0 mm], O2: [130 mm, -210 mm], O3: [360 mm, 90 mm]}}
+links:
+  crank: {points: [O1, A]}
+  bar_1: {points: [A, P]}
+  bar_2: {points: [O2, Q]}
+  foot: {points: [S, R]}
+  plate: {points: [P, Q, R]}
+joints:
+  way: {kind: prismatic, guide: frame, through: O3, direction: 210 deg, offset: 4.6 mm, block: foot, at: S,
+    block_angle: -4.7 deg}
+drawing: {A: [30 mm, 0 mm], P: [210 mm, 90 mm], Q: [190 mm, -10 mm], R: [235 mm, 5 mm], S: [300 mm, 50 mm]}
+driver: {turn: crank, about: O1, speed: 10 rad/s}
+"""
+
+
+def test_a_changed_guide_is_certified_as_by_the_solver(kept_open: Opened, tmp_path: Path) -> None:
+    """Its offset, its direction and its angle in the block, one after the other: directions turn arms and slides."""
+    mechanism = lw.loads(SLIDING)
+    kept_open.open(lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "sliding.html"))
+    turns = kept_open.run("s => Object.keys(s.data.loops.turns)")
+    assert turns == ["way.block_angle", "way.direction"]
+    changed: dict[str, float] = {}
+    for address, change in (("way.offset", 3e-3), ("way.direction", 0.05), ("way.block_angle", -0.08)):
+        changed[address] = mechanism.dimension(address) + change
+        kept_open.run("(s, changed) => s.take({...s.model.values, ...changed})", changed)
+        assert kept_open.values()[address] == changed[address]
+        other = mechanism.with_dimensions(changed)
+        followed = lw.solve_motion(other, steps=STEPS).followed
+        assert followed is not None
+        assert followed.certified.all()
+        assert kept_open.run("s => s.model.uncertain") == 0
+        agrees(kept_open, other, forces=False, tolerance=1e-9)
+    count = kept_open.run("s => s.model.n")
+    assert kept_open.run(_SLIPPED) == [count - 40, 0]
+    kept_open.run("s => { for (const each in s.data.loops.turns) s.data.loops.turns[each].fill(0); }")
+    assert kept_open.run("s => s.model.branch.uncertain(s.model.values)") == count
 
 
 #: Positions that are not certified where the rows of position 40 are half a turn, or the machine's size, off.
@@ -433,10 +480,15 @@ _SLIPPED = """s => {
 
 
 def test_what_cannot_be_certified_is_said_to_be_followed(kept_open: Opened, tmp_path: Path) -> None:
-    """Dimensions of guides change more than the arms that a page certifies with."""
-    mechanism, path = made(tmp_path, "wedge")
+    """Points that give a guide its direction turn a page's loops by no fixed share of a change."""
+    text = lw.read_document("gallery:wedge").text.replace(
+        "C: [200 mm, 40 mm]", "C: [200 mm, 40 mm], D: [200 mm, 90 mm]"
+    )
+    mechanism = lw.loads(text.replace("direction: 90 deg", "direction: [C, D]"))
+    path = lw.export(lw.solve_motion(mechanism, steps=STEPS), tmp_path / "wedge.html")
     kept_open.open(path)
-    kept_open.run("s => s.take({...s.model.values, 'column.offset': s.model.values['column.offset'] + 1e-3})")
+    assert kept_open.run("s => s.data.loops.fixed") == ["frame.C.x", "frame.D.x"]
+    kept_open.run("s => s.take({...s.model.values, 'frame.D.x': 0.201})")
     assert kept_open.run("s => s.model.uncertain") is None
     assert "not certified" in kept_open.tab.locator(".note").first.inner_text()
     kept_open.tab.get_by_role("button", name="Undo").click()

@@ -1,7 +1,7 @@
 // The page: machines side by side, each with its drawing, design numbers, dimensions and curves.
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { Comparison } from "./compare";
 import { Curves } from "./curves";
 import type { Dimension } from "./data";
@@ -82,7 +82,7 @@ function useShown(session: Session, what: () => unknown): void {
 }
 
 function Slider({ page, session, dimension }: { page: Page; session: Session; dimension: Dimension }) {
-  const { address, value, factor, unit } = dimension, { model } = session;
+  const { address, value, factor, unit } = dimension, { model } = session, field = useRef<HTMLInputElement>(null);
   useShown(session, () => `${model.values[address]} ${model.locked.has(address)}`);
   const now = model.values[address], locked = model.locked.has(address);
   const reach = Math.abs(value) || (dimension.geometry ? (unit === "deg" || unit === "rad" ? 1 : model.size) : 1);
@@ -92,6 +92,7 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
     page.soon(() => {
       model.change({ ...model.values, [address]: x * factor });
       session.moved();
+      field.current!.value = String(shown(model.values[address]));
     });
   };
   const done = (roughly: boolean) => {
@@ -117,7 +118,7 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
         onInput={(event) => to(Number(event.currentTarget.value))} onChange={() => done(true)}
       />
       <input
-        type="number" step="any" value={shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
+        ref={field} type="number" step="any" value={shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
         onChange={(event) => {
           session.begin();
           to(Number(event.currentTarget.value));

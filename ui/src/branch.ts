@@ -21,8 +21,9 @@ export class Branch {
   /** How many of the positions that the solver's rows hold are not certified; null where it cannot be tried. */
   uncertain(values: Values): number | null {
     const { solver, data } = this, { n } = solver;
-    if (data.fixed.some((address) => values[address] !== solver.data.values[address])) return null;
-    const loops = Loops.of(data, (link, key) => place(solver, link, key)), q = this.drivers(0);
+    const changes = Object.fromEntries(Object.entries(solver.data.values).map(([address, value]) => [address, values[address] - value]));
+    if (data.fixed.some((address) => changes[address] !== 0)) return null;
+    const loops = Loops.of(data, (link, key) => place(solver, link, key), values, changes), q = this.drivers(0);
     const start = this.arrived(loops, this.begin, q) ?? this.arrived(loops, data.begin, q);
     if (!start || !this.alike(start, 0, (k) => NEAR * loops.scale[k])) return n;
     this.begin = start;

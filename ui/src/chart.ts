@@ -8,6 +8,15 @@ const W = 360, H = 132, LEFT = 50, RIGHT = 8, TOP = 8, BOTTOM = 20;
 // How far a curve may leave its places, in these units; units between two fitting numbers, and their size.
 const FLAT = 0.08;
 const FONT = "10px system-ui, sans-serif";
+// Where the numbers at the axes stand, low, high, left and right, by which side, and what they may cover: x, y, width,
+// height. The curves and the dot keep off it.
+const FREE = 4.5, MIDDLE = (LEFT + W) / 2;
+const TEXTS: { x: number; y: number; side: CanvasTextAlign; box: [number, number, number, number] }[] = [
+  { x: LEFT - 5, y: H - BOTTOM + 3, side: "right", box: [0, H - BOTTOM - 8, LEFT - FREE, 14] },
+  { x: LEFT - 5, y: TOP + 9, side: "right", box: [0, TOP - 2, LEFT - FREE, 14] },
+  { x: LEFT, y: H - 5, side: "left", box: [LEFT, H - 14, MIDDLE - LEFT, 14] },
+  { x: W - RIGHT, y: H - 5, side: "right", box: [MIDDLE, H - 14, W - MIDDLE, 14] },
+];
 
 export interface Curve {
   style: "now" | "original" | number;
@@ -33,12 +42,13 @@ export class Chart {
   private curves: Curve[] = [];
   private ticks: string[] = [];
   private at: [number, number] = [NaN, NaN];
-  private fitted = 0;
+  /** The numbers at the axes that are painted: writing a text takes longer than all else here. */
+  private shown: string[] = [];
   // Each curve with the scale it was drawn to: what stays is not found again.
   private written: Written[] = [];
 
   constructor(host: HTMLElement) {
-    const { canvas, pen, end } = painted(host, () => this.paint());
+    const { canvas, pen, end } = painted(host, () => this.afresh());
     [this.canvas, this.pen, this.end] = [canvas, pen, end];
     canvas.className = "chart";
     canvas.setAttribute("role", "img");
@@ -76,6 +86,12 @@ export class Chart {
     this.paint();
   }
 
+  /** A canvas forgets all with its size. */
+  private afresh(): void {
+    [this.pen.font, this.pen.direction, this.shown] = [FONT, "ltr", []];
+    this.paint();
+  }
+
   private paint(): void {
     const { pen, canvas } = this, colour = colours(), scale = canvas.width / W;
     // Strokes are as wide on small pictures as on large ones.
@@ -86,7 +102,7 @@ export class Chart {
       pen.stroke(path);
     };
     pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.clearRect(0, 0, W, H);
+    pen.clearRect(LEFT - FREE, 0, W, H - 14);
     pen.lineJoin = "round";
     const zero = this.low < 0 && this.high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
     stroke(new Path2D(`M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`), colour.line, 1);
@@ -112,15 +128,15 @@ export class Chart {
   }
 
   private write(soft: string): void {
-    const { pen } = this, [low, high, left, right] = this.ticks;
+    const { pen, ticks, shown } = this;
     pen.fillStyle = soft;
-    // A canvas forgets its font with its size; reading one takes longer than all else here.
-    if (this.fitted !== this.canvas.width) pen.font = FONT;
-    this.fitted = this.canvas.width;
-    for (const [text, x, y, side] of [[low, LEFT - 5, H - BOTTOM + 3, "right"], [high, LEFT - 5, TOP + 9, "right"], [left, LEFT, H - 5, "left"], [right, W - RIGHT, H - 5, "right"]] as const) {
+    TEXTS.forEach(({ x, y, side, box }, k) => {
+      if (shown[k] === ticks[k]) return;
+      shown[k] = ticks[k];
+      pen.clearRect(...box);
       pen.textAlign = side;
-      pen.fillText(text ?? "", x, y);
-    }
+      pen.fillText(ticks[k] ?? "", x, y);
+    });
   }
 
   /** The place among n positions under a point of the screen. */

@@ -108,13 +108,16 @@ export interface LoopData {
   turning: number[][];
   sliding: number[][];
   owner: number[];
-  /** Rotation, loop, link and key of a point ("": a constant), real and imaginary part of its factor. */
+  /** Rotation, loop, link and key of a point ("" and an address: a dimension; "" twice: a constant), real and imaginary
+   *  part of its factor. */
   arms: [number, number, string, string, number, number][];
   slides: [number, number][][];
   size: number;
   begin: number[];
-  /** Dimensions that change more than arms. */
+  /** Dimensions that change more than arms and directions of slides. */
   fixed: string[];
+  /** By how much of a dimension's change every arm, then every slide in every loop is turned. */
+  turns: Record<string, number[]>;
 }
 
 /** When a load acts: while an output moves, or goes from one of its limits to the other, or in a part of that way. */

@@ -1,5 +1,6 @@
 // Closed loops as sums of turned arms, as in the core's kinematics/closed_loops.py: values, derivatives, roots.
 import type { LoopData } from "./data";
+import type { Values } from "./solver";
 
 export type Matrix = number[][];
 
@@ -17,6 +18,7 @@ export interface Turned {
 }
 
 export const zeros = (rows: number, columns: number): Matrix => Array.from({ length: rows }, () => new Array<number>(columns).fill(0));
+const complexes = (rows: number, columns: number): Complexes => ({ re: zeros(rows, columns), im: zeros(rows, columns) });
 export const dot = (a: number[], b: number[]) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 export const times = (matrix: Matrix, v: number[]) => matrix.map((row) => dot(row, v));
 export const product = (a: Matrix, b: Matrix): Matrix => a.map((row) => b[0].map((_, j) => row.reduce((sum, x, k) => sum + x * b[k][j], 0)));
@@ -59,16 +61,18 @@ export class Loops {
     this.coordinates = [...turning, ...sliding];
   }
 
-  /** The loops of a machine whose points are where `place` says, in the axes of their links but for a shift of each. */
-  static of(data: LoopData, place: (link: string, key: string) => [number, number]): Loops {
-    const { turning, sliding, owner, unknowns, slides, size } = data, K = unknowns.length / 2;
-    const a = { re: zeros(turning.length, K), im: zeros(turning.length, K) };
-    for (const [c, k, link, key, re, im] of data.arms) {
-      const [x, y] = key ? place(link, key) : [1, 0];
-      a.re[c][k] += re * x - im * y;
-      a.im[c][k] += re * y + im * x;
-    }
-    const b = { re: slides.map((row) => row.map(([re]) => re)), im: slides.map((row) => row.map(([, im]) => im)) };
+  /** The loops of a machine whose points are where `place` says, in the axes of their links but for a shift of each;
+   *  `changes`: of its dimensions from the original's. */
+  static of(data: LoopData, place: (link: string, key: string) => [number, number], values: Values, changes: Values): Loops {
+    const { turning, sliding, owner, unknowns, slides, size } = data, K = unknowns.length / 2, [a, b] = [complexes(turning.length, K), complexes(slides.length, K)];
+    /** Adds a factor to a part, turned as factor n is, times (x, y). */
+    const add = (part: Complexes, row: number, k: number, n: number, re: number, im: number, [x, y]: [number, number]) => {
+      const turn = Object.entries(data.turns).reduce((sum, [address, shares]) => sum + shares[n] * changes[address], 0), [c, s] = [Math.cos(turn), Math.sin(turn)];
+      part.re[row][k] += (re * c - im * s) * x - (re * s + im * c) * y;
+      part.im[row][k] += (re * c - im * s) * y + (re * s + im * c) * x;
+    };
+    data.arms.forEach(([c, k, link, key, re, im], n) => add(a, c, k, n, re, im, link ? place(link, key) : [key ? values[key] : 1, 0]));
+    slides.forEach((row, j) => row.forEach(([re, im], k) => add(b, j, k, data.arms.length + j * K + k, re, im, [1, 0])));
     return new Loops(turning, sliding, owner, a, b, unknowns.map(([kind]) => (kind === "turn" ? 1 : size)));
   }
 

@@ -124,12 +124,12 @@ export class Model {
       return;
     }
     const angle = (address: string) => known.get(address)!.unit === "deg" || known.get(address)!.unit === "rad";
-    const sizes = free.map((address) => (angle(address) ? 1 / this.size : 1));
+    const { size } = this, sizes = free.map((address) => (angle(address) ? 1 / size : 1)), steps = sizes.map((each) => 1e-6 * size * each);
     const target = { ...base };
     let [px, py] = this.solver.place(target, key, i);
     let moves = false;
     for (let k = 0; k < 12; k++) {
-      const [jx, jy] = this.slopes(target, key, i, free, sizes);
+      const [jx, jy] = this.slopes(target, key, i, free, steps);
       moves ||= jx.some((each, j) => Math.hypot(each, jy[j]) * sizes[j] > 1e-6);
       const step = leastChange(jx, jy, sizes, x - px, y - py);
       if (!step.every(Number.isFinite)) break;
@@ -141,7 +141,7 @@ export class Model {
         [px, py] = this.solver.place(target, key, i);
         if (!Number.isFinite(px + py)) break;
       }
-      if (Math.max(...step.map(Math.abs)) < 1e-12 * this.size) break;
+      if (Math.max(...step.map(Math.abs)) < 1e-12 * size) break;
     }
     this.change(target);
     if (!this.wall && !moves) this.wall = { kind: "still", name: key, group: null, input: 0, facts: {} };
@@ -154,10 +154,10 @@ export class Model {
     return Math.hypot(spread[0], spread[1]) || 1;
   }
 
-  private slopes(values: Values, key: string, i: number, free: string[], sizes: number[]): [number[], number[]] {
-    const jx: number[] = [], jy: number[] = [], length = this.size;
+  private slopes(values: Values, key: string, i: number, free: string[], steps: number[]): [number[], number[]] {
+    const jx: number[] = [], jy: number[] = [];
     free.forEach((address, j) => {
-      const h = 1e-6 * length * sizes[j], tried = { ...values };
+      const h = steps[j], tried = { ...values };
       tried[address] = values[address] + h;
       const [ax, ay] = this.solver.place(tried, key, i);
       tried[address] = values[address] - h;

@@ -61,7 +61,7 @@ export function isForce(id: string): boolean {
 export function formed(signal: Signal, a: number, b: number): number {
   switch (signal.form) {
     case "row": return a;
-    case "size": return Math.hypot(a, b);
+    case "size": return Math.sqrt(a * a + b * b);
     case "angle": return Math.atan2(b, a);
   }
 }

@@ -28,8 +28,8 @@ export interface Cloud {
 const SHARE = 0.2;
 // How many machines are drawn as ghosts, and the time that they may take, ms.
 const FEWEST = 41, MOST = 500, MOMENT = 400, TRIED = 4;
-// Between two readings of tables and fields, ms.
-const REST = 90;
+// Tables and fields are read again when a hand rests this long, and while it goes on as often as this, ms.
+const REST = 120, LONGEST = 400;
 // Digits of dimensions that a hand has moved, the fewest first.
 const DIGITS = [4, 5, 7];
 
@@ -37,7 +37,7 @@ export class Session {
   readonly model: Model;
   readonly shown: Shown;
   readonly version = signal(0);
-  /** The same for what is read and not followed by the eye: tables and fields, at most some times a second. */
+  /** The same for what is read and not followed by the eye: tables and fields, when a hand rests. */
   readonly calm = signal(0);
   readonly curves = signal<string[]>([]);
   readonly variants = signal<Variant[]>([]);
@@ -52,6 +52,8 @@ export class Session {
   readonly history = new History<Values>(() => ({ ...this.model.values }), (values) => this.go(values));
   private counted = 0;
   private resting = 0;
+  /** When the movement began that tables and fields do not show yet. */
+  private since = 0;
 
   constructor(readonly data: ModelData, code: Code, readonly number: number) {
     this.model = new Model(data, code);
@@ -75,10 +77,13 @@ export class Session {
     this.calm.value++;
   }
 
-  /** The machine is being moved: what the eye follows changes at once, the rest when the browser has time for it. */
+  /** The machine is being moved: what the eye follows changes at once, the rest when the hand and the browser rest. */
   moved(): void {
     this.version.value++;
-    this.resting ||= window.setTimeout(() => idle(() => this.resting && this.settle()), REST);
+    const now = performance.now();
+    if (!this.resting) this.since = now;
+    window.clearTimeout(this.resting);
+    this.resting = window.setTimeout(() => idle(() => this.resting && this.settle()), Math.min(REST, this.since + LONGEST - now));
   }
 
   /** A change begins: what was before can be had back. */

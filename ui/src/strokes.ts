@@ -49,20 +49,22 @@ export function write(of: Element, text: string): void {
  * on, the directions in which all places since then are near enough become fewer, until there is none.
  */
 export function thinned(x: ArrayLike<number>, y: ArrayLike<number>, tolerance: number): number[] {
-  const last = x.length - 1, kept = last < 0 ? [] : [0];
-  let [first, low, high, reached] = [NaN, -Infinity, Infinity, 0];
-  for (let i = 1, a = 0; i <= last; i++) {
-    let dx = x[i] - x[a], dy = y[i] - y[a], d = Math.hypot(dx, dy), off = Math.atan2(dy, dx) - first;
-    off -= TURN * Math.round(off / TURN);
-    if (off < low || off > high || d < reached) {
-      kept.push((a = i - 1));
-      [dx, dy] = [x[i] - x[a], y[i] - y[a]];
-      [d, off, first, low, high, reached] = [Math.hypot(dx, dy), NaN, NaN, -Infinity, Infinity, 0];
+  const last = x.length - 1, kept = last < 0 ? [] : [0], near = tolerance * tolerance;
+  // The first and the last of those directions, counter-clockwise, as vectors; how far the places are, squared.
+  let [ax, ay, bx, by, reached] = [0, 0, 0, 0, 0];
+  for (let i = 1, corner = 0; i <= last; i++) {
+    let dx = x[i] - x[corner], dy = y[i] - y[corner], d = dx * dx + dy * dy;
+    if (d < reached || ax * dy < ay * dx || dx * by < dy * bx) {
+      kept.push((corner = i - 1));
+      [dx, dy] = [x[i] - x[corner], y[i] - y[corner]];
+      [d, reached] = [dx * dx + dy * dy, 0];
+      [ax, ay, bx, by] = [0, 0, 0, 0];
     }
-    if (d <= tolerance) continue;
-    if (!(off === off)) [first, off] = [Math.atan2(dy, dx), 0];
-    const half = Math.asin(tolerance / d);
-    [low, high, reached] = [Math.max(low, off - half), Math.min(high, off + half), d];
+    if (d <= near) continue;
+    const along = Math.sqrt(d - near), [u, v] = [dx * along, dy * along], [s, t] = [dx * tolerance, dy * tolerance];
+    if (!reached || ax * (v - s) > ay * (u + t)) [ax, ay] = [u + t, v - s];
+    if (!reached || bx * (v + s) < by * (u - t)) [bx, by] = [u - t, v + s];
+    reached = d;
   }
   if (last > 0) kept.push(last);
   return kept;

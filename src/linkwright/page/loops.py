@@ -1,7 +1,7 @@
 """The closed loops of groups without closed form as plain data, for the certificate that a page makes of them.
 
-Arms are sums of places of points in the axes of their links, which a page reads from its own rows; turns and slides
-hold for all dimensions but the ``fixed`` ones.
+Arms are sums of places of points in the axes of their links, which a page reads from its own rows, and of offsets of
+guides; angles of guides and welds turn arms and slides. All else holds for all dimensions but the ``fixed`` ones.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.closed_loops import ClosedLoops, LoopBuilder, upstream
+from linkwright.kinematics.closed_loops import ClosedLoops, Key, LoopBuilder, Terms, upstream
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
@@ -26,7 +26,8 @@ SAME = 1e-12
 
 @dataclass(frozen=True)
 class Linear:
-    """Σ factor · place of a point in the axes of its link, by link and point; ``("", "")``: a constant."""
+    """Σ factor · place of a point in the axes of its link, by link and point; ``("", address)``: a dimension;
+    ``("", "")``: a constant."""
 
     terms: dict[tuple[str, str], complex]
 
@@ -52,10 +53,39 @@ class Linear:
 
 
 class _Symbolic(LoopBuilder):
-    """Writes down which points' places an arm is made of."""
+    """Writes down which points' places and which offsets an arm is made of."""
 
     def local(self, link: str, point: str) -> complex:
         return Linear({(link, point): 1.0 + 0j})  # type: ignore[return-value]
+
+    def slide(self, place: Terms, key: Key, rotation: int, direction: complex, offset: float) -> None:
+        kind, name = key
+        joint = self.mechanism.drivers[name].joint if kind == "drive" else name
+        super().slide(place, key, rotation, direction, Linear({("", f"{joint}.offset"): 1.0 + 0j}))  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class _Loops:
+    """Closed loops with their arms as a page has them: rotation, loop, link and key of a point ("" and an address: a
+    dimension; "" twice: a constant), factor (real, imaginary)."""
+
+    own: ClosedLoops
+    arms: list[list[Any]]
+
+    @staticmethod
+    def of(mechanism: Mechanism, motion: Motion) -> _Loops:
+        own = ClosedLoops(mechanism, motion.structure)
+        return _Loops(own, _arms(mechanism, motion, own))
+
+    @property
+    def form(self) -> tuple[Any, ...]:
+        """What the loops are made of."""
+        return self.own.unknowns, self.own.b.shape, [arm[:4] for arm in self.arms]
+
+    @property
+    def factors(self) -> np.ndarray:
+        """Those of the arms, then those of the slides in all loops, complex."""
+        return np.array([complex(*arm[4:]) for arm in self.arms] + self.own.b.ravel().tolist())
 
 
 def loops(motion: Motion, dimensions: Iterable[str]) -> Plain | None:
@@ -64,21 +94,22 @@ def loops(motion: Motion, dimensions: Iterable[str]) -> Plain | None:
     followed = motion.followed
     if followed is None or not followed.certified[0]:
         return None
-    mechanism, own = motion.mechanism, followed.follower.loops
-    arms = _arms(mechanism, motion, own)
-    changeable = [each for each in dimensions if _bends(mechanism, motion, own, each)]
+    mechanism = motion.mechanism
+    own = followed.follower.loops
+    found = _Loops(own, _arms(mechanism, motion, own))
+    turns = {each: _turns(mechanism, motion, found, each) for each in dimensions}
     columns = [*own.unknowns, *(("drive", name) for name in own.drivers)]
     return {
         "unknowns": [[kind, name] for kind, name in own.unknowns],
         "turning": own.turning.tolist(), "sliding": own.sliding.tolist(), "owner": own.owner.tolist(),
-        "arms": arms, "slides": [[[z.real, z.imag] for z in row] for row in own.b.tolist()],
-        "size": own.size, "fixed": changeable, "begin": followed.coordinates[0].tolist(),
-        "drivers": [name for kind, name in columns if kind == "drive"],
+        "arms": found.arms, "slides": [[[z.real, z.imag] for z in row] for row in own.b.tolist()],
+        "size": own.size, "fixed": [each for each, how in turns.items() if how is None],
+        "turns": {each: how for each, how in turns.items() if how is not None and any(how)},
+        "begin": followed.coordinates[0].tolist(), "drivers": [name for kind, name in columns if kind == "drive"],
     }  # fmt: skip
 
 
 def _arms(mechanism: Mechanism, motion: Motion, own: ClosedLoops) -> list[list[Any]]:
-    """Rotation, loop, link and key of a point ("": a constant), factor (real, imaginary) of every part of an arm."""
     build = _Symbolic(mechanism)
     for group in upstream(motion.structure, mechanism):
         build.add(group)
@@ -90,7 +121,7 @@ def _arms(mechanism: Mechanism, motion: Motion, own: ClosedLoops) -> list[list[A
                 continue
             for (link, point), factor in Linear.of(value).terms.items():
                 turned = factor * _phase(own, build, c)
-                key = canonical(mechanism, link, point) if link else ""
+                key = canonical(mechanism, link, point) if link else point
                 if abs(turned) > 0.0:
                     found.append([c, k, link, key, turned.real, turned.imag])
         for (c, j), value in terms.items():
@@ -107,22 +138,18 @@ def _phase(own: ClosedLoops, build: LoopBuilder, rotation: int) -> complex:
     return complex(np.exp(1j * own.share(("turn", unknown))[1])) if unknown else 1.0 + 0j
 
 
-def _bends(mechanism: Mechanism, motion: Motion, own: ClosedLoops, address: str) -> bool:
-    """Whether a dimension changes more than places of points in the axes of their links."""
-    value = mechanism.dimension(address)
+def _turns(mechanism: Mechanism, motion: Motion, found: _Loops, address: str) -> list[float] | None:
+    """By how much of a dimension's change every arm, then every slide in every loop is turned; None where it changes
+    more than that and places of points in the axes of their links."""
+    change = abs(mechanism.dimension(address)) * TRIED[0] + TRIED[1]
     try:
-        changed = mechanism.with_dimensions({address: value * (1.0 + TRIED[0]) + TRIED[1]})
-        other = ClosedLoops(changed, motion.structure)
-        if other.unknowns != own.unknowns or other.b.shape != own.b.shape:
-            return True
-        rows = [(own.turning, other.turning), (own.sliding, other.sliding), (own.b, other.b)]
-        same = all(np.abs(a - b).max(initial=0.0) <= SAME for a, b in rows)
-        return not same or not _alike(_arms(mechanism, motion, own), _arms(changed, motion, other))
+        other = _Loops.of(mechanism.with_dimensions({address: mechanism.dimension(address) + change}), motion)
     except LinkwrightError:
-        return True
-
-
-def _alike(a: list[list[Any]], b: list[list[Any]]) -> bool:
-    return len(a) == len(b) and all(
-        x[:4] == y[:4] and abs(x[4] - y[4]) + abs(x[5] - y[5]) <= SAME for x, y in zip(a, b, strict=True)
-    )
+        return None
+    if found.form != other.form:
+        return None
+    a, b, before, after = found.own, other.own, found.factors, other.factors
+    turns = np.round(np.angle(after * before.conj()) / change) + 0.0
+    rows = [(a.turning, b.turning), (a.sliding, b.sliding), (before * np.exp(1j * turns * change), after)]
+    same = all(np.abs(x - y).max(initial=0.0) <= SAME for x, y in rows)
+    return [float(each) for each in turns] if same else None
