@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from linkwright.core.dataclass import dataclass
+from linkwright.engine.node import Node
 from linkwright.engine.replay import Replay, operations
 from linkwright.engine.tangent import slope_of
-from linkwright.engine.trace import Mask, Node, Scalar, Value
+from linkwright.engine.trace import Mask, Scalar, Value
 
 
 @dataclass(slots=True)

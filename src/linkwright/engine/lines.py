@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from linkwright.core.dataclass import dataclass
+from linkwright.engine.node import COMPARISONS
 from linkwright.engine.program import Program
-from linkwright.engine.trace import COMPARISONS
 
 INPUTS = frozenset({"parameter", "position", "field", "state"})
 LOGIC = frozenset({"and", "or", "not"})
@@ -57,19 +57,19 @@ class Lines:
         builder = _Builder()
         places = dict.fromkeys(INPUTS, 0)
         where: list[int] = []
-        for node in program.nodes:
-            if node.op in INPUTS:
-                where.append(builder.add(Line(node.op, (), node.varies, place=places[node.op])))
-                places[node.op] += 1
-            elif node.op == "constant":
-                where.append(builder.add(Line("constant", (), False, constant=node.constant)))
-            elif node.op == "lookup":
-                args, table = (builder.number(where[node.args[0]]),), program.tables.index(node.name)
-                where.append(builder.add(Line("lookup", args, node.varies, False, node.constant, table)))
-            elif node.op == "stop":
-                where.append(where[node.args[0]])
+        for op, args, constant, name, varies in program.entries:
+            if op in INPUTS:
+                where.append(builder.add(Line(op, (), varies, place=places[op])))
+                places[op] += 1
+            elif op == "constant":
+                where.append(builder.add(Line("constant", (), False, constant=constant)))
+            elif op == "lookup":
+                at, table = (builder.number(where[args[0]]),), program.tables.index(name)
+                where.append(builder.add(Line("lookup", at, varies, False, constant, table)))
+            elif op == "stop":
+                where.append(where[args[0]])
             else:
-                where.append(builder.operation(node.op, [where[i] for i in node.args], node.varies))
+                where.append(builder.operation(op, [where[i] for i in args], varies))
         carried = dict(program.next_states)
         missing = [name for name in program.states if name not in carried]
         if missing and carried:

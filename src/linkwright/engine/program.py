@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import COMPARISONS, Entry, Node, Scalar, Trace
+from linkwright.engine.node import COMPARISONS, Entry, Node, needed
+from linkwright.engine.trace import Scalar, Trace
 
 SYMBOLS = {
     "add": "+",
@@ -23,13 +24,13 @@ SYMBOLS = {
 
 @dataclass(frozen=True)
 class Program:
-    """Lines in the order of evaluation; outputs and next states by line number.
+    """Lines in the order of evaluation, by name of their fields in ``nodes``; outputs and next states by line number.
 
     ``parameters``: one number per design; ``positions``: one per position; ``fields``: one per
     design and position; ``states``: carried from a position to the next; ``tables``: data of a call.
     """
 
-    nodes: tuple[Node, ...]
+    entries: tuple[Entry, ...]
     outputs: tuple[tuple[str, int], ...]
     next_states: tuple[tuple[str, int], ...] = ()
 
@@ -43,22 +44,22 @@ class Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}
         carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
-        kept = needed(trace.lines, [*wanted.values(), *carried.values()])
+        kept = trace.needed([*wanted.values(), *carried.values()])
         number = {old: new for new, old in enumerate(kept)}
-        nodes = tuple(_renumbered(trace.lines[old], number) for old in kept)
         return cls(
-            nodes,
+            tuple([trace.entry(old, number) for old in kept]),
             tuple((name, number[old]) for name, old in wanted.items()),
             tuple((name, number[old]) for name, old in carried.items()),
         )
 
     def only(self, names: list[str]) -> Program:
         """The same program for some of its outputs."""
-        by_name = dict(self.outputs)
-        kept = needed(self.nodes, [*(by_name[name] for name in names), *(i for _, i in self.next_states)])
+        entries, by_name = self.entries, dict(self.outputs)
+        wanted = [*(by_name[name] for name in names), *(i for _, i in self.next_states)]
+        kept = needed(lambda index: entries[index][1], wanted)
         number = {old: new for new, old in enumerate(kept)}
         return Program(
-            tuple(_renumbered(self.nodes[old], number) for old in kept),
+            tuple(_renumbered(self.entries[old], number) for old in kept),
             tuple((name, number[by_name[name]]) for name in names),
             tuple((name, number[i]) for name, i in self.next_states),
         )
@@ -66,16 +67,21 @@ class Program:
     def fields_last(self) -> Program:
         """The same program with all lines that need no field before those that do."""
         late: set[int] = set()
-        for index, node in enumerate(self.nodes):
-            if node.op == "field" or not late.isdisjoint(node.args):
+        for index, (op, args, *_) in enumerate(self.entries):
+            if op == "field" or not late.isdisjoint(args):
                 late.add(index)
-        order = [i for i in range(len(self.nodes)) if i not in late] + sorted(late)
+        order = [i for i in range(len(self.entries)) if i not in late] + sorted(late)
         number = {old: new for new, old in enumerate(order)}
         return Program(
-            tuple(_renumbered(self.nodes[old], number) for old in order),
+            tuple(_renumbered(self.entries[old], number) for old in order),
             tuple((name, number[i]) for name, i in self.outputs),
             tuple((name, number[i]) for name, i in self.next_states),
         )
+
+    @cached_property
+    def nodes(self) -> tuple[Node, ...]:
+        """The lines with names for their fields."""
+        return tuple(map(Node._make, self.entries))
 
     @cached_property
     def output_names(self) -> tuple[str, ...]:
@@ -102,8 +108,8 @@ class Program:
         """The tables that are looked up, each once."""
         return tuple(dict.fromkeys(self._inputs("lookup")))
 
-    def _inputs(self, op: str) -> tuple[str, ...]:
-        return tuple(node.name for node in self.nodes if node.op == op)
+    def _inputs(self, kind: str) -> tuple[str, ...]:
+        return tuple(name for op, _, _, name, _ in self.entries if op == kind)
 
     @cached_property
     def key(self) -> str:
@@ -115,50 +121,36 @@ class Program:
     def counts(self) -> dict[str, dict[str, int]]:
         """Numbers of operations, done once per design and once per position."""
         tally: dict[str, Counter[str]] = {"design": Counter(), "position": Counter()}
-        for node in self.nodes:
-            if node.args:
-                tally["position" if node.varies else "design"][node.op] += 1
+        for op, args, _, _, varies in self.entries:
+            if args:
+                tally["position" if varies else "design"][op] += 1
         return {level: dict(sorted(counter.items())) for level, counter in tally.items()}
 
     def text(self) -> str:
         """The program as lines ``v12 = v3 * v7``."""
-        lines = [f"v{i} = {_spelled(node)}" for i, node in enumerate(self.nodes)]
+        lines = [f"v{i} = {_spelled(*entry)}" for i, entry in enumerate(self.entries)]
         lines += [f"output {name} = v{i}" for name, i in self.outputs]
         lines += [f"carry {name} = v{i}" for name, i in self.next_states]
         return "\n".join(lines)
 
     def yields_truth(self, index: int) -> bool:
         """Whether a line holds a truth value instead of a number."""
-        return self.nodes[index].op in COMPARISONS
+        return self.entries[index][0] in COMPARISONS
 
 
-def _spelled(node: Node) -> str:
-    if node.op == "constant":
-        return repr(node.constant)
-    if not node.args:
-        return f"{node.op} {node.name}"
-    names = [f"v{i}" for i in node.args]
-    if node.op == "lookup":
-        return f"lookup[{node.name}, {node.constant:.0f}]({names[0]})"
-    if node.op in SYMBOLS:
-        return f"{names[0]} {SYMBOLS[node.op]} {names[1]}"
-    return f"{node.op}({', '.join(names)})"
+def _spelled(op: str, args: tuple[int, ...], constant: float, name: str, _: bool) -> str:
+    if op == "constant":
+        return repr(constant)
+    if not args:
+        return f"{op} {name}"
+    names = [f"v{i}" for i in args]
+    if op == "lookup":
+        return f"lookup[{name}, {constant:.0f}]({names[0]})"
+    if op in SYMBOLS:
+        return f"{names[0]} {SYMBOLS[op]} {names[1]}"
+    return f"{op}({', '.join(names)})"
 
 
-def needed(lines: Sequence[Entry], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
-    """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out."""
-    seen = set(wanted)
-    stack = list(seen)
-    while stack:
-        index = stack.pop()
-        if index not in stop:
-            for arg in lines[index][1]:
-                if arg not in seen:
-                    seen.add(arg)
-                    stack.append(arg)
-    return sorted(seen)
-
-
-def _renumbered(line: Entry, number: Mapping[int, int]) -> Node:
-    op, args, constant, name, varies = line
-    return Node(op, tuple([number[i] for i in args]), constant, name, varies)
+def _renumbered(entry: Entry, number: Mapping[int, int]) -> Entry:
+    op, args, constant, name, varies = entry
+    return (op, tuple([number[i] for i in args]), constant, name, varies) if args else entry

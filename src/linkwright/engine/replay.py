@@ -6,8 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 
 from linkwright.engine.functions import FUNCTIONS
+from linkwright.engine.node import COMPARISONS, Node
 from linkwright.engine.program import Program
-from linkwright.engine.trace import COMPARISONS, Node, Scalar, Trace, Value
+from linkwright.engine.trace import Scalar, Trace, Value
 
 #: Operations through which no derivative passes.
 WITHOUT_SLOPE = COMPARISONS | {"stop", "floor"}
@@ -138,7 +139,7 @@ def along_input(program: Program) -> tuple[Program, Program] | None:
     following = {name: replay.values[i] for name, i in program.next_states}
     rest = Program.of(replay.trace, replay.outputs, following)
     wanted = [name for name in rest.positions if name.startswith(_ALONE)]
-    return Program(program.nodes, tuple((name, int(name.removeprefix(_ALONE))) for name in wanted)).only(
+    return Program(program.entries, tuple((name, int(name.removeprefix(_ALONE))) for name in wanted)).only(
         wanted
     ), rest
 

@@ -169,7 +169,7 @@ _OF_ONE = ("first", "last", "sum", "mean", "min", "max")
 
 def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run) -> Floats:
     """Outputs (outputs, designs) of a program whose positions are designs; ``columns``: (designs,) each."""
-    if count == 1 and len(program.nodes) <= _SHORT:
+    if count == 1 and len(program.entries) <= _SHORT:
         return _one_design(program, columns, run)
     compiled = code_for(program, None, Run(columns, count, run.tables, 1, run.backend), 1)
     if compiled is None:

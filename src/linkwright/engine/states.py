@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from linkwright.engine.node import Node
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Node
 
 
 def states_as_fields(program: Program, names: Collection[str] | None = None) -> Program:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.engine.functions import FUNCTIONS
-from linkwright.engine.program import Program, needed
+from linkwright.engine.node import Node
+from linkwright.engine.program import Program
 from linkwright.engine.replay import WITHOUT_SLOPE, Replay, depending
-from linkwright.engine.trace import Mask, Node, Scalar, Trace, Value
+from linkwright.engine.trace import Mask, Scalar, Trace, Value
 
 
 def tangents(replay: Replay, name: str) -> dict[int, Scalar]:
@@ -27,7 +28,7 @@ def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
     if any(seed.trace is not t for seed in seeds):
         raise ValueError("a value and what it is differentiated by must be of one trace")
     found: dict[int, Scalar] = {seed.index: rate for seed, rate in seeds.items()}
-    for index in needed(t.lines, [value.index], stop=found):
+    for index in t.needed([value.index], stop=found):
         node = t.node(index)
         if index in found or not any(a in found for a in node.args) or node.op in WITHOUT_SLOPE:
             continue

@@ -10,35 +10,18 @@ Equal operations on equal arguments are recorded once, and what is known at trac
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import field
-from typing import NamedTuple, overload
+from typing import overload
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
+from linkwright.engine.node import COMMUTATIVE, Entry, Node, needed
 
 Number = float | int
-#: Operations that yield a truth value instead of a number.
-COMPARISONS = frozenset({"less", "less_equal", "and", "or", "not"})
-COMMUTATIVE = frozenset({"add", "mul", "and", "or"})
-
-
-class Node(NamedTuple):
-    """One line of a program: an input, a constant, or an operation on earlier lines.
-
-    ``name``: of an input, or of the table of a ``lookup``, whose ``constant`` is the order of its derivative.
-    """
-
-    op: str
-    args: tuple[int, ...] = ()
-    constant: float = 0.0
-    name: str = ""
-    varies: bool = False  # differs from position to position (else one value per design)
-
-
-#: The fields of a :class:`Node` as a trace keeps them: a plain tuple of what cannot refer to anything is no longer
-#: looked at by the garbage collector, a named one is for as long as it lives.
-Entry = tuple[str, tuple[int, ...], float, str, bool]
+Operation = tuple[str, *tuple[int, ...]]
+#: The constant and the name of a line that has neither.
+_NEITHER = (0.0, "")
 
 
 class Value:
@@ -122,14 +105,32 @@ Mask = Value | bool
 
 @dataclass
 class Trace:
-    """The lines written so far, with equal lines shared."""
+    """The lines written so far, with equal lines shared.
 
-    lines: list[Entry] = field(default_factory=list)
+    ``lines``: operations, each with the numbers of the lines that it takes; ``varies``: whether they differ from
+    position to position.
+    """
+
+    lines: list[Operation] = field(default_factory=list)
+    varies: list[bool] = field(default_factory=list)
+    _given: dict[int, tuple[float, str]] = field(default_factory=dict)
     _known: dict[tuple[object, ...], int] = field(default_factory=dict)
 
     def node(self, index: int) -> Node:
         """A line by its number."""
-        return Node(*self.lines[index])
+        line = self.lines[index]
+        return Node(line[0], line[1:], *self._given.get(index, _NEITHER), self.varies[index])
+
+    def entry(self, index: int, number: Mapping[int, int]) -> Entry:
+        """A line whose arguments have other numbers."""
+        line = self.lines[index]
+        constant, name = self._given.get(index, _NEITHER)
+        return line[0], tuple([number[i] for i in line[1:]]), constant, name, self.varies[index]
+
+    def needed(self, wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
+        """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out."""
+        lines = self.lines
+        return needed(lambda index: lines[index][1:], wanted, stop)
 
     # inputs -------------------------------------------------------------------------------
     def parameter(self, name: str) -> Value:
@@ -221,7 +222,7 @@ class Trace:
         index = a.index
         line = self.lines[index]
         if line[0] == "neg":
-            return Value(self, line[1][0])
+            return Value(self, line[1:][0])
         known = self._known.get(("neg", index))
         return self._operation("neg", a) if known is None else Value(self, known)
 
@@ -250,7 +251,7 @@ class Trace:
         if order >= _CONSTANT_DERIVATIVES:
             return 0.0
         at = self.lift(x)
-        return self._line("lookup", (at,), float(order), table, self.lines[at][4])
+        return self._line("lookup", (at,), float(order), table, self.varies[at])
 
     def compare(self, op: str, a: Scalar, b: Scalar) -> Mask:
         if isinstance(a, float | int) and isinstance(b, float | int):
@@ -292,21 +293,23 @@ class Trace:
         key = (op, i, j)
         index = self._known.get(key)
         if index is None:
-            lines = self.lines
-            index = self._known[key] = len(lines)
-            lines.append((op, (i, j), 0.0, "", lines[i][4] or lines[j][4]))
+            varies = self.varies
+            index = self._known[key] = len(varies)
+            self.lines.append(key)
+            varies.append(varies[i] or varies[j])
         return Value(self, index)
 
     def _operation(self, op: str, *values: Scalar | bool) -> Value:
         if len(values) == 2:
             return self._pair(op, *values)
         args = tuple([self.lift(value) for value in values])
-        key = (op, *args)
+        key: Operation = (op, *args)
         index = self._known.get(key)
         if index is None:
-            lines = self.lines
-            index = self._known[key] = len(lines)
-            lines.append((op, args, 0.0, "", any(lines[i][4] for i in args)))
+            varies = self.varies
+            index = self._known[key] = len(varies)
+            self.lines.append(key)
+            varies.append(any(varies[i] for i in args))
         return Value(self, index)
 
     def _line(
@@ -321,7 +324,9 @@ class Trace:
         index = self._known.get(key)
         if index is None:
             index = self._known[key] = len(self.lines)
-            self.lines.append((op, args, constant, name, varies))
+            self.lines.append((op, *args))
+            self.varies.append(varies)
+            self._given[index] = constant, name
         return Value(self, index)
 
     def _negated(self, value: Scalar) -> Value | None:
@@ -329,7 +334,7 @@ class Trace:
         if isinstance(value, Value):
             line = self.lines[value.index]
             if line[0] == "neg":
-                return Value(self, line[1][0])
+                return Value(self, line[1:][0])
         return None
 
 

@@ -255,7 +255,7 @@ def _squared(program: Program, plain: Collection[str]) -> tuple[Program, tuple[s
     """
     roots = [name for name, i in program.outputs if name not in plain and program.nodes[i].op == "sqrt"]
     outputs = tuple((name, program.nodes[i].args[0] if name in roots else i) for name, i in program.outputs)
-    return Program(program.nodes, outputs).only(list(program.output_names)), tuple(roots)
+    return Program(program.entries, outputs).only(list(program.output_names)), tuple(roots)
 
 
 def _joined(parts: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
