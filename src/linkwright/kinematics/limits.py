@@ -78,10 +78,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     found = output_of(motion.mechanism, output) if isinstance(output, str) else output
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
-    return _known.get(motion, found, lambda: _Search(motion, found).limits())
-
-
-_known: Recent[Motion, tuple[LimitPosition, ...]] = Recent(64)
+    return motion.kept(("limits", found), lambda: _Search(motion, found).limits())
 
 
 def output_of(mechanism: Mechanism, text: str) -> Output:

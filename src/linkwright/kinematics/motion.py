@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -33,6 +33,7 @@ Evaluate = Callable[[tuple[str, ...]], Floats]
 
 
 TURN = 2.0 * np.pi
+Found = TypeVar("Found")
 
 
 class Rows:
@@ -107,19 +108,22 @@ class LinkMotion:
         self._motion = motion
         self.name = name
 
-    @cached_property
+    @property
     def direction(self) -> Floats:
         """Unit vector of the link's x axis, (n, 2)."""
         if self.name == "frame":
             return np.tile([1.0, 0.0], (self._motion.steps, 1))
         return self._motion.vector("e", self.name)
 
-    @cached_property
+    @property
     def angle(self) -> Floats:
         """Angle of the link's x axis against the frame's, (n,) rad, counter-clockwise positive.
 
         Continuous over positions that can be reached; the first lies in (-π, π].
         """
+        return self._motion.kept(("angle", self.name), self._angle)
+
+    def _angle(self) -> Floats:
         if self._motion.solver.motion.angles.counts(self.name):
             turned = self._motion.row("o", self.name)
             known = turned[np.isfinite(turned)]
@@ -140,7 +144,7 @@ class LinkMotion:
         """(n,) rad/s²."""
         return self._motion.row("g", self.name)
 
-    @cached_property
+    @property
     def centre(self) -> PointMotion:
         """Motion of the mass centre."""
         return self._motion.point_of(f"{self.name}.@centre")
@@ -163,7 +167,7 @@ class Motion:
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
     followed: Followed | None = None
-    _links: dict[str, LinkMotion] = field(default_factory=dict, init=False, repr=False)
+    _kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def mechanism(self) -> Mechanism:
@@ -221,11 +225,16 @@ class Motion:
 
     def link(self, name: str) -> LinkMotion:
         """Motion of a link."""
-        if name not in self._links:
-            if name != "frame" and name not in self.design.base.links:
-                self.design.base.link(name)
-            self._links[name] = LinkMotion(self, name)
-        return self._links[name]
+        if name != "frame" and name not in self.design.base.links:
+            self.design.base.link(name)
+        return LinkMotion(self, name)
+
+    def kept(self, key: Hashable, find: Callable[[], Found]) -> Found:
+        """What was found from the motion before under a key, or is found now, kept as long as the motion."""
+        if key not in self._kept:
+            self._kept[key] = find()
+        found: Found = self._kept[key]
+        return found
 
     def joint(self, name: str) -> JointMotion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
