@@ -7,17 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.press_report import PHI
 
 import linkwright as lw
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.laws.traced import LiftCurve
 
-#: Slider displacements of the report (m), its driver angles (deg), follower angles (deg) there.
+#: Slider displacements of the report (m), its driver angles (deg) there.
 SLIDER = (130 + 240 * np.arange(10) / 9) * 1e-3
-DRIVER = np.array(
-    [176.5468, 186.5587, 196.7699, 207.4588, 218.8301, 231.0278, 244.1497, 258.2710, 273.4776, 289.9133]
-)
+DRIVER = np.array(PHI)
 #: Bed less cylinder without a cam at the ten positions, mm, with the rounded lengths.
 GAP = np.array([2.201, 0.682, -0.637, -1.255, -1.039, -0.163, 0.997, 1.921, 1.778, -1.397])
 RADIUS, FIRST = 0.180, math.radians(30.79111)

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.press_report import PHI, PSI
 
 import linkwright as lw
 from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
@@ -96,32 +97,6 @@ def test_slider_crank_of_the_printing_press() -> None:
     assert best.transmission_angle == pytest.approx(math.acos((r + e) / rod), abs=1e-9)
 
 
-PRESS_PSI = (
-    133.3740,
-    140.7340,
-    147.9701,
-    155.2380,
-    162.6878,
-    170.4900,
-    178.8701,
-    188.1747,
-    199.0442,
-    213.0665,
-)
-PRESS_PHI = (
-    176.5468,
-    186.5587,
-    196.7699,
-    207.4588,
-    218.8301,
-    231.0278,
-    244.1497,
-    258.2710,
-    273.4776,
-    289.9133,
-)
-
-
 def test_lecture_case_of_three_pairs_is_exact() -> None:
     """45, 90, 135° to 52, 82, 112° with a frame of 50 mm: the motion itself has the pairs."""
     inputs, outputs = np.radians([45, 90, 135]), np.radians([52, 82, 112])
@@ -133,7 +108,7 @@ def test_lecture_case_of_three_pairs_is_exact() -> None:
 
 def test_press_double_crank_of_the_report_and_better_ones() -> None:
     """The report's lengths by its equation; with the zero angles free a third of its error, μ no worse."""
-    inputs, outputs = np.radians(PRESS_PHI), np.radians(PRESS_PSI)
+    inputs, outputs = np.radians(PHI), np.radians(PSI)
     report = lw.function_generation(
         inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
     ).best
