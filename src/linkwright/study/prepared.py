@@ -194,14 +194,11 @@ class _Numbers(threading.local):
 
 def is_near(row: Floats) -> bool:
     """Whether a change point or a gap may lie between two positions, by how near every position (n,) is to one."""
-    steps = row[1:] - row[:-1]
-    least = row[row.argmin()] - NEAR
-    if (
-        least > 0.0 and steps.dot(steps) < least * least
-    ):  # the largest step is no longer than all of them together
+    least, most = row.item(row.argmin()), row.item(row.argmax())  # many times faster than min and max
+    if least - NEAR > most - least:  # no step is longer than all of them together
         return False
-    largest = max(steps[steps.argmax()], -steps[steps.argmin()])  # many times faster than min and max
-    return bool(least < largest)
+    steps = row[1:] - row[:-1]
+    return bool(least - NEAR < max(steps[steps.argmax()], -steps[steps.argmin()]))
 
 
 class _Followed:
@@ -249,7 +246,7 @@ class _Followed:
     # limit positions ----------------------------------------------------------------------------
     def searched(self, changes: Mapping[str, float]) -> dict[str, float] | None:
         """What the program takes besides dimensions; None for designs whose limit positions are not certain."""
-        if self._with_speed(changes):
+        if not self._of_drivers.isdisjoint(changes):
             return None
         if not self.loads.outputs:
             return {}
@@ -265,9 +262,9 @@ class _Followed:
     def near(self, changes: Mapping[str, float]) -> dict[str, float] | None:
         """The same by Newton's steps from the limit positions of the mechanism as it is; to be seen whether they
         agree with the rates."""
-        if self._with_speed(changes):
+        if not self._of_drivers.isdisjoint(changes):
             return None
-        if not self.loads.outputs:
+        if not self.rates:
             return {}
         newton: _Newton | None = getattr(self._own, "newton", None)
         if newton is None:
@@ -278,16 +275,17 @@ class _Followed:
 
     def agree(self, limits: Mapping[str, float], values: Floats, index: Mapping[str, int]) -> bool:
         """Whether the rates change their signs at these limit positions, and nowhere else."""
-        step = self.known["step of the input"] + 2.0 * AT
+        inputs, sense, step = self._inputs, self._sense, self.known["step of the input"] + 2.0 * AT
         for rate, highest, lowest in self._limits:
-            rises = (values[index[rate]] > 0.0).tobytes()
-            rises += rises[:1]
-            for limit, turn in ((highest, b"\1\0"), (lowest, b"\0\1")):
-                place = rises.find(turn)
-                if place < 0 or rises.rfind(turn) != place:
-                    return False
-                way = limits[limit] - self._inputs[place]
-                if (way * self._sense + AT) % TURN > step:
+            falls = np.signbit(values[index[rate]]).tobytes()
+            one, other = (b"\1", b"\0") if falls[0] else (b"\0", b"\1")
+            first = falls.find(other)
+            second = falls.find(one, first)  # -1: back at the first position
+            if first < 0 or (second >= 0 and falls.find(other, second) >= 0):
+                return False
+            ends = (lowest, highest) if falls[0] else (highest, lowest)
+            for limit, after in zip(ends, (first, max(second, 0)), strict=True):
+                if ((limits[limit] - inputs[after - 1]) * sense + AT) % TURN > step:
                     return False
         return True
 
@@ -321,9 +319,6 @@ class _Followed:
     def _numbers(self, names: Iterable[str], changes: Mapping[str, float]) -> list[float]:
         known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
         return [known[name] for name in names]
-
-    def _with_speed(self, changes: Mapping[str, float]) -> bool:
-        return not self._of_drivers.isdisjoint(changes)
 
     @cached_property
     def _of_drivers(self) -> frozenset[str]:
