@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
@@ -182,25 +183,44 @@ def test_no_other_assembly_lies_within_the_distance(name: str) -> None:
                 assert off < 1e-9 or off >= far
 
 
+def test_both_deviations_widen_the_bounds_and_more_together() -> None:
+    """Of a turn and a slide within the group."""
+    motion = lw.solve_motion(lw.loads(DRIVEN), steps=36)
+    assert motion.followed is not None
+    loops, tube = motion.followed.follower.loops, np.full(motion.followed.follower.loops.n, 1e-3)
+    a, b = drawn_step(motion, 9)
+    none, turn, slide, both = (
+        (step.residual_bound(), step.deviation_of_jacobian(tube))
+        for step in (
+            _Step(loops, a, b, np.array(off))
+            for off in ((0, 0, 0), (0, 0.02, 0), (0, 0, 2e-3), (0, -0.02, -2e-3))
+        )
+    )
+    for alone in (turn, slide):
+        assert (alone[0] > none[0]).all()
+        assert (alone[1] >= none[1]).all() and (alone[1] > none[1]).any()
+        assert (both[0] > alone[0]).all()
+        assert (both[1] >= alone[1]).all() and (both[1] > alone[1]).any()
+
+
 DRIVEN = """format: 1
-name: Triad on a block that is driven along a driven crank
+name: Triad of which one bar grows and another is bent
 frame: {points: {O1: [0 mm, 0 mm], O2: [130 mm, -210 mm], O3: [360 mm, 90 mm]}}
-links: {crank: {points: [O1, C]}, shoe: {points: [A]}, bar_1: {points: [A, P]}, bar_2: {points: [O2, Q]},
-  bar_3: {points: [O3, R]}, plate: {points: [P, Q, R]}}
-drawing: {C: [20 mm, 0 mm], A: [30 mm, 5 mm], P: [210 mm, 90 mm], Q: [190 mm, -10 mm], R: [235 mm, 5 mm]}
-joints: {run: {kind: prismatic, guide: crank, through: C, direction: 0 deg, block: shoe, at: A, offset: 5 mm}}
+links: {crank: {points: [O1, A]}, rod: {points: [A, E]}, head: {points: [P]}, bar_2: {points: [O2, W]},
+  fore: {points: [W, Q]}, bar_3: {points: [O3, R]}, plate: {points: [P, Q, R]}}
+drawing: {A: [30 mm, 0 mm], E: [120 mm, 45 mm], P: [210 mm, 90 mm], W: [150 mm, -110 mm], Q: [190 mm, -10 mm],
+  R: [235 mm, 5 mm]}
+joints: {run: {kind: prismatic, guide: rod, through: A, direction: [A, E], block: head, at: P}}
 drivers:
   spin: {turn: crank, about: O1, speed: 1 rad/s}
-  push: {slide: run, position: "10 mm + 4 mm*sin(2*t/(1 s))"}
+  bend: {turn: fore, about: W, position: "-10.5 deg + 3 deg*sin(2*t/(1 s))"}
+  push: {slide: run, position: "201 mm + 4 mm*sin(2*t/(1 s))"}
 cycle: {duration: 6 s}
 """
 
 
-@pytest.mark.parametrize("off", [(0.02, 0.0), (0.0, 2e-3), (-0.03, 1e-3)])
-@pytest.mark.parametrize("index", [0, 9, 20])
-def test_bounds_hold_where_laws_leave_the_cubic(index: int, off: tuple[float, float]) -> None:
-    """Turn and slide of a driven block may be off by as much, each way, at every place of the step."""
-    motion = lw.solve_motion(lw.loads(DRIVEN), steps=36)
+def drawn_step(motion: lw.Motion, index: int) -> tuple[End, End]:
+    """Both ends of a step of 0.05 s from a position on, the drivers with constant accelerations."""
     assert motion.followed is not None
     loops = motion.followed.follower.loops
     drive = [motion.positions.coordinates[name] for name in loops.drivers]
@@ -208,28 +228,36 @@ def test_bounds_hold_where_laws_leave_the_cubic(index: int, off: tuple[float, fl
     for x in (0.0, 0.05):
         (q, first, second) = (np.array([each[k][index] for each in drive]) for k in range(3))
         q, first = q + x * first + 0.5 * x * x * second, first + x * second
-        near = (
-            motion.followed.coordinates[index] if not known else (known[0].y + x * known[0].rate)[: loops.n]
-        )
-        y = loops.newton(np.concatenate([near, q]))
+        near = known[0].y + x * known[0].rate if known else motion.followed.coordinates[index]
+        y = loops.newton(np.concatenate([near[: loops.n], q]))
         assert y is not None
         rate, bend, jacobian = loops.rates(y, first, second)
         known.append(End(x, y, rate, bend, float(np.linalg.slogdet(jacobian)[0])))
-    a, b = known
+    return known[0], known[1]
+
+
+@pytest.mark.parametrize("off", [(0.02, 0.0, 0.0), (0.0, 0.02, 0.0), (0.0, 0.0, 2e-3), (0.01, -0.03, 1e-3)])
+@pytest.mark.parametrize("index", [0, 9, 20])
+def test_bounds_hold_where_laws_leave_the_cubic(index: int, off: tuple[float, float, float]) -> None:
+    """Turn and slide of a driven block may be off by as much, each way, at every place of the step."""
+    motion = lw.solve_motion(lw.loads(DRIVEN), steps=36)
+    assert motion.followed is not None
+    loops = motion.followed.follower.loops
+    a, b = drawn_step(motion, index)
     deviation = np.abs(off)
     step = _Step(loops, a, b, deviation)
-    still_off = _Step(loops, a, b, np.zeros(2)).residual_bound()
+    still_off = _Step(loops, a, b, np.zeros(3)).residual_bound()
     tube = np.full(loops.n, 1e-3) * loops.scale
     bound, bent = step.residual_bound(), step.deviation_of_jacobian(tube)
     corners = np.random.default_rng(index).choice([-1.0, 1.0], (12, loops.n)) * tube
     largest, changed = np.zeros(loops.n), np.zeros((loops.n, loops.n))
     for x in np.linspace(a.x, b.x, 5):
         moved = (np.eye(loops.n) - (x - 0.025) * step.N) @ step.A
-        for way in ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)):
+        for way in product((1.0, -1.0), repeat=3):
             p = cubic(a, b, np.array([x]))[0] + np.concatenate([np.zeros(loops.n), way * deviation])
             largest = np.maximum(largest, np.abs(moved @ loops.gap(loops.turned(p))))
             for corner in corners:
-                there = loops.jacobian(loops.slopes(loops.turned(p + np.append(corner, np.zeros(2)))))
+                there = loops.jacobian(loops.slopes(loops.turned(p + np.append(corner, np.zeros(3)))))
                 changed = np.maximum(changed, np.abs(np.eye(loops.n) - moved @ there))
     assert (changed <= bent).all() and (bent <= 5.0 * changed.max()).all()
     assert (still_off < largest).any()

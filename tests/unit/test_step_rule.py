@@ -118,6 +118,30 @@ def test_rates_that_do_not_fit_the_way_are_refused(which: str, share: float) -> 
         assert found["kept"] == float(abs(share) < 1.0)
 
 
+@pytest.mark.parametrize("share", [-0.8, 0.8, 1.2])
+def test_starts_far_from_the_root_are_refused(share: float) -> None:
+    """The start is off by a share of what is allowed; a slide counts as share of the size, in its way too."""
+    h = 0.006
+    rows, carried = coordinates(h), before(h)
+    change = max(abs(way) for way, _, _ in parts(h, rows).values())
+    size, wrong = mechanism_size(traced()[0].mechanism), share * CORRECTION * change
+    for name in rows:
+        given = dict(carried)
+        if name.startswith("slot:"):
+            given[f"{name}.s"] += wrong * size
+            far = {**carried, f"before:{name}.s": carried[f"before:{name}.s"] + 10.0 * change * size}
+            way, _, gap = (abs(each - 10.0 * change) for each in parts(h, rows)[name])
+            assert evaluated(BEGIN + h, h, far)["margin"] == pytest.approx(
+                1.0 - gap / (MISFIT * way), rel=1e-4
+            )
+        else:
+            start = complex(carried[f"{name}.x"], carried[f"{name}.y"]) * np.exp(1j * wrong)
+            given |= {f"{name}.x": start.real, f"{name}.y": start.imag}
+        found = evaluated(BEGIN + h, h, given)
+        assert found["margin"] == pytest.approx(1.0 - abs(share), abs=0.05)
+        assert found["kept"] == float(abs(share) < 1.0)
+
+
 def test_other_signs_and_long_ways_are_refused() -> None:
     h = 0.006
     carried = before(h)

@@ -74,6 +74,18 @@ def test_a_wheel_on_the_crank_itself(ratio: str, turns: int | None) -> None:
     assert whole_turns(mechanism, np.pi) == turns
 
 
+@pytest.mark.parametrize(("ratio", "turns"), [("-0.025", 40), ("-0.03225806451612903", 1240)])
+def test_wheels_on_crank_and_follower_are_back_together(ratio: str, turns: int) -> None:
+    """1/40 on the crank; 1/40 or 1/31 on the follower: of 1240 turns no cycle is made."""
+    text = FOURBAR.replace("O3: [GROUND m, 5 m]", "O3: [GROUND m, 5 m], O4: [0 m, -5 m]")
+    text = text.replace("joints: {", "  other: {points: {O4: [0 m, 0 m], V: [0.3 m, 0 m]}}\njoints: {")
+    text = text.replace(
+        "ratio: RATIO}", f"ratio: {ratio}}}, second: {{kind: gear, links: [crank, other], ratio: -0.025}}"
+    )
+    mechanism = lw.loads(text.replace("GROUND", DRAG[0]).replace("CRANK", DRAG[1]))
+    assert whole_turns(mechanism, np.pi) == (turns if turns <= 1000 else None)
+
+
 RACK = FOURBAR.replace("O3: [GROUND m, 5 m]", "G: [0 m, -2 m]").replace(
     "wheel: {points: {O3: [0 m, 0 m], W: [0.3 m, 0 m]}}", "rack: {points: [R]}"
 ).replace(
