@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 from tests.literature.test_metrics_published import crunodal
 
 import linkwright as lw
 from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
-from linkwright.metrics.base import Metric
+from linkwright.metrics.base import Metric, Number
 
 DENSE = 7200
 MACHINE = lw.load("gallery:crank_rocker")
@@ -129,3 +132,30 @@ def test_values_as_plain_data() -> None:
     curve = metrics(lw.solve_motion(crunodal((1.4, -1.5))), "double_point")
     assert curve[0].value == 1 and curve[0].data()["place"] == list(curve[0].place)
     assert f"({1e3 * curve[0].place[0]:.6g} mm, " in curve[0].sentence
+
+
+def test_every_design_number_is_asked_for_its_formulas_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+    kind, numbers = METRICS["transmission_angle"], METRICS["transmission_angle"].numbers
+
+    def counted(self: Metric, analysis: Analysis) -> tuple[Number, ...]:
+        asked.append(self.name)
+        return tuple(numbers(self, analysis))
+
+    monkeypatch.setattr(kind, "numbers", counted)
+    table = metrics(lw.solve_motion(MACHINE, steps=90))
+    assert asked == ["transmission_angle"]
+    assert len(table["transmission_angle"]) == 1
+
+
+def test_a_motion_that_nobody_holds_is_gone_at_once() -> None:
+    gc.disable()
+    try:
+        motion = lw.solve_motion(MACHINE, steps=90)
+        assert np.ptp(motion.link("rocker").angle) > 0.5
+        assert len(lw.limit_positions(motion, "rocker")) == 2
+        held = weakref.ref(motion)
+        del motion
+        assert held() is None
+    finally:
+        gc.enable()
