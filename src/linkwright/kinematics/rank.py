@@ -142,7 +142,7 @@ class ConstraintSystem:
 
     A pin of several links holds each of them to the first one, in the ``order`` given or that of the file.
 
-    ``rows`` and ``residual`` take complex numbers as well, for exact derivatives by complex steps.
+    Works on complex numbers as well, for exact derivatives by complex steps.
     """
 
     def __init__(self, mechanism: Mechanism, order: Mapping[str, int] | None = None) -> None:
