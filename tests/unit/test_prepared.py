@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.study.prepared import is_near
+from linkwright.study.prepared import NEAREST, is_near
 
 CASES = [
     ("jaw_crusher_sixbar", {"pitman.length": 1.262, "jaw.mass": 950.0}),
@@ -82,6 +83,27 @@ def test_loads_between_limits_follow_designs_far_away(name: str, addresses: tupl
         torque, found = lw.solve_forces(alone).input_torque, prepared.solve(changes).input_torque
         assert np.abs(found - torque).max() <= 1e-9 * np.abs(torque).max()
     assert moved > 3
+
+
+@pytest.mark.parametrize("forwards", [True, False])
+@pytest.mark.parametrize(
+    ("highest", "lowest", "agree"),
+    [(0.0, 0.0, True), (1.5, 0.0, False), (0.0, -1.5, False), (360.0, -720.0, True), (np.inf, 0.0, False)],
+)
+def test_limits_are_taken_only_where_the_rates_change_their_signs(highest, lowest, agree, forwards) -> None:
+    """Limits moved by some steps, or (inf) both at the place of one, are seen by the positions beside them."""
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    speed = abs(crusher.dimension("driver.speed")) * (1.0 if forwards else -1.0)
+    prepared = lw.prepare(crusher.with_dimensions({"driver.speed": speed}), vary=["pitman.length"])
+    limits = {each.kind: each.input for each in lw.limit_positions(prepared.solve({}).motion, "jaw")}
+    step = np.radians(1.0)
+    limits["max"] = limits["min"] if np.isinf(highest) else limits["max"] + highest * step
+    limits["min"] += lowest * step
+    numbers = prepared._own.table.copy()
+    for kind, value in limits.items():
+        numbers[prepared._places[f"limit:jaw:{kind}"]] = value
+    row = NumpyProgram(prepared.program).run(numbers, prepared.positions.arrays)[prepared._index[NEAREST]]
+    assert is_near(row) != agree
 
 
 def test_a_dimension_that_was_not_named_is_refused() -> None:

@@ -165,6 +165,19 @@ class ScalarProgram:
             [values[i] for i in self.lines.carried],
         )
 
+    def of_design(self, parameters: Sequence[float]) -> Callable[[Sequence[float]], list[float]]:
+        """Outputs of one design from the inputs per position, of programs without states and fields."""
+        known, places, outputs = self._design_values(parameters), self._inputs["position"], self.lines.outputs
+
+        def at(positions: Sequence[float]) -> list[float]:
+            values = known.copy()
+            for index, value in zip(places, positions, strict=True):
+                values[index] = value
+            self._position.run(values)
+            return [float(values[i]) for i in outputs]
+
+        return at
+
     def _design_values(self, parameters: Sequence[float]) -> list[Any]:
         known, values = self._prepared
         if parameters is known:

@@ -25,7 +25,6 @@ from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.solve import reached_modes
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
@@ -135,14 +134,14 @@ class Between:
         if motion.states or motion.modes or not constant:
             return None
         scalar = motion.solver.programs.scalar_program(names)
-        program, parameters = scalar.program, motion.design.parameters
-        numbers = [parameters[name] for name in program.parameters]
+        inputs, parameters = scalar.program.positions, motion.design.parameters
+        outputs = scalar.of_design([parameters[name] for name in scalar.program.parameters])
 
-        def outputs(time: float) -> list[float]:
-            inputs = at_one_time(mechanism, time)
-            return scalar.step(numbers, [inputs[name] for name in program.positions])[0]
+        def at(time: float) -> list[float]:
+            known = at_one_time(mechanism, time)
+            return outputs([known[name] for name in inputs])
 
-        return outputs
+        return at
 
     @cached_property
     def _one_way(self) -> bool:
@@ -263,15 +262,25 @@ class _Search:
     def limits(self) -> tuple[LimitPosition, ...]:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
         rate, second = (row[: self.count] for row in rows)
-        still = self._still(rate)
-        if still is None:
+        if self._moves(rate):
+            brackets = self._brackets(rate, second, np.arange(self.count))
+        elif (still := self._still(rate)) is None:
             return ()
-        brackets = self._brackets(np.where(np.abs(rate) <= still, 0.0, rate), second, still)
+        else:
+            moving = np.flatnonzero(np.abs(rate) > still)
+            brackets = self._brackets(rate, second, moving)
         return self._positions(brackets, *self._refined(brackets)) if brackets else ()
+
+    def _moves(self, rate: Floats) -> bool:
+        """Whether no rate counts as zero, whatever the fastest point of the mechanism."""
+        size, values = self.motion.mechanism.size, self.motion.rows.values
+        fastest = math.sqrt(np.vdot(values, values)) * max(size, 1.0 / size)
+        least, largest = np.abs(rate).min(), _largest(rate)
+        return bool(largest > CONSTANT * fastest and least > STILL * max(largest, 1e-3 * fastest))
 
     def _still(self, rate: Floats) -> float | None:
         """Rates that count as zero; None where the output does not move."""
-        rows, size = self.motion.rows, mechanism_size(self.motion.mechanism)
+        rows, size = self.motion.rows, self.motion.mechanism.size
         turning, moving = _speeds.get(rows.index, None, lambda: _rows_of(rows.index))
         largest = _largest(rate)
         speed = max(_largest(rows.values[turning]), _largest(rows.values[moving]) / size)
@@ -280,63 +289,68 @@ class _Search:
         return None if largest <= CONSTANT * speed else max(STILL * largest, 1e-3 * STILL * speed)
 
     # where the rate changes its sign --------------------------------------------------------------
-    def _brackets(self, rate: Floats, second: Floats, still: float) -> list[Bracket]:
-        first, last = self._neighbours(rate)
-        after = last % self.count
-        a, b, second_a, second_b = rate[first], rate[after], second[first], second[after]
+    def _brackets(self, rate: Floats, second: Floats, moving: Indices) -> list[Bracket]:
+        """Stretches between neighbours among the positions that are ``moving``, with one zero of the rate in each."""
+        if not len(moving):
+            return []
+        sense = 1.0 if self.motion.time[self.count - 1] >= self.motion.time[0] else -1.0
+        turn = sense * rate * second
+        grows, nears = ((each[moving]).tobytes() for each in (rate > 0.0, turn < 0.0))
+        if self.period is not None:
+            grows, nears, moving = (
+                grows + grows[:1],
+                nears + nears[:1],
+                np.append(moving, moving[0] + self.count),
+            )
+        together = self._together(rate, moving)
+        changes = sorted(_places(grows, b"\0\1") + _places(grows, b"\1\0"))
+        found = [self._bracket(rate, second, *moving[k : k + 2].tolist()) for k in changes if together(k)]
+        ends = [
+            moving[k : k + 2].tolist()
+            for k in _places(nears, b"\1\0")
+            if grows[k] == grows[k + 1] and turn[moving[k + 1] % self.count] > 0.0 and together(k)
+        ]
+        return found + self._split(rate, second, ends) if ends else found
+
+    def _bracket(self, rate: Floats, second: Floats, first: int, last: int) -> Bracket:
+        """The stretch between two positions, of which the second may be counted past the last one."""
+        after, begin = last % self.count, float(self.motion.time[first])
+        a, b = float(rate[first]), float(rate[after])
+        span = float(self.motion.time[after]) + (last >= self.count) * (self.period or 0.0) - begin
+        if last - first > 2:
+            return Bracket(first, begin, span, 0.5, 0.5, a, b, 0.5)
         same = (a > 0.0) == (b > 0.0)
-        time = self.motion.time
+        start = 0.5 if same else _zero(a, b, float(second[first]) * span, float(second[after]) * span)
+        return Bracket(first, begin, span, 0.0, 1.0, a, b, start)
 
-        def bracket(k: int) -> Bracket:
-            before, begin = int(first[k]), float(time[first[k]])
-            span = float(self._time(last[k])) - begin
-            ends, rests = (float(a[k]), float(b[k])), last[k] - before > 2
-            low, high = (0.5, 0.5) if rests else (0.0, 1.0)
-            slopes = float(second_a[k]) * span, float(second_b[k]) * span
-            start = 0.5 if rests or same[k] else _zero(*ends, *slopes)
-            return Bracket(before, begin, span, low, high, *ends, start)
-
-        found = [bracket(k) for k in np.flatnonzero(~same).tolist()]
-        sense = 1.0 if time[self.count - 1] >= time[0] else -1.0
-        dips = np.flatnonzero(same & (sense * a * second_a < 0.0) & (sense * b * second_b > 0.0)).tolist()
-        return found + self._split([bracket(k) for k in dips], second_a[dips], second_b[dips], still)
-
-    def _neighbours(self, rate: Floats) -> tuple[Indices, Indices]:
-        """Pairs of positions next to each other with a rate; the second may be counted past the last one."""
-        whole = bool(np.isfinite(rate.sum()))
-        known = np.isfinite(rate)
-        moving = np.flatnonzero(rate if whole else known & (rate != 0.0))
-        if self.period is not None and len(moving):
-            moving = np.append(moving, moving[0] + self.count)
-        first, last = moving[:-1], moving[1:]
-        there = known | self.singular[: self.count]
-        if whole or there.all():
-            return first, last
+    def _together(self, rate: Floats, moving: Indices) -> Callable[[int], bool]:
+        """Whether no position out of reach lies between one of these positions and the next, by its number."""
+        there = np.isfinite(rate) | self.singular[: self.count]
+        if there.all():
+            return lambda _: True
         gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
-        beside = gaps[last + 1] == gaps[first]
-        return first[beside], last[beside]
+        return lambda k: bool(gaps[moving[k + 1] + 1] == gaps[moving[k]])
 
-    def _time(self, index: Indices) -> Floats:
-        lap = (index >= self.count) * (self.period or 0.0)
-        return np.asarray(self.motion.time[index % self.count] + lap)
-
-    def _split(self, dips: list[Bracket], second_a: Floats, second_b: Floats, still: float) -> list[Bracket]:
+    def _split(self, rate: Floats, second: Floats, ends_of: list[list[int]]) -> list[Bracket]:
         """Stretches in which the rate dips below zero and comes back, between two positions: both halves of each."""
-        dips = [dip for dip, is_one in zip(dips, _dips(dips, second_a, second_b), strict=True) if is_one]
-        if not dips:
+        dips = [self._bracket(rate, second, *each) for each in ends_of]
+        slopes = [[float(second[each[k] % self.count]) for each in ends_of] for k in (0, 1)]
+        dips = [dip for dip, is_one in zip(dips, _dips(dips, *slopes), strict=True) if is_one]
+        still = self._still(rate) if dips else None
+        if still is None:
             return []
         columns = _Columns(dips)
-        second = np.sign(self._rates(columns, columns.low)[1])
+        sign = np.sign(self._rates(columns, columns.low)[1])
         middle = ends(
-            lambda share: np.sign(self._rates(columns, share)[1]) == second, columns.low, columns.high
+            lambda share: np.sign(self._rates(columns, share)[1]) == sign, columns.low, columns.high
         )
         rates = self._rates(columns, middle)[0]
         found = []
-        for dip, share, rate in zip(dips, middle.tolist(), rates.tolist(), strict=True):
-            if abs(rate) > still and rate * dip.rate_low < 0.0:
+        for dip, share, least in zip(dips, middle.tolist(), rates.tolist(), strict=True):
+            if abs(least) > still and least * dip.rate_low < 0.0:
                 found += [
-                    _part(dip, dip.low, share, dip.rate_low, rate),
-                    _part(dip, share, dip.high, rate, dip.rate_high),
+                    _part(dip, dip.low, share, dip.rate_low, least),
+                    _part(dip, share, dip.high, least, dip.rate_high),
                 ]
         return found
 
@@ -407,14 +421,17 @@ class _Search:
         for each, share, value in zip(brackets, shares, values, strict=True):
             if not math.isfinite(share):
                 continue
+            before = each.before
             time = each.begin + share * each.span
             if not math.isfinite(value):
                 value = self._beside(each.before, time, BESIDE * each.span)
             if self.period is not None and time - start >= self.period * (1.0 - 1e-15):
                 time = max(time - self.period, start)
-            index = int(np.searchsorted(direction * known[: self.count], direction * time, "right")) - 1
+                before = 0
+            while before + 1 < self.count and direction * known[before + 1] <= direction * time:
+                before += 1
             kind: Literal["max", "min"] = "max" if each.rate_low * each.span > 0.0 else "min"
-            limits.append(LimitPosition(law.at(time), time, value, kind, index))
+            limits.append(LimitPosition(law.at(time), time, value, kind, before))
         limits.sort(key=lambda each: direction * each.time)
         return self._without_ripple(limits) if len(limits) > 2 else tuple(limits)
 
@@ -473,16 +490,23 @@ def _zero(a: float, b: float, slope_a: float, slope_b: float) -> float:
     return cubic if 0.0 < cubic < 1.0 else at
 
 
+def _places(data: bytes, pair: bytes) -> list[int]:
+    """Where two bytes stand beside each other."""
+    found, k = list[int](), data.find(pair)
+    while k >= 0:
+        found.append(k)
+        k = data.find(pair, k + 1)
+    return found
+
+
 def _part(dip: Bracket, low: float, high: float, a: float, b: float) -> Bracket:
     """A part of a stretch at whose ends the rate has unlike signs."""
     return Bracket(dip.before, dip.begin, dip.span, low, high, a, b, low + (high - low) * a / (a - b))
 
 
-def _dips(brackets: list[Bracket], second_a: Floats, second_b: Floats) -> list[bool]:
+def _dips(brackets: list[Bracket], second_a: Sequence[float], second_b: Sequence[float]) -> list[bool]:
     """Whether a rate of one sign at both ends of a stretch may cross zero within, by the cubic through the rates and
     second derivatives (per s) there."""
-    if not brackets:
-        return []
     columns = _Columns(brackets)
     a, b = columns.rate_low, columns.rate_high
     u = np.linspace(0.0, 1.0, 33)[:, None]

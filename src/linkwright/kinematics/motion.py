@@ -131,6 +131,8 @@ class LinkMotion:
             return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         good = np.isfinite(raw)
+        if good.all():
+            return locked(_unwrapped(raw))
         raw[good] = _unwrapped(raw[good])
         return locked(raw)
 

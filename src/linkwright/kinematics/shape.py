@@ -10,7 +10,6 @@ from typing import Any
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import Driver
 from linkwright.engine.recent import Recent
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Link, Mechanism
 
 _NUMBER = "#"
@@ -27,7 +26,7 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
     joints, links = mechanism.joints, (mechanism.frame, *mechanism.links.values())
     return (
         tuple(numbers),
-        tuple(_known(value) if address not in free else None for address, value in numbers.items()),
+        tuple(map(_QUARTERS.get, numbers.values())) if not free else _known(numbers, free),
         free,
         tuple(_link(link) for link in links),
         _forms.get(joints, None, lambda: Form(tuple(map(_plain, joints.values())))),
@@ -35,7 +34,7 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
         _forms.get(mechanism.drivers, None, lambda: Form(tuple(map(_driver, mechanism.drivers.values())))),
         _forms.get(mechanism.loads, None, lambda: Form(tuple(map(_plain, mechanism.loads.values())))),
         tuple((address, each.text) for address, each in mechanism.expressions.items()),
-        math.frexp(mechanism_size(mechanism))[1],
+        mechanism.size,
     )
 
 
@@ -62,15 +61,18 @@ def _driver(driver: Driver) -> Hashable:
     return driver.name, driver.joint, driver.link, driver.relative_to, type(driver.law)
 
 
-def _known(value: float) -> int | None:
-    """0 for zero, the number of quarter turns for a whole one, else None."""
-    turns = round(value / (0.5 * math.pi)) if abs(value) < 1e3 else 0
-    return turns if value == turns * 0.5 * math.pi else None
+#: The number of quarter turns in angles that are whole ones; 0 for zero.
+_QUARTERS = {turns * 0.5 * math.pi: turns for turns in range(-636, 637)}
+
+
+def _known(numbers: Mapping[str, float], free: frozenset[str]) -> tuple[int | None, ...]:
+    return tuple(None if address in free else _QUARTERS.get(value) for address, value in numbers.items())
 
 
 def _link(link: Link) -> Hashable:
-    first: dict[Hashable, int] = {}
-    same = tuple(first.setdefault(place, i) for i, place in enumerate(link.points.values()))
+    first, places = dict[Hashable, int](), link.points.values()
+    apart = len(set(places)) == len(places)
+    same = () if apart else tuple(first.setdefault(place, i) for i, place in enumerate(places))
     return link.name, link.geometry, tuple(link.points), same, link.mass_centre is None
 
 

@@ -9,12 +9,18 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen, FrozenDict
+from linkwright.core.frozen import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.loads.base import Load
-from linkwright.mechanism.geometry import centre, local_points, point_addresses, second_point_address
+from linkwright.mechanism.geometry import (
+    centre,
+    local_points,
+    mechanism_size,
+    point_addresses,
+    second_point_address,
+)
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, Dimension
 from linkwright.words.sentence import Sentence
@@ -91,15 +97,14 @@ class Link:
             point: (float(x), float(y))
             for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
         }
-        changed = replace(self, points=moved, lengths=lengths)
+        changed: dict[str, Any] = {"points": moved, "lengths": lengths}
         if self.geometry == "bent":
-            changed = replace(changed, angle=value(f"{name}.angle"))
-        if name == "frame":
-            return changed
-        if self.mass_centre is not None:
-            place = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
-            changed = replace(changed, mass_centre=place)
-        return replace(changed, mass=value(f"{name}.mass"), inertia=value(f"{name}.inertia"))
+            changed["angle"] = value(f"{name}.angle")
+        if name != "frame":
+            changed |= {"mass": value(f"{name}.mass"), "inertia": value(f"{name}.inertia")}
+        if name != "frame" and self.mass_centre is not None:
+            changed["mass_centre"] = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
+        return replace(self, **changed)
 
 
 @dataclass(frozen=True)
@@ -191,10 +196,9 @@ class Mechanism(Frozen):
                 new_joint = joints.get(name, joint)
                 joints[name] = new_joint.aligned(links[joint.joined[0]].points)
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
-        changed = replace(
-            self,
+        return self._changed(
             frame=links.pop("frame"),
-            links=links,
+            links=_with(self.links, links),
             joints=_with(self.joints, joints),
             drivers=_with(
                 self.drivers,
@@ -205,11 +209,20 @@ class Mechanism(Frozen):
             ),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
-            parameters=parameters,
+            parameters=_with(self.parameters, parameters),
             expressions=self.expressions if len(kept) == len(self.expressions) else kept,
+            _dimensions=new,
+            _owners=self._owners,
         )
-        vars(changed)["_dimensions"] = new
-        return changed
+
+    def _changed(self, **changes: Any) -> Mechanism:
+        """The same mechanism with other fields, and with what is known of them; all others are frozen already."""
+        own, made = vars(self), object.__new__(type(self))
+        kept = {name: own[name] for name in self.__dataclass_fields__}
+        vars(made).update(
+            kept | {name: each if name[0] == "_" else frozen(each) for name, each in changes.items()}
+        )
+        return made
 
     @cached_property
     def _owners(self) -> dict[str, tuple[str, str]]:
@@ -280,6 +293,11 @@ class Mechanism(Frozen):
         return self.links[name]
 
     @cached_property
+    def size(self) -> float:
+        """A power of two in metres, not below the largest coordinate, offset or stroke."""
+        return mechanism_size(self)
+
+    @cached_property
     def _dimensions(self) -> dict[str, float]:
         found = dict(self.parameters)
         for link in (self.frame, *self.links.values()):
@@ -328,4 +346,4 @@ class Mechanism(Frozen):
 def _with(old: Mapping[str, Any], new: Mapping[str, Any]) -> Mapping[str, Any]:
     """A mapping with new elements in their places; where nothing is new the old one itself, by which what was found
     for its elements is known again."""
-    return {**old, **new} if any(each is not old[name] for name, each in new.items()) else old
+    return FrozenDict({**old, **new}) if any(each is not old[name] for name, each in new.items()) else old

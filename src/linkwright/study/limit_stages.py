@@ -12,12 +12,12 @@ import numpy as np
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, absolute, select, sign, sin, sqrt
+from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import Output, SwingPhase
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
-from linkwright.loads.phases import NEAR
+from linkwright.loads.phases import NEAR, TURN
 from linkwright.study.traced import VALID, Traced
 
 #: Names of an output's rate and second derivative among the motion's outputs.
@@ -33,8 +33,8 @@ STEP, ASSEMBLED = "step of the input", "assembled at limits"
 TOGETHER = 1e-7
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
 STEPS, CONVERGED = 16, 1e-10
-#: Newton steps from a limit of a design to that of one near it.
-NEAR_STEPS = 5
+#: Newton steps from a limit of a design to that of one near it; how near to a position, rad, one counts as on it.
+NEAR_STEPS, AT = 5, 1e-9
 #: Steps to the edge of a part of a stroke, which may be far from the middle of it.
 EDGE_STEPS = 40
 
@@ -56,11 +56,6 @@ def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
     """Rate and second derivative of an output as traced values."""
     rate, second = (traced.solver.outputs.value(name) for name in _rate_names(traced, output))
     return rate, second
-
-
-def rate_name(traced: Traced, output: Output) -> str:
-    """The name of an output's rate among the motion's outputs."""
-    return _rate_names(traced, output)[0]
 
 
 def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
@@ -198,6 +193,25 @@ def near_limits(traced: Traced, outputs: Iterable[Output], valued: Iterable[Outp
         if output in known:
             found[f"value:{output}"] = there["value"]
     return Program.of(t, found)
+
+
+def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
+    """Whether every output falls at this position just where it lies between the limits ``max`` and ``min``, with
+    positions on both ways; on a limit its rate may have either sign."""
+    motion, logic = traced.solver.motion, traced.solver.motion.trace.logic
+    (driver,) = traced.mechanism.drivers
+    sense, step = sign(motion.trace.parameter(f"{driver}.speed")), motion.trace.parameter(STEP)
+    found: Mask = True
+    for output in outputs:
+        highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))
+        way = turned(sense * (motion.trace.position("input") - highest))
+        length = turned(sense * (lowest - highest))
+        gone = way - length
+        follows = rates(traced, output)[0] * gone >= 0.0
+        beside = minimum(minimum(way, TURN - way), absolute(gone)) <= AT
+        apart = minimum(length, TURN - length) > step
+        found = logic("and", found, logic("and", apart, logic("or", follows, beside)))
+    return found
 
 
 def _doubt(traced: Traced, outputs: Iterable[Output]) -> Stage:

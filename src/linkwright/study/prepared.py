@@ -6,6 +6,7 @@ import threading
 from array import array
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
+from math import inf
 from typing import Literal
 
 import numpy as np
@@ -15,7 +16,7 @@ from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar, select
+from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import is_way, nearness, parts
 from linkwright.kinematics.cycle import Floats, Positions, over_cycle
@@ -28,19 +29,18 @@ from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.site import TracedSite, limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.along_input import magnitude
-from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.study.limit_stages import CONVERGED, constants, near_limits, rate_name
+from linkwright.study.limit_stages import CONVERGED, agree, constants, near_limits
 from linkwright.study.loaded_cycle import AlongInput, along_input
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
-#: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled.
+#: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
+#: value, and where limit positions do not agree with the rates.
 NEAREST = "nearest change point"
-#: Lanes in which limit positions are looked for beside each other, as many as a processor may have; how near to a
-#: position, rad, one counts as on it.
-LANES, AT = 8, 1e-9
+#: Lanes in which limit positions are looked for beside each other, as many as a processor may have.
+LANES = 8
 
 Backend = Literal["auto", "numpy", "llvm"]
 
@@ -86,8 +86,7 @@ class Prepared:
         self.solver = self._loads.traced.solver
         self.force_solver = ForceSolver(self.solver)
         motion, forces = self.solver.outputs.standard, self.force_solver.outputs.standard
-        more = (name for name in self._loads.rates.values() if name not in motion)
-        self._names = (*motion[:-1], *forces, *self._loads.fields, *more, NEAREST, "outcome")
+        self._names = (*motion[:-1], *forces, *self._loads.fields, NEAREST, "outcome")
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
@@ -104,14 +103,13 @@ class Prepared:
 
     def _trace(self) -> Program:
         motion, forces = self.solver.outputs, self._loads.traced.forces.outputs
-        stored = {*motion.standard, *self._loads.rates.values()}
         sizes = self._loads.sizes
+        others = [name for name in self._names if name != NEAREST and name not in sizes]
         values = {
-            name: sizes[name] if name in sizes else (motion if name in stored else forces).value(name)
-            for name in self._names
-            if name != NEAREST
-        }
-        values[NEAREST] = select(self.solver.motion.valid, nearness(self.solver), 0.0)
+            name: (motion if name in motion.standard else forces).value(name) for name in others
+        } | sizes
+        distance = select(self._loads.sound, nearness(self.solver), 0.0)
+        values[NEAREST] = select(self.solver.motion.valid, distance, 0.0)
         values["outcome"] = values.pop("outcome")
         return Program.of(self.solver.motion.trace, values)
 
@@ -143,25 +141,7 @@ class Prepared:
         return Forces(motion, self.force_solver, fields, False, motion.rows)
 
     def _values(self, changes: Mapping[str, float]) -> Floats | None:
-        """Outputs (names, n); None where a load has no value, or its limit positions are not certain."""
-        self._change(changes)
-        loads, own = self._loads, self._own
-        if not loads.fields:
-            return self._evaluate(own.table)
-        for limits in (loads.near, loads.searched):
-            found = limits(changes)
-            if found is None:
-                continue
-            for name, value in found.items():
-                if name in self._places:
-                    own.numbers[self._places[name]] = value
-            values = self._evaluate(own.table)
-            if loads.agree(found, values, self._index):
-                return values if loads.finite(values, self._index) else None
-        return None
-
-    def _change(self, changes: Mapping[str, float]) -> None:
-        """Sets the program's numbers to those of a design."""
+        """Outputs (names, n); None where nothing is known of the loads' limit positions."""
         numbers = self._own.numbers
         numbers[:] = self._base
         for address, value in changes.items():
@@ -170,6 +150,9 @@ class Prepared:
                 numbers[place] = value
             elif address not in self.vary:
                 self._refuse_fixed(address)
+        if self._loads.fields and not self._loads.limit(changes, numbers, self._places):
+            return None
+        return self._evaluate(self._own.table)
 
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
@@ -210,11 +193,6 @@ class _Followed:
         self.fields = tuple(f"load:{name}" for name in sorted(loads.names))
         self.known = {**constants(traced), **loads.constants}
         self._own = threading.local()
-        self.rates = {output: rate_name(traced, output) for output in loads.outputs}
-        self._limits = [
-            (rate, limit_name(output, "max"), limit_name(output, "min"))
-            for output, rate in self.rates.items()
-        ]
 
     @classmethod
     def of(cls, prepared: Prepared) -> _Followed:
@@ -238,87 +216,51 @@ class _Followed:
             name: magnitude(load, TracedSite(motion, load, along_input=True)) for name, load in found.items()
         }
 
-    def finite(self, values: Floats, index: Mapping[str, int]) -> bool:
-        """Whether every load has a value everywhere."""
-        fallible = self.loads.fallible
-        return not fallible or all(np.isfinite(values[index[f"load:{name}"]]).all() for name in fallible)
+    @cached_property
+    def sound(self) -> Mask:
+        """Whether every load has a value, and limit positions are those that the rates have."""
+        found = agree(self.traced, self.loads.outputs)
+        for name in self.loads.fallible:
+            has = absolute(self.sizes[f"load:{name}"]) < inf
+            found = self.traced.solver.motion.trace.logic("and", found, has)
+        return found
 
     # limit positions ----------------------------------------------------------------------------
-    def searched(self, changes: Mapping[str, float]) -> dict[str, float] | None:
-        """What the program takes besides dimensions; None for designs whose limit positions are not certain."""
-        if not self._of_drivers.isdisjoint(changes):
-            return None
-        if not self.loads.outputs:
-            return {}
-        cycle = self._cycle
-        table, positions = [self._numbers(cycle.dimensions, changes)], self.traced.positions.arrays
-        found = cycle.evaluate(table, positions, tables=self.tables, threads=1, backend="llvm")
-        if any(found[f"doubt:{output}"][0] != 0.0 for output in self.loads.outputs):
-            return None
-        return {
-            name: float(column[0]) for name, column in found.items() if name.startswith(("limit:", "value:"))
-        }
+    def limit(self, changes: Mapping[str, float], numbers: array[float], places: Mapping[str, int]) -> bool:
+        """Writes a design's limit positions among the numbers of the program; False where they are not found.
 
-    def near(self, changes: Mapping[str, float]) -> dict[str, float] | None:
-        """The same by Newton's steps from the limit positions of the mechanism as it is; to be seen whether they
-        agree with the rates."""
+        By Newton's steps from those of the mechanism as it is.
+        """
         if not self._of_drivers.isdisjoint(changes):
-            return None
-        if not self.rates:
-            return {}
+            return False
+        if not self.loads.outputs:
+            return True
         newton: _Newton | None = getattr(self._own, "newton", None)
         if newton is None:
             if self._begin is None:
-                return None
-            newton = self._own.newton = _Newton(*self._begin)
-        return newton.limits(changes)
-
-    def agree(self, limits: Mapping[str, float], values: Floats, index: Mapping[str, int]) -> bool:
-        """Whether the rates change their signs at these limit positions, and nowhere else."""
-        inputs, sense, step = self._inputs, self._sense, self.known["step of the input"] + 2.0 * AT
-        for rate, highest, lowest in self._limits:
-            falls = np.signbit(values[index[rate]]).tobytes()
-            one, other = (b"\1", b"\0") if falls[0] else (b"\0", b"\1")
-            first = falls.find(other)
-            second = falls.find(one, first)  # -1: back at the first position
-            if first < 0 or (second >= 0 and falls.find(other, second) >= 0):
                 return False
-            ends = (lowest, highest) if falls[0] else (highest, lowest)
-            for limit, after in zip(ends, (first, max(second, 0)), strict=True):
-                if ((limits[limit] - inputs[after - 1]) * sense + AT) % TURN > step:
-                    return False
-        return True
-
-    @cached_property
-    def _inputs(self) -> list[float]:
-        """The input at every position."""
-        return [float(q) for q in next(iter(self.traced.positions.coordinates.values()))[0]]
-
-    @cached_property
-    def _sense(self) -> float:
-        """1 where the input grows, else -1."""
-        return float(np.sign(next(iter(self.traced.positions.coordinates.values()))[1][0]))
-
-    @cached_property
-    def _cycle(self) -> CycleProgram:
-        return CycleProgram(tuple(self.loads.stages(self.traced)))
+            newton = self._own.newton = _Newton(*self._begin, places)
+        return newton.limit(changes, numbers)
 
     @cached_property
     def _begin(self) -> tuple[CompiledProgram, array[float], dict[str, Floats]] | None:
         """Newton's steps compiled, their numbers, and the limits where they begin."""
-        known = self.searched({})
-        compiled = compile_program(near_limits(self.traced, self.loads.outputs, self.loads.valued))
-        if known is None or compiled is None:
+        outputs, cycle = self.loads.outputs, CycleProgram(tuple(self.loads.stages(self.traced)))
+        compiled = compile_program(near_limits(self.traced, outputs, self.loads.valued))
+        if compiled is None:
+            return None
+        known = {**self.traced.solver.nominal.parameters, **self.known}
+        table, positions = [[known[name] for name in cycle.dimensions]], self.traced.positions.arrays
+        found = cycle.evaluate(table, positions, tables=self.tables, threads=1, backend="llvm")
+        if any(found[f"doubt:{output}"][0] != 0.0 for output in outputs):
             return None
         starts = {
-            f"near:{output}": np.resize([known[limit_name(output, kind)] for kind in ("max", "min")], LANES)
-            for output in self.loads.outputs
+            f"near:{output}": np.resize(
+                [found[limit_name(output, kind)][0] for kind in ("max", "min")], LANES
+            )
+            for output in outputs
         }
-        return compiled, array("d", self._numbers(compiled.program.parameters, {})), starts
-
-    def _numbers(self, names: Iterable[str], changes: Mapping[str, float]) -> list[float]:
-        known = {**self.traced.solver.nominal.parameters, **self.known, **changes}
-        return [known[name] for name in names]
+        return compiled, array("d", [known[name] for name in compiled.program.parameters]), starts
 
     @cached_property
     def _of_drivers(self) -> frozenset[str]:
@@ -331,7 +273,13 @@ class _Followed:
 class _Newton:
     """One thread's call of Newton's steps to the limit positions of a design."""
 
-    def __init__(self, compiled: CompiledProgram, base: array[float], starts: Mapping[str, Floats]) -> None:
+    def __init__(
+        self,
+        compiled: CompiledProgram,
+        base: array[float],
+        starts: Mapping[str, Floats],
+        places: Mapping[str, int],
+    ) -> None:
         program = compiled.program
         self._base, self._numbers = base, base[:]
         self._places = {name: place for place, name in enumerate(program.parameters)}
@@ -339,23 +287,22 @@ class _Newton:
         self._rows = array("d", bytes(8 * LANES * len(names)))
         out = np.frombuffer(self._rows).reshape(-1, LANES)
         self._run = compiled.bound(np.frombuffer(self._numbers), starts, out)
-        self._moved, self._found = [], []
-        for row, name in enumerate(names):
-            for lane, kind in enumerate(("max", "min"), start=row * LANES):
-                if name.startswith("moved:"):
-                    self._moved.append(lane)
-                else:
-                    self._found.append((lane, f"{name}:{kind}"))
+        lanes = [
+            (lane, f"{name}:{kind}")
+            for row, name in enumerate(names)
+            for lane, kind in enumerate(("max", "min"), start=row * LANES)
+        ]
+        self._moved = [lane for lane, name in lanes if name.startswith("moved:")]
+        self._found = [(lane, places[name]) for lane, name in lanes if name in places]
 
-    def limits(self, changes: Mapping[str, float]) -> dict[str, float] | None:
-        """Limits, and values there, by name; None where the steps do not come to an end."""
-        self._numbers[:] = self._base
+    def limit(self, changes: Mapping[str, float], numbers: array[float]) -> bool:
+        """Writes limits, and values there, among the numbers; False where the steps do not come to an end."""
+        own, rows = self._numbers, self._rows
+        own[:] = self._base
         for address, value in changes.items():
             if address in self._places:
-                self._numbers[self._places[address]] = value
+                own[self._places[address]] = value
         self._run()
-        rows = self._rows
-        for place in self._moved:
-            if not rows[place] <= CONVERGED:
-                return None
-        return {name: rows[place] for place, name in self._found}
+        for lane, place in self._found:
+            numbers[place] = rows[lane]
+        return sum([rows[lane] for lane in self._moved]) <= CONVERGED
