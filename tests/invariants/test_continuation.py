@@ -15,10 +15,11 @@ import linkwright as lw
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
-from linkwright.kinematics.continuation import Followed, _Journey
+from linkwright.kinematics.continuation import Followed, Follower, _Journey
 from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion
+from linkwright.study import iterated_groups
 
 Floats = NDArray[np.float64]
 
@@ -357,3 +358,22 @@ def test_a_way_of_too_many_tries_is_followed_without_proof_and_said_so(
     assert branch_notes(motion) == ()
     motion.followed = None
     assert branch_notes(motion) == ()
+
+
+def test_a_second_sweep_follows_no_way_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What depends on the mechanism as it is serves every sweep of it, and the results are those of a first one."""
+
+    def swept(mechanism: lw.Mechanism) -> lw.Sweep:
+        lengths = mechanism.dimension("bar_1.P.x") * np.linspace(0.999, 1.001, 4)
+        return lw.sweep(mechanism, {"bar_1.P.x": lengths}, outputs=["input_torque rms"], steps=48)
+
+    mechanism = lw.load("gallery:triad")
+    first, anew = swept(mechanism), swept(lw.load("gallery:triad"))
+    monkeypatch.setattr(Follower, "follow", lambda *_: pytest.fail("followed again"))
+    monkeypatch.setattr(iterated_groups._Way, "__init__", lambda *_: pytest.fail("traced again"))
+    second = swept(mechanism)
+    assert np.isfinite(second["input_torque", "rms"]).all()
+    for each in (anew, second):
+        assert np.array_equal(each["input_torque", "rms"], first["input_torque", "rms"])
+        assert each.branch_margin is not None and first.branch_margin is not None
+        assert np.array_equal(each.branch_margin, first.branch_margin)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.frozen import Frozen
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
@@ -42,7 +43,7 @@ class Stop:
 
 
 @dataclass(frozen=True)
-class Followed:
+class Followed(Frozen):
     """The way of the groups without closed form through n positions.
 
     ``inputs`` (n, d): the drivers' coordinates; ``states``: their chain coordinates (n,) by name, NaN where the way

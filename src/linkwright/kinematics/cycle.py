@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain
@@ -58,6 +58,12 @@ class Positions:
     def paces(self) -> dict[str, float]:
         """The largest rate of every driver, rad/s or m/s."""
         return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What tells these positions from others."""
+        rows = (self.time, *chain.from_iterable(self.coordinates.values()))
+        return self.closed, self.period, self.cycle, *(row.tobytes() for row in rows)
 
     @cached_property
     def arrays(self) -> dict[str, Floats]:

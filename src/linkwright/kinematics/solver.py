@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.recent import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Followed, Follower
 from linkwright.kinematics.cycle import Floats, Positions
@@ -100,7 +101,12 @@ class MotionSolver:
         self, positions: Positions, design: Design | None = None, apart: bool = False
     ) -> Followed | None:
         """The way of the groups without closed form, None if there are none; ``apart``: each position for itself."""
-        return self.follower(design).follow(positions, apart) if self.motion.next_states else None
+        if not self.motion.next_states:
+            return None
+        if self._assembly is not None or not (design is None or design is self.nominal):
+            return self.follower(design).follow(positions, apart)
+        key = (positions.key, apart)
+        return _ways.get(self.mechanism, key, lambda: self._own_follower.follow(positions, apart))
 
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
@@ -121,3 +127,7 @@ class MotionSolver:
         values = [parameters[name] for name in program.program.parameters]
         arrays = {**positions.arrays, **modes}
         return np.asarray(program.run(values, arrays, None, states or None, length=positions.count))
+
+
+#: Of mechanisms as they are.
+_ways: Recent[Mechanism, Followed] = Recent(16)

@@ -7,16 +7,17 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.sweep import Backend, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.step_rule import StepRule
-from linkwright.kinematics.trace import trace_motion
 from linkwright.mechanism.geometry import mechanism_size
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
 
@@ -47,9 +48,9 @@ class Following:
     A design is followed forwards; positions behind a barred one count as not reached.
     """
 
-    def __init__(self, traced: Traced, names: Iterable[str]) -> None:
+    def __init__(self, traced: Traced, names: tuple[str, ...]) -> None:
         self.traced = traced
-        self.names = tuple(dict.fromkeys(names))
+        self.names = names
         self.finer = self._needed()
         self.ways: dict[int, _Way] = {}
 
@@ -77,13 +78,23 @@ class Following:
 
     def _needed(self) -> int:
         """How much finer the positions must be for the known design."""
-        known = self.traced.solver.states(self.traced.positions)
+        known = self.traced.nominal.states
         size = mechanism_size(self.traced.mechanism)
         largest = 0.0
         for name, row in known.items():
             change = np.abs(np.diff(row)) / (size if name.endswith(".s") else 1.0)
             largest = max(largest, float(np.nanmax(change, initial=0.0)))
         return max(1, int(np.ceil(largest / WANTED)))
+
+
+def following(traced: Traced, names: Iterable[str]) -> Following:
+    """The program for some outputs; what was made for the same mechanism lately serves again."""
+    asked = tuple(dict.fromkeys(names))
+    key = (traced.solver.manner, traced.positions.key, asked)
+    return _followings.get(traced.mechanism, key, lambda: Following(traced, asked))
+
+
+_followings: Recent[Mechanism, Following] = Recent(8)
 
 
 class _Way:
@@ -94,7 +105,6 @@ class _Way:
         mechanism, asked = traced.mechanism, traced.positions
         self.positions: Positions = over_cycle(mechanism, positions_steps(asked) * finer)
         self.traced = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
-        self.asked = traced
         count = self.positions.count
         step = self.positions.time[1] - self.positions.time[0] if count > 1 else 0.0
         self.arrays = {
@@ -113,6 +123,7 @@ class _Way:
         following = {**self.rule.following, "alive": select(passed, 1.0, 0.0)}
         outputs |= {NEAREST: self.traced.nearest, VALID: counts, MARGIN: self.rule.margin}
         self.program = Program.of(trace, outputs, following)
+        self.approach = Approach(self.traced, traced.nominal.states)
 
     def reduced(
         self,
@@ -121,7 +132,7 @@ class _Way:
         threads: int | None,
         backend: Backend,
     ) -> Results:
-        start = start_states(self.asked, columns)
+        start = self.approach.states(columns)
         designs = len(next(iter(columns.values())))
         begin = {**self.rule.begin, "alive": 1.0}
         start |= {
@@ -158,24 +169,17 @@ def _counted(count: int, finer: int) -> Floats:
     return marks
 
 
-def start_states(traced: Traced, columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Chain coordinates (designs,) by name at the first position; NaN for designs that are not reached.
+class Approach:
+    """The way from a mechanism as it is to other designs at the first position.
 
-    From the mechanism as it is, every design is approached on a straight line in the varied dimensions, with
-    Newton's steps at each stage from what the last two stages let expect. A stage that fails, that changes the sign
-    of a group's determinant, or that ends far from what was expected, is halved.
+    Every design is approached on a straight line in the varied dimensions, with Newton's steps at each stage from
+    what the last two stages let expect. A stage that fails, that changes the sign of a group's determinant, or that
+    ends far from what was expected, is halved. ``known``: the chain coordinates of the mechanism as it is.
     """
-    return _Approach(traced, columns).states()
 
-
-class _Approach:
-    """All designs side by side, each with its own share of the way."""
-
-    def __init__(self, traced: Traced, columns: Mapping[str, Floats]) -> None:
-        solver = traced.solver
-        motion = trace_motion(
-            traced.mechanism, solver.structure, free=solver.manner.free, rates=False, iterations=ITERATIONS
-        )
+    def __init__(self, traced: Traced, known: Mapping[str, Floats]) -> None:
+        self.traced = traced
+        motion = traced.solver.motion
         residual: Scalar = 0.0
         for placed in motion.placed.values():
             residual = residual + placed.residual
@@ -183,18 +187,17 @@ class _Approach:
         outputs = {**motion.next_states, "residual": residual}
         groups = [(name, placed) for name, placed in motion.placed.items() if placed.coordinates]
         outputs |= {f"determinant:{name}": placed.determinant for name, placed in groups}
-        self.evaluator = NumpyProgram(Program.of(motion.trace, outputs))
-        program = self.evaluator.program
-        self.goal = traced.table(program, columns)
-        self.begin = traced.numbers(program)
+        self.evaluator = numpy_program(Program.of(motion.trace, outputs))
+        self.begin = traced.numbers(self.evaluator.program)
         self.inputs = {name: row[:1] for name, row in traced.positions.arrays.items()}
         size = mechanism_size(motion.mechanism)
         self.scale = np.array([size if name.endswith(".s") else 1.0 for name in self.names])
-        known = solver.states(traced.positions)
         self.first = np.array([known[name][0] for name in self.names])
 
-    def states(self) -> dict[str, Floats]:
-        designs = len(self.goal)
+    def states(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Chain coordinates (designs,) by name at the first position; NaN for designs that are not reached."""
+        goal = self.traced.table(self.evaluator.program, columns)
+        designs = len(goal)
         state = np.repeat(self.first[None, :], designs, axis=0)
         slope = np.full_like(state, np.nan)
         sign = np.sign(self._evaluate(self.begin[None, :], state[:1])[2])
@@ -203,9 +206,8 @@ class _Approach:
         while active.any():
             rows = np.flatnonzero(active)
             ahead = np.minimum(done[rows] + share[rows], 1.0)
-            moved, good = self._newton(
-                rows, ahead, state[rows], slope[rows] * (ahead - done[rows])[:, None], sign
-            )
+            table = self.begin + ahead[:, None] * (goal[rows] - self.begin)
+            moved, good = self._newton(table, state[rows], slope[rows] * (ahead - done[rows])[:, None], sign)
             came = rows[good]
             slope[came] = (moved[good] - state[came]) / (ahead[good] - done[came])[:, None]
             state[came], done[came] = moved[good], ahead[good]
@@ -215,11 +217,8 @@ class _Approach:
         state[done < 1.0] = np.nan
         return {name: state[:, place] for place, name in enumerate(self.names)}
 
-    def _newton(
-        self, rows: NDArray[np.intp], share: Floats, state: Floats, expected: Floats, sign: Floats
-    ) -> tuple[Floats, Mask]:
-        """States at a share of the way, and which of them are certain; ``expected`` changes are NaN at first."""
-        table = self.begin + share[:, None] * (self.goal[rows] - self.begin)
+    def _newton(self, table: Floats, state: Floats, expected: Floats, sign: Floats) -> tuple[Floats, Mask]:
+        """States at parts of the ways, and which of them are certain; ``expected`` changes are NaN at first."""
         known = np.asarray(np.isfinite(expected).all(axis=1))
         start = self._unit(state + np.where(known[:, None], expected, 0.0))
         new, _, _ = self._evaluate(table, start)

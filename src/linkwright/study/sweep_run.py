@@ -22,7 +22,7 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.change_points import ChangePoints, near_enough
-from linkwright.study.iterated_groups import MARGIN, Following
+from linkwright.study.iterated_groups import MARGIN, following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.study.one_by_one import OneByOne
 from linkwright.study.traced import NEAREST, VALID, Traced
@@ -70,7 +70,7 @@ class SweepRun:
         self.through: set[int] = set()
         self._programs: dict[tuple[tuple[str, ...], int], tuple[list[Quantity], Program]] = {}
         alone = self.program.fields or self.traced.nominal.modes
-        self.follow = Following(self.traced, names) if self.program.states and not alone else None
+        self.follow = following(self.traced, names) if self.program.states and not alone else None
         self.alone = bool(alone)
         self.margins: Floats | None = None
         if self.follow is not None:
