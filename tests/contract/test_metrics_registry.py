@@ -79,6 +79,38 @@ def test_extremes_do_not_depend_on_the_steps(name: str, own: set[str]) -> None:
             assert a.value == pytest.approx(b.value, rel=1e-6), (metric, a.subject)
 
 
+#: What a table begins with: the output, its transmission, the torque, the reactions, the shaking; then the rest.
+FIRST = (
+    {"stroke", "swing_angle", "quick_return_ratio", "crank_angle_between_limits"},
+    {"peak_acceleration"},
+    {"transmission_angle", "transmission_angle_of_stroke", "pressure_angle"},
+    {
+        "peak_input_torque", "rms_input_torque", "peak_power", "mean_power", "energy_fluctuation", "flywheel",
+    },
+    {"velocity_ratio", "mechanical_advantage"},
+    {"peak_reaction", "rms_reaction", "bearing_pv"},
+    {"peak_shaking_force", "peak_shaking_moment"},
+)  # fmt: skip
+
+
+def test_what_matters_first_stands_first() -> None:
+    crusher, shaper = (
+        metrics(lw.solve_forces(lw.load(f"gallery:{name}"), steps=72)).names
+        for name in ("jaw_crusher_sixbar", "shaper_quick_return")
+    )
+    place = {name: k for k, group in enumerate(FIRST) for name in group}
+    for found in (crusher, shaper):
+        places = [place.get(name, len(FIRST)) for name in found]
+        assert places == sorted(places)
+        assert "instant_centre" not in found
+    everything = sorted(METRICS, key=lambda name: METRICS[name].rank)
+    assert [place.get(name, len(FIRST)) for name in everything] == sorted(
+        place.get(name, len(FIRST)) for name in METRICS
+    )
+    ranks = [{METRICS[name].rank for name in group} for group in FIRST]
+    assert all(len(own) == 1 for own in ranks) and len(set.union(*ranks)) == len(FIRST)
+
+
 def test_a_single_position_has_numbers_as_well() -> None:
     motion = lw.solve_motion(lw.load("gallery:crank_rocker"), at=[0.5])
     table = metrics(motion)

@@ -123,6 +123,47 @@ def test_division_by_zero_between_two_positions(magnitude: str) -> None:
     assert "leave that position out by a phase" in message
 
 
+@pytest.mark.parametrize(
+    ("magnitude", "place"),
+    [
+        ("5 N/(-(input - 95.5 deg)/rad)", "95.5°"),
+        ("5 N*abs(1 rad/(input - 95.5 deg))", "95.5°"),
+        ("2*(5 N*rad/(input - 95.5 deg))", "95.5°"),
+        ("(5 N*rad/(input - 95.5 deg))*2", "95.5°"),
+        ("-(5 N*rad/(input - 95.5 deg))", "95.5°"),
+        ("5 N + 5 N/(2 + 1 rad/(input - 95.5 deg))", "66.8521°"),
+        ("5 N*s/(t - 0.6196 s)", "355.005°"),
+        ("5 N*rad/(crank - 355 deg)", "355°"),
+        ("5 N*rad/(rocker - 1.9 rad)", None),
+    ],
+)
+def test_divisors_deep_within_and_where_the_cycle_begins_again(magnitude: str, place: str | None) -> None:
+    """Ten degrees from position to position, and 355° lies between the last one and the first of the next turn."""
+    message = refused(CRANK_ROCKER, f'{{{FORCE}, magnitude: "{magnitude}"}}')
+    assert message.startswith("loads.push: ")
+    assert f'"{magnitude}" divides by zero near input = {place or ""}' in message
+
+
+def test_positions_far_apart_are_no_neighbours() -> None:
+    """Between 0.2 and 0.8 rad lies a pole, but nobody asks what the load is there; from 0.5 to 0.7 rad it is seen."""
+    load = f'{{{FORCE}, magnitude: "5 N*rad/(input - 0.6 rad)"}}'
+    machine = loads(CRANK_ROCKER.replace("LOAD", load))
+    size = lw.solve_forces(lw.solve_motion(machine, at=[0.2, 0.8])).load("push").force[:, 0]
+    assert size == pytest.approx([-12.5, 25.0])
+    with pytest.raises(LinkwrightError, match=r"divides by zero near input = 34\.3775°"):
+        lw.solve_forces(lw.solve_motion(machine, at=[0.5, 0.7]))
+
+
+def test_a_sliding_input_is_named_in_metres() -> None:
+    text = SLIDER.replace(
+        "driver: {turn: crank, about: O, speed: 10 rad/s}",
+        "driver: {slide: cylinder, speed: -1 m/s, start: 3.9 m}",
+    )
+    text = text.replace("loads:", "cycle: {duration: 1 s}\ndrawing: {A: [0 m, 1 m], B: [3.9 m, 0 m]}\nloads:")
+    load = '{kind: force, on: piston, at: B, direction: 0 deg, magnitude: "5 N*m/(cylinder - 3.2 m)"}'
+    assert '"5 N*m/(cylinder - 3.2 m)" divides by zero near input = 3.2 m;' in refused(text, load)
+
+
 def test_a_division_left_out_by_a_phase_is_no_matter() -> None:
     phase = "phase: {input: [120 deg, 300 deg]}"
     text = CRANK_ROCKER.replace("LOAD", f'{{{FORCE}, magnitude: "5 N*rad/(input - 95.5 deg)", {phase}}}')

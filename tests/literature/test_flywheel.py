@@ -121,3 +121,115 @@ def test_tables_of_torque_repeat_and_jump() -> None:
     assert TorqueCurve.from_function([1.0, 3.0], period=4.0)(np.array([0.0, 1.0, 2.0, 3.0])) == pytest.approx(
         [1, 2, 3, 2]
     )
+
+
+def test_wheels_are_of_cast_iron_a_tenth_as_wide_as_high_where_nothing_is_said() -> None:
+    """J = ρ π b (D⁴ - d⁴)/32 with ρ = 7200 kg/m³, b = D/10, a rim D/10 thick, a disk without a hole."""
+    plate, ring = disk(10.0), rim(10.0)
+    for wheel, hole, thickness in ((plate, 0.0, 0.5), (ring, 0.8, 0.1)):
+        size = (320 / (7200 * pi * 0.1 * (1 - hole**4))) ** 0.2
+        assert (wheel.diameter, wheel.width) == (pytest.approx(size), pytest.approx(size / 10))
+        assert wheel.thickness == pytest.approx(thickness * size)
+        assert wheel.mass == pytest.approx(7200 * pi / 4 * size**3 / 10 * (1 - hole**2))
+        assert wheel.inertia == 10.0
+        assert wheel.rim_speed(-30.0) == pytest.approx(15 * size)
+    assert (plate.shape, ring.shape) == ("disk", "rim")
+
+
+def test_energy_of_areas_with_its_diagram() -> None:
+    """Running sums of the areas in J; the same by Shigley's table from the first area on."""
+    areas = [295.0, -685.0, 40.0, -340.0, 960.0, -270.0]
+    found = fluctuation_from_areas(areas, torque_scale=5.0, angle_scale=pi / 180)
+    sums = np.array([0.0, 295.0, -390.0, -350.0, -690.0, 270.0, 0.0]) * 5 * pi / 180
+    assert found.energy == pytest.approx(sums) and found.angle.tolist() == [0, 1, 2, 3, 4, 5, 6]
+    assert (found.value, found.balance) == (pytest.approx(985 * 5 * pi / 180), pytest.approx(0.0, abs=1e-12))
+
+
+def test_curves_of_energy_and_speed_over_a_period() -> None:
+    """T = 100 + 50 sin 2θ against its mean: E = 25 (1 - cos 2θ), ω from ½ J ω² = E0 + E over one turn."""
+    driver = TorqueCurve.from_function("100 + 50*sin(2*theta)")
+    energy = energy_fluctuation(driver)
+    assert energy.angle[[0, -1]] == pytest.approx([0.0, 2 * pi], abs=1e-12)
+    assert energy.energy == pytest.approx(25 * (1 - np.cos(2 * energy.angle)), abs=1e-9)
+    assert len(energy.angle) >= 361 and (np.diff(energy.angle) > 0).all()
+    speed = true_speed(TorqueCurve.constant(100.0), 2.0, 10.0, driver=driver)
+    assert speed.angle == pytest.approx(np.linspace(0, 2 * pi, 361)) and len(speed.speed) == 361
+    rise = speed.speed**2 - speed.speed[0] ** 2
+    assert rise == pytest.approx(25 * (1 - np.cos(2 * speed.angle)), abs=1e-9)
+    assert np.trapezoid(1 / speed.at(np.linspace(0, 2 * pi, 20_001)), dx=2 * pi / 20_000) == pytest.approx(
+        2 * pi / 10
+    )
+    assert speed.fluctuation == pytest.approx((speed.fastest[1] - speed.slowest[1]) / 10.0, rel=1e-12)
+    assert (speed.motor_torque, speed.periodicity) == (
+        pytest.approx(100.0),
+        pytest.approx(0.0, abs=1e-12),
+    )
+    assert len(true_speed(driver, 2.0, 10.0, steps=8).angle) == 9
+
+
+def test_a_difference_kinks_where_either_curve_does_over_the_common_period() -> None:
+    edge = np.radians([30.0, 90.0, 90.0, 150.0])
+    half = TorqueCurve.from_table(edge, [1.0, 3.0, 8.0, 2.0], period=pi)
+    whole = TorqueCurve.from_table(np.radians([10.0, 200.0]), [5.0, 7.0])
+    first, other = half.minus(whole), whole.minus(half)
+    knots = [np.unique(np.round(np.degrees(curve.knots), 6)).tolist() for curve in (first, other)]
+    assert knots[0] == [30, 90, 150, 200, 210, 270, 330, 370, 390]
+    assert knots[1] == [10, 30, 90, 150, 200, 210, 270, 330, 370]
+    assert np.degrees((first.start, other.start, first.period)) == pytest.approx((30, 10, 360))
+    at = np.radians([0.0, 45.0, 100.0, 205.0, 359.0])
+    assert first(at) == pytest.approx(half(at) - whole(at)) and other(at) == pytest.approx(-first(at))
+    assert first.work.total == pytest.approx(half.mean * 2 * pi - 6.0 * 2 * pi, rel=1e-13)
+    with pytest.raises(lw.LinkwrightError) as refused:
+        TorqueCurve.constant(1.0, period=2.0).minus(TorqueCurve.constant(1.0, period=3.0))
+    assert str(refused.value).startswith("torque curves with periods of 114.592° and 171.887° have no common")
+
+
+@pytest.mark.parametrize(
+    ("angle", "torque", "period"),
+    [([0.0, 3.2], [1.0, 2.0], pi), ([0.5, 3.7], [1.0, 2.0], pi), ([1.0, 0.5], [1.0, 2.0], 2 * pi)],
+)
+def test_tables_longer_than_their_period_or_out_of_order_are_refused(
+    angle: list[float], torque: list[float], period: float
+) -> None:
+    with pytest.raises(lw.LinkwrightError, match="must increase and lie within one period"):
+        TorqueCurve.from_table(angle, torque, period=period)
+
+
+def test_tables_of_a_whole_period_close_with_a_jump() -> None:
+    """The last row stands at the period's end: from 3 it jumps back to 1, and none is added."""
+    saw = TorqueCurve.from_table([0.0, 2.0], [1.0, 3.0], period=2.0)
+    assert saw.knots == (0.0, 2.0) and saw.mean == pytest.approx(2.0, rel=1e-14)
+    assert saw(np.array([-0.5, 1.9999999, 2.0])) == pytest.approx([2.5, 3.0, 1.0], abs=1e-6)
+    for one in ([], [3.0]):
+        with pytest.raises(lw.LinkwrightError, match="two or more of each"):
+            TorqueCurve.from_function(one)
+
+
+def test_what_is_left_of_unequal_work_is_said_with_both_means() -> None:
+    weak, strong = TorqueCurve.constant(90.0, period=pi), TorqueCurve.constant(100.0, period=pi)
+    left = 10 * pi
+    with pytest.raises(lw.LinkwrightError) as rising:
+        energy_fluctuation(strong, weak)
+    assert str(rising.value) == (
+        f"driver and load do not balance: over a cycle {left:.6g} J are left, so the speed would rise from cycle to "
+        "cycle; make their mean torques equal (100 N·m and 90 N·m)"
+    )
+    with pytest.raises(lw.LinkwrightError) as falling:
+        energy_fluctuation(weak, strong)
+    assert f"over a cycle {-left:.6g} J are left, so the speed would fall" in str(falling.value)
+    assert str(falling.value).endswith("(90 N·m and 100 N·m)")
+
+
+def test_a_machine_that_its_loads_drive_says_how_much() -> None:
+    for speed in (1.0, -1.0):
+        crusher = lw.load("gallery:jaw_crusher_fourbar")
+        turned = crusher.with_dimensions({"driver.speed": speed * crusher.dimension("driver.speed")})
+        forces = lw.solve_forces(turned.with_dimensions({"loads.crushing.ramp.1": -85e3}), steps=360)
+        mean = np.sign(forces.motion.positions.coordinates["driver"][1][0]) * forces.input_torque.mean()
+        with pytest.raises(lw.LinkwrightError) as refused:
+            steady_running(forces, fluctuation=0.02)
+        number = float(str(refused.value).split("cycle is ")[1].split(" N·m")[0])
+        assert number < 0 and number == pytest.approx(mean, rel=2e-3)
+        assert str(refused.value).endswith(
+            "N·m: the loads drive the machine instead of resisting; check the direction of the loads"
+        )

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.files.model_file import loads
 from linkwright.study.compare import Comparison, compare
 from linkwright.words.sentence import in_language
 
@@ -176,3 +177,133 @@ def test_an_output_that_turns_through_is_said_to_travel_its_whole_turns() -> Non
     )
     said = compare([gears, fast]).evaluation()
     assert said.count("travels 360°") == 2
+
+
+PRESS = """
+format: 1
+name: NAME
+gravity: [0 m/s², 0 m/s²]
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: CRANK}
+  rod: {points: [A, B], length: 0.5 m}
+  ram: {points: [B]}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 2 kN,
+    phase: {moving: guide, direction: increasing}}
+"""
+
+
+def test_the_evaluation_of_two_presses_is_what_the_closed_forms_say() -> None:
+    """In line, rod without mass, F on the way out: T = F ds/dφ, guide F tan β, sin β = λ sin φ, J = ΔE/(δ ω²)."""
+    sizes = {"short": 0.1, "long": 0.2}
+    turn = np.linspace(np.pi, 2 * np.pi, 200_001)  # the way out
+    lines: dict[str, list[str]] = {"motion": [], "pivot": [], "torque": [], "flywheel": []}
+    for label, r in sizes.items():
+        share = r / 0.5
+        leaning = np.arcsin(share * np.sin(turn))
+        torque = 2e3 * -r * (np.sin(turn) + np.cos(turn) * np.tan(leaning))
+        work = 2e3 * 2 * r
+        mean = work / (2 * np.pi)
+        way = 10 * r * np.abs(np.sin(turn) + np.cos(turn) * np.tan(leaning)).max()
+        excess = np.concatenate(
+            [[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 - mean) * (turn[1] - turn[0])]
+        )
+        energy = np.ptp(np.append(excess, excess[-1] - mean * np.pi))
+        lines["motion"].append(
+            f"in {label} the output guide travels {2e3 * r:.4g} mm, at most {way:.4g} m/s fast, "
+            f"with accelerations up to {100 * r * (1 + share):.4g} m/s²"
+        )
+        lines["pivot"].append(
+            f"pivot guide of {label} carries at most {2e3 * share / np.sqrt(1 - share**2):.4g} N "
+            "(at input 270°, direction -90°) and at least 0 N"
+        )
+        root = np.sqrt((torque**2).mean() / 2)
+        lines["torque"].append(
+            f"that of {label} lies between 0 N·m and {torque.max():.4g} N·m, root mean square {root:.4g} N·m; "
+            "found from the joint forces and from the powers it agrees within"
+        )
+        lines["flywheel"].append(
+            f"{label} has an energy fluctuation of {energy:.4g} J at a mean power of {10 * mean:.4g} W and needs "
+            f"{energy / (0.05 * 100):.4g} kg·m²"
+        )
+    machines = [loads(PRESS.replace("NAME", label).replace("CRANK", f"{r} m")) for label, r in sizes.items()]
+    found = compare(machines, fluctuation=0.05)
+    said = found.evaluation().splitlines()
+    assert said[0] == f"Motion: {'; '.join(lines['motion'])}."
+    assert said[1] == f"Pivot reaction: {'; '.join(lines['pivot'])}."
+    assert (
+        said[3] == f"Flywheel on the crank for a speed fluctuation of 0.05: {'; '.join(lines['flywheel'])}."
+    )
+    parts = said[2].removeprefix("Balancing torque: ").split("; that of ")
+    for part, whole in zip(parts, lines["torque"], strict=True):
+        told, gap = part.removeprefix("that of ").rstrip(".").rsplit("within ", 1)
+        assert told == whole.removeprefix("that of ").removesuffix("within")[: len(told)]
+        assert float(gap.split()[0]) < 1e-9 and gap.endswith(" N·m")
+
+
+PUSHER = """
+format: 1
+name: NAME
+gravity: [0 m/s², 0 m/s²]
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  slide: {points: [B]}
+  rod: {points: [B, A], length: 0.5 m}
+  lever: {points: [O, A], length: LEVER}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: B}}
+drawing: {A: [0 m, 0.3 m], B: [0.4 m, 0 m]}
+driver: {slide: guide, speed: 0.1 m/s, start: 0.3 m}
+cycle: {duration: 2 s}
+loads: {work: {kind: torque, on: lever, magnitude: 60 N·m}}
+"""
+
+
+def test_presses_that_a_cylinder_drives_are_compared_by_forces() -> None:
+    """Triangle O A B: cos φ = (x² + r² - l²)/(2 x r), and the cylinder's force F = -M dφ/dx from 0.3 to 0.5 m."""
+    sizes = {"stiff": 0.3, "soft": 0.25}
+    machines = [loads(PUSHER.replace("NAME", a).replace("LEVER", f"{r} m")) for a, r in sizes.items()]
+    found = compare(machines, metrics=["peak_input_torque", "travel"], steps=720)
+    x = np.linspace(0.3, 0.5, 20_001)
+    said = found.evaluation().splitlines()
+    for label, r in sizes.items():
+        angle = np.arccos((x**2 + r**2 - 0.25) / (2 * x * r))
+        force = -60 * np.gradient(angle, x, edge_order=2)
+        assert found.value("peak_input_torque", label) == pytest.approx(np.abs(force).max(), rel=1e-6)
+        assert found.value("travel", label) == pytest.approx(np.ptp(angle), rel=1e-9)
+        root = np.sqrt((force**2).mean())
+        ends = f"between {force.min():.4g} N and {force.max():.4g} N"
+        assert f"that of {label} lies {ends}, root mean square {root:.4g} N;" in said[2]
+        rod = np.abs(force) / ((x**2 + 0.25 - r**2) / (2 * x * 0.5))  # along it, from its lean to the guide
+        most = int(rod.argmax())
+        assert (
+            f"pivot O of {label} carries at most {rod[most]:.4g} N (at input {1e3 * x[most]:.4g} mm"
+            in said[1]
+        )
+        assert f"for {label} there is none to lay out" in said[3]
+    assert [row.dimension for row in found.rows] == ["force", "angle"]
+    told = "; ".join(
+        f"{a}: a flywheel and the speed over the cycle need one turning driver; '{a}' has another kind or number"
+        for a in sizes
+    )
+    with pytest.raises(lw.LinkwrightError) as refused:
+        compare(machines, metrics=["flywheel", "travel"], steps=24)
+    assert str(refused.value) == f"'flywheel' does not apply to any of the alternatives: {told}"
+
+
+def test_three_machines_of_one_name_are_numbered() -> None:
+    gears = lw.load("gallery:external_gear_pair")
+    second = replace(gears, name=f"{gears.name} (2)")
+    assert compare([second, gears, gears], metrics=["velocity_ratio"], steps=12).labels == (
+        second.name,
+        gears.name,
+        f"{gears.name} (3)",
+    )
+    found = compare([gears, gears, gears], metrics=["velocity_ratio"], steps=12)
+    assert found.labels == (gears.name, f"{gears.name} (2)", f"{gears.name} (3)")
+    assert [found.value("velocity_ratio", k) for k in range(3)] == pytest.approx([-0.5] * 3)
+    assert found.ranking and not found.judged and {rank.score for rank in found.ranking} == {1.0}
+    assert "None of the metrics has a better direction, so there is no ranking." in found.text()

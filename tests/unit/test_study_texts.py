@@ -167,3 +167,36 @@ def test_the_table_of_a_comparison_marks_the_best_and_says_what_decided() -> Non
     assert [each["weight"] for each in data["metrics"]] == [3.0, 1.0, 1.0]
     assert data["metrics"][0]["best"] == [list(lengths)[int(np.argmax(angles))]]
     assert [each["label"] for each in data["ranking"]] == [list(lengths)[k] for k in order]
+
+
+def test_a_table_of_one_row_and_notes_in_the_readers_language(study: lw.Study) -> None:
+    first = study.text(rows=1).split("\n\n")[1].splitlines()
+    assert [cells(line)[0] for line in first] == ["no.", "0", first[2]] and "(1 of 14 designs" in first[2]
+    idle = lw.study(
+        lw.load("gallery:jaw_crusher_fourbar"),
+        {"loads.crushing.ramp.1": [80e3, 0.0]},
+        metrics=["flywheel"],
+        steps=72,
+    )
+    assert np.isfinite(idle["flywheel"]).tolist() == [True, False]
+    name = idle.mechanism.name
+    assert idle.text().endswith(
+        f"\n\n{name}: the mean torque over its cycle is zero, so no work is done and there is no flywheel to lay out"
+    )
+    assert "mean torque" not in idle.text("zh") and idle.text("zh").splitlines()[-1].startswith(f"{name}：")
+
+
+def test_designs_barred_between_two_positions_are_said_to_be() -> None:
+    """Below a rocker of 0.7 m a gap opens where A comes to 0.2 m of O2; five steps go past it."""
+    machine = lw.load("tests/reference/faults/gap_between_samples.yaml")
+    found = lw.study(machine, {"rocker.length": [0.69, 0.72, 0.695]}, metrics=["B.velocity max"], steps=5)
+    assert found.ok.tolist() == [False, True, False]
+    failed = found.text().split("Designs that fail\n")[1]
+    assert failed.startswith("2 between two positions; the first: ") and "short stretch" in failed
+    assert "2 个在两个位置之间失败；第一个：" in found.text("zh")
+    with pytest.raises(lw.LinkwrightError) as none:
+        lw.study(machine, {"rocker.length": [0.69, 0.695]}, metrics=["B.velocity max"], steps=5)
+    assert str(none.value).startswith(
+        "none of the 2 designs can pass its cycle: 2 fail between two positions, such as: "
+    )
+    assert str(none.value).endswith("; widen or move the ranges")

@@ -38,6 +38,6 @@ def shown(value: float, dimension: str, digits: int = 6) -> str:
 
 
 def number(value: float, dimension: str, digits: int = 6) -> str:
-    """The number alone, in the shown unit."""
+    """The number alone, in the shown unit; zero without a sign."""
     factor = SHOWN[dimension][1] if dimension in SHOWN else 1.0
-    return f"{value * factor:.{digits}g}"
+    return f"{value * factor + 0.0:.{digits}g}"

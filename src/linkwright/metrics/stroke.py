@@ -41,6 +41,5 @@ class SwingAngle(Stroke):
     """Angle between the outermost positions of every link that swings about the frame, rad."""
 
     name = "swing_angle"
-    rank = 1
     dimension = "angle"
     kind = "angle"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
+from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
@@ -146,8 +147,8 @@ def _labels(machines: Sequence[Mechanism]) -> list[str]:
     """Names of the machines, numbered where they are the same."""
     found: list[str] = []
     for machine in machines:
-        same = sum(1 for name in found if name == machine.name or name.startswith(f"{machine.name} ("))
-        found.append(f"{machine.name} ({same + 1})" if same else machine.name)
+        numbered = (f"{machine.name} ({k})" for k in count(2))
+        found.append(next(name for name in chain([machine.name], numbered) if name not in found))
     return found
 
 

@@ -15,6 +15,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.one_by_one import changes_of, sentence_of
 from linkwright.study.traced import Traced
+from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +38,13 @@ class Failure:
     def count(self) -> int:
         """How many designs fail in this way."""
         return len(self.designs)
+
+    @property
+    def place(self) -> Sentence:
+        """Where they fail: at a group, between two positions, or by what is asked of them."""
+        if self.group is not None:
+            return Sentence("study.at_group", group=tuple(self.group.split("+")))
+        return Sentence("study.between_positions" if self.kind == "barred" else "study.by_loads")
 
 
 def explained(

@@ -254,7 +254,7 @@ class _Work:
 
     def study(self, ranges: tuple[Range, ...], sampling: str) -> Study:
         summaries = [each.name for each in self.asked if is_summary(each.name)]
-        probe = summaries or ["closeness min"] if self._closed() else summaries or [self._any_output()]
+        probe = summaries or ["closeness min" if self._closed() else self._any_output()]
         found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps)
         for name in summaries:
             summary = next(s for s in found.summaries if s.name == name or f"{s.output}.{s.kind}" == name)
@@ -357,16 +357,8 @@ def _output(mechanism: Mechanism, name: str | None) -> Output:
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:
     told = [
         Sentence(
-            "study.fails" if f.count == 1 else "study.fail", count=f.count, place=_place(f), example=f.example
+            "study.fails" if f.count == 1 else "study.fail", count=f.count, place=f.place, example=f.example
         )
         for f in failures
     ]
     return Sentence("study.none_passes", count=count, told=told)
-
-
-def _place(failure: Failure) -> str:
-    return (
-        Sentence("study.at_group", group=tuple(failure.group.split("+")))
-        if failure.group
-        else Sentence("study.by_loads")
-    )

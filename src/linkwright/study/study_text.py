@@ -30,7 +30,8 @@ def report(study: Study, language: str, rows: int) -> list[str]:
         lines += ["", say("study.best"), *best]
     if study.failures:
         lines += ["", say("study.failed"), *(_failure(each, say, language) for each in study.failures)]
-    return [*lines, *([""] if study.notes else []), *study.notes]
+    notes = [in_language(note, language) for note in study.notes]
+    return [*lines, *([""] if notes else []), *notes]
 
 
 def _table(study: Study, language: str, rows: int, say: Say) -> list[str]:
@@ -54,7 +55,7 @@ def _chosen(designs: int, rows: int) -> list[int]:
     """Evenly chosen numbers, the first and the last among them."""
     if designs <= rows:
         return list(range(designs))
-    return sorted({round(i * (designs - 1) / (rows - 1)) for i in range(rows)})
+    return sorted({round(i * (designs - 1) / max(rows - 1, 1)) for i in range(rows)})
 
 
 def _heading(study: Study, name: str, language: str) -> str:
@@ -81,8 +82,5 @@ def _best(study: Study, language: str, say: Say) -> list[str]:
 
 
 def _failure(failure: Failure, say: Say, language: str) -> str:
-    example = in_language(failure.example, language)
-    if failure.group is None:
-        return say("study.failed_otherwise", count=failure.count, example=example)
-    group = failure.group.replace("+", say("finding.comma"))
-    return say("study.failed_at", count=failure.count, group=group, example=example)
+    place, example = in_language(failure.place, language), in_language(failure.example, language)
+    return say("study.failed_at", count=failure.count, place=place, example=example)

@@ -33,8 +33,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "best": "Best designs",
     "best_of": "{name}: {value} in design {number} ({place})",
     "failed": "Designs that fail",
-    "failed_at": "{count} at the group ({group}); the first: {example}",
-    "failed_otherwise": "{count} by loads or metrics; the first: {example}",
+    "failed_at": "{count} {place}; the first: {example}",
     "no_work": "{label}: the mean torque over its cycle is zero, so no work is done and there is no flywheel "
     "to lay out",
     "two_or_more": "a comparison needs two or more alternatives; give a list of mechanisms or files",
@@ -131,7 +130,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "does_not_apply": "{name!r} does not apply to {mechanism!r}",
     "none_passes": "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
     "at_group": "at the group ({group})",
-    "by_loads": "by its loads or metrics",
+    "between_positions": "between two positions",
+    "by_loads": "by loads or metrics",
     "no_summary": "{output!r}: there is no summary {kind!r}; {hint}",
     "angle_summary": "{name!r}: an angle has {kinds} in a study; take one of these, or the mean or rms of "
     "its rate",
