@@ -12,6 +12,7 @@ import linkwright as lw
 from linkwright.errors import RequestError
 from linkwright.study import sensitivity, sweep
 from linkwright.study.compare import compare
+from linkwright.study.ranges import parse_range
 from linkwright.study.study import study
 
 SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
@@ -65,6 +66,43 @@ def test_what_a_study_cannot_vary(vary: dict[str, Any], words: list[str]) -> Non
 def test_every_number_needs_its_unit(address: str, given: str, unit: str) -> None:
     text = said(lambda: study(lw.load(SIX), {address: given}, metrics=["travel"]))
     assert address in text and text.endswith(f"such as {unit}")
+
+
+@pytest.mark.parametrize(
+    ("model", "address", "given", "kind", "unit"),
+    [
+        ("external_gear_pair", "mesh.module", "2..4", "a length", "m"),
+        ("external_gear_pair", "mesh.pressure_angle", "20..25 kg", "an angle", "rad"),
+        ("external_gear_pair", "mesh.teeth.0", "20..30 mm", "a dimensionless number", ""),
+        ("shaper_quick_return", "slot.offset", "1..2", "a length", "m"),
+        ("shaper_quick_return", "guide.direction", "1..2", "an angle", "rad"),
+        ("swing_conveyor", "loads.resistance.phase.input.0", "30..60", "an angle", "rad"),
+        ("wedge", "cycle.duration", "1..2", "a time", "s"),
+    ],
+)
+def test_numbers_of_joints_loads_and_cycles_need_their_units(
+    model: str, address: str, given: str, kind: str, unit: str
+) -> None:
+    """All that a model declares: 20 as a pressure angle is not taken for 20 rad."""
+    text = said(lambda: parse_range(lw.load(f"gallery:{model}"), address, given))
+    has = f"it has the unit {given.split()[1]}" if " " in given else "it has no unit"
+    remedy = f"with a unit such as {unit}" if unit else "without a unit"
+    assert text == f"{address}={given}: this is {kind}, but {has}; write it {remedy}"
+
+
+def test_a_pin_s_radius_is_a_length_and_its_friction_a_number() -> None:
+    text = lw.dump(machine()).replace(
+        "driver:", "joints: {B: {kind: revolute, pin_radius: 2 cm, friction: 0.1}}\ndriver:"
+    )
+    rubbing = lw.loads(text)
+    assert parse_range(rubbing, "B.pin_radius", "10..30 mm:3").values == pytest.approx([0.01, 0.02, 0.03])
+    assert parse_range(rubbing, "B.friction", "0.1..0.2:2").values.tolist() == [0.1, 0.2]
+    assert "this is a length, but it has no unit" in said(
+        lambda: parse_range(rubbing, "B.pin_radius", "10..30")
+    )
+    assert "it has the unit mm; write it without a unit" in said(
+        lambda: parse_range(rubbing, "B.friction", "1 mm")
+    )
 
 
 def test_bounds_that_make_no_design_movable() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.study.criteria import criterion
 from linkwright.study.ranges import parse_range
 from linkwright.study.study import study
 
@@ -137,3 +138,27 @@ driver: {turn: crank, about: O, speed: 10 rad/s}
 """
     found = study(lw.loads(text), {"r": "40..60 mm:3", "ratio": "3, 5"}, metrics=["stroke"])
     assert found["stroke"] == pytest.approx(2 * found["r"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("better", "names"),
+    [
+        ("lower", "reaction B on rocker max, couple g on b max, shaking_force rms, shaking_moment peak"),
+        ("lower", "input_torque rms, power max, load push range, driver.effort peak, B.acceleration max"),
+        ("lower", "rocker.angular_acceleration peak, travel_force.effort rms, peak_reaction, flywheel"),
+        ("higher", "closeness min, transmission_angle B min, transmission_angle"),
+        (None, "closeness max, transmission_angle B max, closeness argmin, driver.effort argmax"),
+        (None, "B.x max, B.velocity max, rocker.angle range, driver.effort mean, driver.effort min, travel"),
+    ],
+)
+def test_which_direction_is_better(better: str | None, names: str) -> None:
+    """Of forces, powers and accelerations their sizes, of nearness to singular positions its least; else neither."""
+    for name in names.replace("", "").split(", "):
+        assert criterion(name).better == better, name
+
+
+def test_the_words_of_what_is_measured() -> None:
+    assert criterion("travel").label() == "travel of the output"
+    assert criterion("peak_reaction O5").label() == "peak reaction, O5"
+    assert criterion("peak_reaction").label("zh") != criterion("peak_reaction").label()
+    assert criterion("B.velocity max").label("zh") == "B.velocity max"

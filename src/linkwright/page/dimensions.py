@@ -41,12 +41,13 @@ def geometry_addresses(mechanism: Mechanism) -> list[str]:
     for link in (mechanism.frame, *mechanism.links.values()):
         found += link.geometry_dimensions()
     for joint in mechanism.joints.values():
-        found += [address for address in joint.dimensions() if dimension_of(mechanism, address) in _PLACING]
+        found += [address for address in joint.dimensions() if address.rpartition(".")[2] in _PLACING]
     free = [address for address in found if address not in mechanism.expressions]
     return [*(name for name in mechanism.parameters if name not in mechanism.expressions), *free]
 
 
-_PLACING = (units.DIMENSIONS["length"], units.DIMENSIONS["angle"])
+#: What of a joint places a guide or a link.
+_PLACING = ("offset", "direction", "block_angle", "angle")
 
 
 def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:

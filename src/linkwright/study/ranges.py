@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError, RequestError
+from linkwright.fields.base import Field
+from linkwright.fields.signals import InputPhase
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
@@ -22,13 +24,14 @@ USUAL_COUNT = 11
 _RANGE = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+?)(?:\s*:\s*(?P<count>[^:]+))?$")
 _QUANTITY = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 _LAST = {
+    "x": "length",
+    "y": "length",
     "length": "length",
+    "lengths": "length",
     "mass": "mass",
     "inertia": "inertia",
-    "angle": "angle",
     "direction": "angle",
-    "block_angle": "angle",
-    "offset": "length",
+    "teeth": "dimensionless",
 }
 
 
@@ -121,11 +124,11 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
         return
     kind = units.unit(unit)[1] if unit else units.NONE
     if kind != expected:
-        need = units.name_of(expected)
-        example = units.si_symbol(expected)
+        need, example = units.name_of(expected), units.si_symbol(expected)
         told = Sentence("study.has_unit", unit=unit) if unit else Sentence("study.has_no_unit")
+        write = Sentence("study.with_unit" if example else "study.without_unit", example=example)
         raise RequestError(
-            Sentence("study.wrong_unit", address=address, text=text, need=need, told=told, example=example)
+            Sentence("study.wrong_unit", address=address, text=text, need=need, told=told, write=write)
         )
 
 
@@ -138,16 +141,23 @@ def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:
     name = _owned(mechanism, parts)
     if name is None:
         last = parts[-2] if parts[-1] in ("0", "1") else parts[-1]
-        name = {"lengths": "length", "x": "length", "y": "length"}.get(last) or _LAST.get(last)
-    return None if name is None or name not in units.DIMENSIONS else units.DIMENSIONS[name]
+        name = _LAST.get(last)
+    return None if name is None else units.DIMENSIONS[name]
 
 
 def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
-    """The dimension of a number of a driver, a load, the cycle or gravity; None for another one."""
+    """The dimension of a number of a joint, a driver, a load, the cycle or gravity; None for another one."""
     if parts[0] == "gravity":
         return "acceleration"
     if parts[0] == "loads":
-        return _of_load(mechanism, parts[1], parts[2:])
+        load = mechanism.loads[parts[1]]
+        phase = getattr(load, "phase", None)
+        if isinstance(phase, InputPhase) and parts[2] == "phase":
+            return phase.across
+        return _declared(load.fields(), parts[2])
+    joint = mechanism.joints.get(parts[0])
+    if joint is not None and ".".join(parts) in joint.dimensions():
+        return _declared(joint.fields(), parts[1])
     driver = mechanism.drivers.get(parts[0])
     if driver is None and parts[0] != "cycle":
         return None
@@ -165,10 +175,7 @@ def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
     return kinds.get(parts[-1])
 
 
-def _of_load(mechanism: Mechanism, name: str, field: list[str]) -> str | None:
-    """The declared dimension of a load's field."""
-    for own, each in mechanism.loads[name].fields().items():
-        if (each.key or own) == field[0]:
-            found = getattr(each, "dimension", None)
-            return found if isinstance(found, str) else None
-    return None
+def _declared(fields: Mapping[str, Field], key: str) -> str | None:
+    """The declared dimension of a field by its key in files; None for one that declares none."""
+    found = next((each for own, each in fields.items() if (each.key or own) == key), None)
+    return getattr(found, "dimension", None)
