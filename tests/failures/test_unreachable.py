@@ -158,3 +158,49 @@ def test_guides_that_become_parallel_bar_the_way(steps: int) -> None:
         assert any("become parallel" in note and "cannot pass" in note for note in motion.notes)
     with pytest.raises(lw.LinkwrightError):
         lw.solve_motion(mechanism, steps=steps)
+
+
+TRIAD = """
+format: 1
+frame: {points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm], O3: [300 mm, 200 mm]}}
+links:
+  crank: {points: [O1, A], length: 50 mm}
+  coupler: {points: [A, B], length: 180 mm, also: {C: [110 mm, 70 mm]}}
+  rocker: {points: [O2, B], length: 130 mm}
+  bar: {points: [C, D], length: 190 mm}
+  output: {points: [O3, D], length: 140 mm}
+drawing: {A: [-47.0 mm, 17.1 mm], B: [114.0 mm, 97.5 mm], C: [20.1 mm, 128.9 mm], D: [168.4 mm, 247.7 mm]}
+driver: {turn: output, about: O3, speed: SPEED rad/s, start: START deg}
+cycle: {duration: 0.3 s}
+"""
+#: The largest angle of the output that the crank gives, to 1e-9 rad.
+FOLD = 3.215568041626
+
+
+def triad(start: float, speed: float = 1.0) -> Mechanism:
+    return lw.loads(TRIAD.replace("START", f"{start}").replace("SPEED", f"{speed}"))
+
+
+@pytest.mark.parametrize(
+    ("beyond", "kind"),
+    [(1e-7, "singular"), (9e-7, "singular"), (1.2e-6, "unreachable"), (0.2, "unreachable")],
+)
+def test_a_position_on_the_limit_of_a_triad_is_singular_and_beyond_it_the_limit_is_said(
+    beyond: float, kind: str
+) -> None:
+    motion = lw.solve_motion(triad(160), at=[2.4, FOLD + beyond, 2.5], failures="mark")
+    assert motion.ok.tolist() == [True, False, True]
+    found = motion.outcomes[1]
+    assert found.kind == kind and not found.ok
+    assert found.group == "crank+coupler+rocker+bar"
+    assert (f"driver = {degrees(FOLD):.6g}°" in found.sentence) == (kind == "unreachable")
+
+
+def test_a_cycle_that_begins_out_of_reach_is_not_followed_at_all() -> None:
+    motion = lw.solve_motion(triad(190, -1.0), steps=6, failures="mark")
+    assert not motion.ok.any()
+    first, *others = motion.outcomes
+    assert f"driver = {degrees(FOLD):.6g}°" in first.sentence
+    for each in others:
+        assert (each.kind, each.group, each.ok) == ("unreachable", first.group, False)
+        assert "out of reach or beyond a singular position" in each.sentence

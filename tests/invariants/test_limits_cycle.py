@@ -12,7 +12,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.kinematics.limits import LimitPosition, limit_positions
+from linkwright.kinematics.limits import LimitPosition, _zero, limit_positions
 from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
@@ -293,3 +293,48 @@ def test_a_way_back_of_less_than_a_ten_millionth_is_no_reversal(excess: float, c
     expected = [side, 1.0 - side, 1.0 + side, 2.0 - side] if count == 4 else [side, 2.0 - side]
     assert [each.time for each in found] == pytest.approx(expected, abs=1e-9)
     assert [each.kind for each in found] == ["min", "max"] * (count // 2)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("first", "apart", "third"),
+    [(0.91, 0.06, 1.7), (0.905, 0.09, 0.3), (0.95, 0.01, 1.13), (0.93, 0.03, 0.86), (0.901, 0.02, -2.0),
+     (0.97, 0.025, 1.03), (0.942, 0.055, 40.0)],
+)  # fmt: skip
+def test_two_reversals_of_a_rate_that_is_a_cubic_are_always_found(
+    first: float, apart: float, third: float, sign: float
+) -> None:
+    """Two zeros between the positions at 0.9 s and 1 s, one elsewhere, of which those within the cycle count."""
+    zeros = sorted([first, first + apart, third])
+    rate = np.polynomial.Polynomial.fromroots(zeros) * sign
+    terms = " + ".join(f"({c!r})*(t/(1 s))^{k + 1}/{k + 1}" for k, c in enumerate(map(float, rate.coef)))
+    found = limit_positions(lw.solve_motion(driven(f'position: "1 m*({terms})"'), steps=20), "guide")
+    assert [each.time for each in found] == pytest.approx([t for t in zeros if 0.0 < t < 2.0], abs=1e-9)
+    bent = rate.deriv()
+    assert [each.kind for each in found] == ["max" if bent(each.time) < 0.0 else "min" for each in found]
+
+
+@pytest.mark.parametrize("least", [1e-7, 0.01, 0.3])
+def test_a_rate_that_comes_near_to_zero_between_two_positions_is_none(least: float) -> None:
+    law = f'position: "1 m*((t/(1 s) - 0.96)^3/3 + {least * 1e-3}*t/(1 s))"'
+    assert limit_positions(lw.solve_motion(driven(law), steps=20), "guide") == ()
+
+
+def test_the_first_guess_of_a_zero_is_the_cubic_of_the_share_over_the_rate() -> None:
+    """Exact where the share is a cubic of the rate, whatever its slopes; the straight line where it leaves 0…1."""
+    random, inside = np.random.default_rng(7), 0
+    for _ in range(60):
+        a, b = random.uniform(-3.0, -0.2), random.uniform(0.2, 3.0)
+        ramp, width = np.polynomial.Polynomial([-a, 1.0]) / (b - a), b - a
+        slopes = random.uniform(0.1, 6.0, 2) / width
+        share = ramp**2 * (3.0 - 2.0 * ramp) + width * (
+            slopes[0] * ramp * (1.0 - ramp) ** 2 - slopes[1] * ramp**2 * (1.0 - ramp)
+        )
+        assert (share(a), share(b)) == (pytest.approx(0.0, abs=1e-12), pytest.approx(1.0, abs=1e-12))
+        assert share.deriv()(np.array([a, b])) == pytest.approx(slopes)
+        exact, straight = float(share(0.0)), -a / width
+        good = 0.0 < exact < 1.0
+        inside += good
+        assert _zero(a, b, *(1.0 / slopes)) == pytest.approx(exact if good else straight, abs=1e-12)
+    assert 30 < inside < 60
+    assert _zero(-1.0, 3.0, 0.0, 1.0) == _zero(-1.0, 3.0, 1.0, 0.0) == 0.25

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, degrees, pi, radians, sqrt
+from math import acos, cos, degrees, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -230,3 +230,80 @@ def test_a_pushed_ram_goes_as_far_as_the_crank_would_take_it(shift: str) -> None
     assert ends(found) == pytest.approx((swing[0], swing[-1]), abs=1e-13)
     assert found.low is not None and found.high is not None
     assert max(found.low.precision, found.high.precision) < 1e-12
+
+
+TRIAD = """
+format: 1
+frame: {points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm], O3: [300 mm, 200 mm]MORE}}
+links:
+  crank: {points: [O1, A], length: 50 mm}
+  coupler: {points: [A, B], length: 180 mm, also: {C: [110 mm, 70 mm]}}
+  rocker: {points: [O2, B], length: 130 mm}
+  bar: {points: [C, D], length: 190 mm}
+  output: {points: [O3, D], length: 140 mm, also: {E: [60 mm, 0 mm]}}
+  LINKS
+drawing: {A: [-47.0 mm, 17.1 mm], B: [114.0 mm, 97.5 mm], C: [20.1 mm, 128.9 mm], D: [168.4 mm, 247.7 mm]}
+ASSEMBLY
+driver: {turn: DRIVEN, position: "START deg + 15 deg*sin(2*pi*t/(2 s))"}
+cycle: {duration: 2 s}
+"""
+
+
+def triad(links: str, more: str, assembly: str, driven: str = "output, about: O3", start: float = 160) -> str:
+    text = TRIAD.replace("LINKS", links).replace("MORE", more).replace("ASSEMBLY", assembly)
+    return text.replace("DRIVEN", driven).replace("START", f"{start}")
+
+
+def turned(radius: float, angle: float) -> tuple[float, float]:
+    """A place at a distance (mm) and an angle (deg) from O3."""
+    return 300 + radius * cos(radians(angle)), 200 + radius * sin(radians(angle))
+
+
+@pytest.mark.parametrize(("frame", "laps"), [(148.0, 0), (172.0, 2), (172.0, -3)])
+def test_a_fold_behind_a_change_point(frame: float, laps: int) -> None:
+    """The output of a triad turns a parallelogram that lines up on one side of the start: nothing but the triad ends
+    the range, in whichever lap it begins."""
+    (x, y), (ex, ey) = turned(90, frame), turned(60, 160)
+    links = "follower: {points: [O4, L], length: 60 mm}\n  link: {points: [L, E], length: 90 mm}"
+    text = triad(links, f", O4: [{x!r} mm, {y!r} mm]", "", start=160 + 360 * laps)
+    drawn = f"L: [{x + ex - 300!r} mm, {y + ey - 200!r} mm], E: [{ex!r} mm, {ey!r} mm]"
+    found = input_range(lw.loads(text.replace("drawing: {", f"drawing: {{{drawn}, ")))
+    exact = np.add(ends(input_range(lw.load("gallery:stephenson_sixbar_triad"))), 2 * pi * laps)
+    assert ends(found) == pytest.approx(tuple(exact), abs=1e-13)
+    for each in (found.low, found.high):
+        assert each is not None and each.how == "is singular" and "crank" in each.group
+        assert np.spacing(abs(each.value)) <= each.precision < 1e-12
+
+
+def tied(end: float, side: int, begin: float = 160) -> Mechanism:
+    """The triad with two bars from D to the frame that are stretched with the output at ``end``, rad."""
+    far = degrees(end) - side * 75
+    x, y = turned(300, far)
+    reach = sqrt(140**2 + 300**2 - 2 * 140 * 300 * cos(radians(75)))
+    links = (
+        f"arm: {{points: [D, F], length: {0.6 * reach!r} mm}}\n"
+        f"  leg: {{points: [O5, F], length: {0.4 * reach!r} mm}}"
+    )
+    return lw.loads(triad(links, f", O5: [{x!r} mm, {y!r} mm]", "assembly: {F: left}", start=begin))
+
+
+@pytest.mark.parametrize(("side", "off"), [(1, -30.0), (1, -0.7), (1, -0.04), (-1, 9.0), (-1, 0.3)])
+def test_a_dyad_before_the_fold_of_a_triad_ends_the_range(side: int, off: float) -> None:
+    """A little before the triad is singular, or long before."""
+    low, high = ends(input_range(lw.load("gallery:stephenson_sixbar_triad")))
+    end = (high if side > 0 else low) + radians(off)
+    found = input_range(tied(end, side, begin=160 if off > -20 else 140))
+    stopped, other = (found.high, found.low) if side > 0 else (found.low, found.high)
+    assert stopped is not None and other is not None
+    assert stopped.value == pytest.approx(end, abs=2e-9)
+    assert abs(stopped.value - end) <= stopped.precision + 1e-12
+    assert "arm, leg" in stopped.group and stopped.how == "is stretched"
+    assert other.value == pytest.approx(low if side > 0 else high, abs=1e-9)
+
+
+@pytest.mark.parametrize("off", [0.2, 0.9, 3.0])
+def test_a_dyad_beyond_the_fold_of_a_triad_does_not(off: float) -> None:
+    low, high = ends(input_range(lw.load("gallery:stephenson_sixbar_triad")))
+    found = input_range(tied(high + radians(off), 1))
+    assert ends(found) == pytest.approx((low, high), abs=1e-9)
+    assert found.high is not None and found.high.how == "is singular" and "crank" in found.high.group

@@ -31,7 +31,7 @@ drivers:
 cycle: {duration: 2 s}
 """
 SLIDE = (
-    "rider: {points: {P: [0 mm, 0 mm], Q: [0 mm, 40 mm]}}",
+    "rider: {points: {P: [4 mm, -7 mm], Q: [4 mm, 33 mm]}}",
     "guide: {kind: prismatic, guide: arm, through: G, direction: 90 deg, block: rider, at: P, block_angle: 90 deg}",
 )
 SWING = ("rider: {points: [A, P], length: 130 mm}", "")

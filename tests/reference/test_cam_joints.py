@@ -233,3 +233,39 @@ def test_a_cam_that_cannot_be_is_refused(old: str, new: str, said: str | None) -
         return
     with pytest.raises(ModelError, match=said):
         lw.loads(text)
+
+
+@pytest.mark.parametrize(
+    ("touch", "radius", "reached"),
+    [("knife", 29.9, False), ("knife", 30.1, True), ("knife", 289.9, True), ("knife", 290.1, False),
+     ("roller", 19.9, False), ("roller", 20.1, True), ("roller", 279.9, True), ("roller", 280.1, False),
+     ("flat", 159.9, True), ("flat", 160.1, False)],
+)  # fmt: skip
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_an_arm_reaches_base_circles_of_some_radii(
+    touch: str, radius: float, reached: bool, side: str
+) -> None:
+    """160 mm from pivot to cam and an arm of 130 mm: an edge or a roller's centre (10 mm) comes as near as 30 mm and
+    as far as 290 mm; a flat face through the pivot touches circles up to the pivot."""
+    text = model(SWINGING, "counterclockwise", touch, "1 deg", SIDE=side, MOMENT="3 N·m")
+    text = text.replace("base_radius: 70 mm", f"base_radius: {radius} mm")
+    if reached:
+        assert lw.loads(text)
+        return
+    with pytest.raises(ModelError, match="does not reach"):
+        lw.loads(text)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("points: [A, P], length: 130 mm", "points: {A: [0 mm, 0 mm], P: [0 mm, 0 mm]}"),
+        ("A: [160 mm, 0 mm]", "A: [0 mm, 0 mm]"),
+    ],
+)
+@pytest.mark.parametrize("touch", ["knife", "flat"])
+def test_an_arm_or_a_distance_of_no_length_does_not_reach(old: str, new: str, touch: str) -> None:
+    text = model(SWINGING, "counterclockwise", touch, "1 deg", SIDE="left", MOMENT="3 N·m")
+    assert old in text
+    with pytest.raises(ModelError, match="does not reach"):
+        lw.loads(text.replace(old, new))

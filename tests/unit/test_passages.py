@@ -333,3 +333,25 @@ def test_guides_become_parallel_between_the_ends_of_an_open_way(begin: float, en
     assert [p.place / steps for p in found] == pytest.approx(
         [(a - begin) / (end - begin) for a in expected], abs=1e-9
     )
+
+
+@pytest.mark.parametrize("steps", [3, 9, 50, 200])
+@pytest.mark.parametrize("start", [-40.0, 85.0, 89.99, 100.0, 271.0, 300.0])
+def test_a_slotted_arm_that_turns_fully_has_its_guides_parallel_twice(start: float, steps: int) -> None:
+    """At 90° and 270°, also between the last position and the first."""
+    mechanism = lw.load("gallery:tangent_mechanism")
+    driver = mechanism.drivers["driver"]
+    law = replace(driver.law, start=np.radians(start))  # type: ignore[type-var]
+    mechanism = replace(mechanism, drivers={"driver": replace(driver, law=law)}, cycle=Cycle(turns=1.0))
+    positions = over_cycle(mechanism, steps)
+    assert positions.closed
+    found = passages(MotionSolver(mechanism), positions, None)
+    expected = sorted(((a - start) % 360.0) / 360.0 * steps for a in (90.0, 270.0))
+    assert [p.kind for p in found] == ["pole", "pole"]
+    assert [p.place for p in found] == pytest.approx(expected, abs=1e-5)
+    assert [np.degrees(p.at) - start for p in found] == pytest.approx(
+        [360 * e / steps for e in expected], abs=1e-4
+    )
+    assert [(p.before, p.after) for p in found] == [
+        (k, (k + 1) % steps) for k in (int(np.ceil(p.place)) - 1 for p in found)
+    ]

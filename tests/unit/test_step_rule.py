@@ -11,9 +11,10 @@ from tests.invariants.test_certificate import SLOTTED
 import linkwright as lw
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.vector import Vec
 from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.cycle import at_times
-from linkwright.kinematics.step_rule import LARGEST, StepRule
+from linkwright.kinematics.step_rule import LARGEST, StepRule, _angle
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.study.traced import Traced
 
@@ -152,3 +153,37 @@ def test_other_signs_and_long_ways_are_refused() -> None:
         change = max(abs(way) for way, _, _ in parts(h, coordinates(h)).values())
         found = evaluated(BEGIN + h, h, before(h))
         assert found["kept"] == float(change < LARGEST and found["margin"] > 0.0)
+
+
+def test_the_sign_that_is_carried_is_that_of_the_assembly() -> None:
+    """Of all assemblies with the crank in one place, found from random starts: each carries the sign of its own
+    Jacobian, of which both come up, whatever the unit in which its determinant is less than 1."""
+    found, _, _ = traced()
+    follower, here = found.solver.follower(), at_times(found.mechanism, [BEGIN])
+    loops, carried = follower.loops, before(0.006)
+    q = np.array([[row[0][0] for row in here.coordinates.values()]])
+    random, signs = np.random.default_rng(5), {}
+    for _ in range(120):
+        start = np.append(
+            random.uniform(-np.pi, np.pi, loops.n) * np.where(loops.scale == 1.0, 1.0, loops.scale), q
+        )
+        y = loops.newton(start, 30)
+        if y is None or not loops.largest(y) < 1e3:
+            continue
+        states = {name: float(row[0]) for name, row in follower.states(y[None, : loops.n], q).items()}
+        given = {**carried, **states, "begun": 0.0}
+        (sign,) = (v for k, v in evaluated(BEGIN, 0.006, given).items() if k.startswith("next sign:"))
+        exact = float(np.linalg.slogdet(loops.jacobian(loops.slopes(loops.turned(y))))[0])
+        signs.setdefault(exact, set()).add(sign)
+    assert sorted(signs) == [-1.0, 1.0]
+    assert sorted(len(each) for each in signs.values()) == [1, 1]
+    assert {abs(s) for each in signs.values() for s in each} == {1.0} and signs[1.0] != signs[-1.0]
+
+
+@pytest.mark.parametrize("turned", [-0.3, -0.02, 1e-4, 0.1, 0.3])
+def test_small_angles_between_directions_are_exact_to_two_millionths(turned: float) -> None:
+    first = np.exp(0.7j)
+    second = first * np.exp(1j * turned)
+    found = _angle(Vec(first.real, first.imag), Vec(second.real, second.imag))
+    assert found == pytest.approx(turned, rel=2e-6)
+    assert LARGEST <= 0.3

@@ -102,3 +102,44 @@ def test_a_rack_is_back_only_with_a_follower_that_swings(lengths: tuple[str, str
     slide = lw.solve_motion(mechanism, times=[0.0, np.pi]).joint("slide").displacement
     assert abs(slide[1] - slide[0]) == pytest.approx(0.0 if turns else 4.0 * np.pi, abs=1e-9)
     assert whole_turns(mechanism, np.pi) == turns
+
+
+ON_AN_ARM = """
+format: 1
+frame: {points: {B: [0 mm, 0 mm]}}
+links:
+  arm: {points: {B: [0 mm, 0 mm], O: [200 mm, 0 mm], A: [360 mm, 0 mm], W: [360 mm, 200 mm]}}
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}}
+  rider: {points: [A, P], length: 130 mm}
+  wheel: {points: {W: [0 mm, 0 mm], V: [20 mm, 0 mm]}}
+joints:
+  lobe: {kind: cam, cam: cam, follower: rider, at: P, touch: knife, side: left, base_radius: 70 mm,
+    program: [{rise: 15 deg, over: 180 deg, law: cycloidal}, {fall: 15 deg, over: 180 deg, law: cycloidal}]}
+  mesh: {kind: gear, links: [rider, wheel], ratio: -0.2, carrier: arm}
+drivers:
+  swing: {turn: arm, about: B, speed: 1 rad/s}
+  spin: {turn: cam, about: O, relative_to: arm, speed: 3 rad/s}
+"""
+
+
+def test_what_a_cam_swings_on_a_turning_arm_gains_the_arms_turn() -> None:
+    """Once round the rider has turned once, with the arm, and so has a wheel of a fifth on the arm."""
+    assert whole_turns(lw.loads(ON_AN_ARM), 2 * np.pi) == 1
+
+
+def test_a_rack_that_a_cam_pushes_is_back_with_the_cam() -> None:
+    text = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm], G: [0 mm, 0 mm], Q: [30 mm, 300 mm]}}
+links:
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}}
+  rack: {points: {P: [0 mm, 0 mm], R: [0 mm, 200 mm]}}
+  pinion: {points: {Q: [0 mm, 0 mm], V: [20 mm, 0 mm]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: rack, at: P, block_angle: 90 deg}
+  lobe: {kind: cam, cam: cam, follower: rack, at: P, touch: flat, base_radius: 50 mm,
+    program: [{rise: 9 mm, over: 180 deg, law: cycloidal}, {fall: 9 mm, over: 180 deg, law: cycloidal}]}
+  mesh: {kind: rack, pinion: pinion, rack: rack, through: R, radius: 30 mm}
+driver: {turn: cam, about: O, speed: 1 rad/s}
+"""
+    assert whole_turns(lw.loads(text), 2 * np.pi) == 1

@@ -53,11 +53,11 @@ class Geometry:
         line = centre - complex(*carrier[joint.holder])
         arm = at - complex(*mechanism.link(joint.follower).points[joint.holder])
         c, length = abs(line), abs(arm)
-        if not c or not length:
-            return cls(0.0, 0.0, 0.0, 1.0, -1.0)
         flat = joint.touch == "flat"
-        share = radius / c if flat else (c * c + length**2 - radius**2) / (2 * c * length)
-        start = (math.asin(share) if flat else math.acos(share)) if abs(share) < 1 else 0.0
+        reached, whole = (radius, c) if flat else (c * c + length**2 - radius**2, 2 * c * length)
+        share = reached / whole if c and length else math.inf
+        met = min(max(share, -1.0), 1.0)
+        start = math.asin(met) if flat else math.acos(met)
         return cls(cmath.phase(line), cmath.phase(arm), start, c if flat else length, 1.0 - abs(share))
 
     @classmethod

@@ -228,7 +228,7 @@ class WheelPair(HigherPair):
         i = self.transmission
         a, b, c = self.turning
         theta = {link: places[link].angle for link in (a, b, c)}
-        gap = i * (theta[a] - theta[c]) - (theta[b] - theta[c]) + (self.phase or 0.0)
+        gap = i * (theta[a] - theta[c]) - (theta[b] - theta[c])
         factors = {a: i, b: -1.0, c: 1.0 - i}
         yield system.kept(self.name, gap, {link: (0.0, 0.0, each) for link, each in factors.items()})
 

@@ -144,7 +144,7 @@ class _Step:
         fourth = self.reach @ e4 + self.slid @ (
             4.0 * self.s1 * e3[owner] + 6.0 * self.s2 * e2[owner] + 4.0 * self.s3 * w[owner]
         )
-        deviation = self.reach @ self.off_turn + self.slid @ (self.off_slide * (1.0 + self.off_turn[owner]))
+        deviation = self.reach @ self.off_turn + self.slid @ self.off_slide
         found: Floats = self.spread @ (self.h**4 / 384.0 * fourth + deviation + self._ends() + 1e-15)
         return found
 

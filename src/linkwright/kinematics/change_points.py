@@ -208,14 +208,18 @@ class _Search:
     def way(self) -> Way:
         return way(self.base, self.positions)
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The first and the last place."""
+        return (-np.inf, np.inf) if self.positions.closed else (0.0, self.positions.count - 1.0)
+
     def found(self) -> list[Passage]:
         groups = modal(self.base.motion)
         names = tuple(name for group in groups for name in measures(self.base.motion, group))
         if not names:
             return self._poles()
-        whole = np.arange(float(self.positions.count))
-        rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
-        blocked = np.zeros(len(whole), dtype=bool)
+        rows = dict(zip(names, self._evaluate(names), strict=True))
+        blocked = np.zeros(self.positions.count, dtype=bool)
         for group in groups:
             blocked = blocked | ~(rows[f"quality:{group}"] > -TOUCH)
             new = [replace(p, flips=self._flips(p, blocked)) for p in self._of_group(group, rows)]
@@ -224,7 +228,7 @@ class _Search:
                 self.flipping[group] = touching
                 many = len(self.flipping) >= MANY
                 self.solver = self.base.with_flips(groups if many else self.flipping)
-                rows = dict(zip(names, self._evaluate(names, whole, at_positions=True), strict=True))
+                rows = dict(zip(names, self._evaluate(names), strict=True))
         return self.passing + self._poles()
 
     def found_between(self) -> list[Passage]:
@@ -243,14 +247,11 @@ class _Search:
 
     def _stretches(self) -> list[Passage]:
         """Where a dyad cannot be assembled though it can at both positions beside."""
-        whole = np.arange(float(self.positions.count))
-        codes = self._evaluate(("outcome",), whole, at_positions=True)[0]
-        good = codes == 0.0
-        asked = good[:: self.parts]
-        asked = np.append(asked, asked[:1]) if self.positions.closed else asked
+        (codes,) = self._evaluate(("outcome",))
+        asked = codes[:: self.parts] == 0.0
         groups = list(self.base.motion.placed.values())
         found = []
-        for i in np.flatnonzero(asked[:-1] & asked[1:]):
+        for i in np.flatnonzero(asked & np.roll(asked, -1)):  # of an open way nothing lies behind the last
             inner = codes[i * self.parts + 1 : (i + 1) * self.parts]
             for k in np.flatnonzero(inner > 0.0)[:1]:
                 group = groups[int(inner[k]) - 1]
@@ -274,9 +275,10 @@ class _Search:
         if not slides:
             return []
         names = tuple(f"fact:{name}|sine" for name in slides)
-        rows = self._evaluate(names, np.arange(float(self.positions.count)), at_positions=True)
         size, found = mechanism_size(self.base.mechanism), []
-        for (group, displacements), name, row in zip(slides.items(), names, rows, strict=True):
+        for (group, displacements), name, row in zip(
+            slides.items(), names, self._evaluate(names), strict=True
+        ):
             for place in self._crossings(name, row):
                 beside = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
                 if not (np.abs(np.diff(beside)) < size).all():
@@ -286,8 +288,8 @@ class _Search:
     def _crossings(self, name: str, row: Floats) -> list[float]:
         """Places where a sine changes its sign, between two positions or, going and coming back, beside one."""
         sign = np.where(np.isfinite(row), np.where(row < 0.0, -1.0, 1.0), 0.0)
-        following = np.append(sign[1:], sign[0] if self.positions.closed else sign[-1])
-        change = np.flatnonzero(sign * following < 0.0)
+        ring = np.append(sign, sign[:1]) if self.positions.closed else sign
+        change = np.flatnonzero(ring[:-1] * ring[1:] < 0.0)
         places = [self._crossing(name, float(i), i + 1.0) for i in change]
         for low, high in self._valleys(np.abs(row), NEAR**0.5):
             if not np.isin(np.arange(low, high) % len(row), change).any():
@@ -342,15 +344,14 @@ class _Search:
 
     def _valleys(self, row: Floats, near: float) -> list[tuple[float, float]]:
         """Stretches around a position with a small, locally smallest value."""
-        n, closed = len(row), self.positions.closed
-        infinite = np.array([np.inf])
+        closed, infinite = self.positions.closed, np.array([np.inf])
         left = np.concatenate([row[-1:] if closed else infinite, row[:-1]])
         right = np.concatenate([row[1:], row[:1] if closed else infinite])
         with np.errstate(invalid="ignore"):
             rises = [np.where(np.isfinite(side), side - row, 0.0) for side in (left, right)]
         small = (row > -TOUCH) & (row < np.maximum(near, np.maximum(*rises)))
         lowest = small & ~(left < row) & ~(right <= row)
-        first, last = (-1.0, float(n)) if closed else (0.0, n - 1.0)
+        first, last = self.ends
         return [(max(i - 1.0, first), min(i + 1.0, last)) for i in np.flatnonzero(lowest)]
 
     def _lowest(self, name: str, low: float, high: float, sign: float = 1.0) -> tuple[float, float]:
@@ -364,7 +365,7 @@ class _Search:
 
     def _centred(self, name: str, place: float) -> float:
         """The zero of the root (which passes through zero in a straight line) from its values on both sides."""
-        first, last = (-np.inf, np.inf) if self.positions.closed else (0.0, self.positions.count - 1.0)
+        first, last = self.ends
         for h in (1e-2, 1e-3):
             if first + h <= place <= last - h:
                 a, b = np.sqrt(np.maximum(self._evaluate((name,), np.array([place - h, place + h]))[0], 0.0))
@@ -386,14 +387,16 @@ class _Search:
         turn = np.array([place % n if self.positions.closed else place])
         return float(next(iter(self.way(turn).coordinates.values()))[0][0])
 
-    def _evaluate(self, names: tuple[str, ...], places: Floats, at_positions: bool = False) -> Floats:
+    def _evaluate(self, names: tuple[str, ...], places: Floats | None = None) -> Floats:
+        """Outputs (names, m) at places (m,), or at all positions."""
         n = self.positions.count
-        turn = places % n if self.positions.closed else np.clip(places, 0.0, n - 1.0)
-        positions = self.positions if at_positions else self.way(turn)
+        at = np.arange(float(n)) if places is None else places
+        turn = at % n if self.positions.closed else np.clip(at, *self.ends)
+        positions = self.positions if places is None else self.way(turn)
         states: Mapping[str, Floats] = {}
         if self.followed is not None:
             q = np.stack([row[0] for row in positions.coordinates.values()], axis=1)
-            states = self.followed.states if at_positions else self.followed.between(turn, q)
+            states = self.followed.states if places is None else self.followed.between(turn, q)
         modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.manner.flipping}
         return self.solver.evaluate(names, positions, states, modes)
 

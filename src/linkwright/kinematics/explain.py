@@ -128,7 +128,7 @@ class _Facts:
         rows = self.motion.positions
         names = list(rows.coordinates)
         here = np.array([rows.coordinates[name][0][index] for name in names])
-        if np.abs(here - stop.inputs).max(initial=0.0) < ON_LIMIT * (1.0 + np.abs(here).max(initial=0.0)):
+        if (np.abs(here - stop.inputs) < ON_LIMIT).all():
             return Outcome(False, _of("singular", group), group.name, "singular")
         where = ", ".join(
             _shown(name, float(q), rows.rotary[name]) for name, q in zip(names, stop.inputs, strict=True)

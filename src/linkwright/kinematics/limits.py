@@ -31,8 +31,9 @@ from linkwright.words.sentence import Sentence
 
 Indices = NDArray[np.intp]
 
-#: Rates below this share of the largest one, or of the whole mechanism's, are rounding errors of zero.
-STILL = 1e-12
+#: Rates below this share of the output's largest one, or of that of the whole mechanism, are rounding errors of zero.
+STILL, STILL_BESIDE = 1e-12, 1e-15
+#: An output whose largest rate is below this share of the mechanism's does not move.
 CONSTANT = 1e-10
 #: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
 BLURRED = 1e-10
@@ -286,7 +287,7 @@ class _Search:
         speed = max(_largest(rows.values[turning]), _largest(rows.values[moving]) / size)
         if self.output.kind != "angle":
             speed *= size
-        return None if largest <= CONSTANT * speed else max(STILL * largest, 1e-3 * STILL * speed)
+        return None if largest <= CONSTANT * speed else max(STILL * largest, STILL_BESIDE * speed)
 
     # where the rate changes its sign --------------------------------------------------------------
     def _brackets(self, rate: Floats, second: Floats, moving: Indices) -> list[Bracket]:

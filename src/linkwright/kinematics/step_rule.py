@@ -102,7 +102,7 @@ class StepRule:
 
 
 def _angle(a: Vec, b: Vec) -> Scalar:
-    """The angle from one unit vector to another, rad; to 1e-6 of itself below 0.3 rad."""
+    """The angle from one unit vector to another, rad; to 2e-6 of itself below 0.3 rad."""
     half = a.cross(b) * reciprocal(1.0 + a.dot(b))
     square = half * half
     return 2.0 * half * (1.0 - square * (1.0 / 3.0 - square * 0.2))
