@@ -4,7 +4,8 @@
     python -m tests.mutants --only kinetostatics/friction.py --count 50 --seed 3
 
 Of all mutants of the packages (`tests/mutation/mutate.py`) a random sample is tried: the tests that run the changed
-line, those of files named for the module and the quickest of each file first, until one fails. Survivors are printed.
+line, those of files named for the module and the quickest of each file first, until one fails. What is left when the
+budget is used up meets more of these tests with `--again`. Survivors are printed.
 Mutants that nobody could notice stand, each with the reason, in `tests/equivalent_mutants.txt`; they are left out of
 the share.
 
@@ -73,7 +74,7 @@ def equivalents() -> dict[str, str]:
     return known
 
 
-def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float) -> Trial:
+def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float, again: float) -> Trial:
     source = (SOURCE / mutant.path).read_text("utf-8")
     key, place = mutant.key(source), f"{mutant.path}:{mutant.lines[0]}"
     reason = known.get(key) or known.get(f"{mutant.path} | {mutant.changed_lines(source)[0]} | *")
@@ -83,8 +84,12 @@ def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float)
     if not tests:
         return Trial(key, mutant.kind, place, "not run", "no test runs the line", 0.0)
     chosen, began = cover.by_promise(tests, budget, Path(mutant.path).stem), time.monotonic()
-    first = max(1, min(30, len(chosen)))
-    for part in (chosen[:first], chosen[first:]):
+    first, soon = max(1, min(30, len(chosen))), len(chosen)
+    if again:
+        done, of_line = set(chosen), set(tests)
+        more = cover.by_promise(tests, budget + again, Path(mutant.path).stem)
+        chosen += [test for test in more if test in of_line and test not in done]
+    for part in (chosen[:first], chosen[first:soon], chosen[soon:]):
         if part:
             expected = sum(cover.seconds.get(test, 1.0) for test in part)
             dead, said = killed(mutant.path, mutant.applied(source), part, 30 + 6 * expected)
@@ -98,11 +103,11 @@ class Work:
 
     cover = Covering()
     known: ClassVar[dict[str, str]] = {}
-    budget = 30.0
+    budget, again = 30.0, 0.0
 
 
 def _try(mutant: Mutant) -> Trial:
-    return tried(mutant, Work.cover, Work.known, Work.budget)
+    return tried(mutant, Work.cover, Work.known, Work.budget, Work.again)
 
 
 def try_all(chosen: list[Mutant], workers: int) -> Iterator[Trial]:
@@ -135,7 +140,7 @@ def run(given: argparse.Namespace) -> int:
     population = all_mutants(only)
     chosen = random.Random(given.seed).sample(population, min(given.count, len(population)))
     Work.cover = covering(folder / "covering", given.workers, keep=given.keep)
-    Work.known, Work.budget = equivalents(), given.budget
+    Work.known, Work.budget, Work.again = equivalents(), given.budget, given.again
     preload()
     _check_unchanged(Work.cover, chosen)
     print(f"{len(chosen)} of {len(population)} mutants", file=sys.stderr)
@@ -200,6 +205,9 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=1, help="processes (default 1)")
     parser.add_argument("--only", nargs="+", help=f"packages or modules (default {' '.join(PACKAGES)})")
     parser.add_argument("--budget", type=float, default=30.0, help="seconds of tests per mutant (default 30)")
+    parser.add_argument(
+        "--again", type=float, default=0.0, help="seconds of more tests of the line (default 0)"
+    )
     parser.add_argument("--folder", type=Path, help="where the record is kept (default build/mutants)")
     parser.add_argument(
         "--keep", action="store_true", help="use the kept record although sources have changed"

@@ -145,3 +145,16 @@ def test_a_repeated_first_position_changes_nothing(name: str) -> None:
     assert tables[0].names == tables[1].names
     for a, b in zip(*tables, strict=True):
         assert a.subject == b.subject and a.value == pytest.approx(b.value, rel=1e-9, abs=1e-9), a.metric
+
+
+def test_numbers_of_shaking_need_forces_and_masses() -> None:
+    engine = lw.load("gallery:slider_crank_inline")
+    bare = engine.with_dimensions({"rod.mass": 0.0, "rod.inertia": 0.0, "piston.mass": 0.0})
+    heavy = bare.with_dimensions({"rod.inertia": 0.006})
+
+    def shaking(result: lw.Motion | lw.Forces) -> set[str]:
+        return {name for name in metrics(result).names if "shaking" in name}
+
+    assert shaking(lw.solve_forces(engine, steps=36)) == {"peak_shaking_force", "peak_shaking_moment"}
+    assert shaking(lw.solve_forces(heavy, steps=36)) == {"peak_shaking_force", "peak_shaking_moment"}
+    assert shaking(lw.solve_forces(bare, steps=36)) == shaking(lw.solve_motion(engine, steps=36)) == set()

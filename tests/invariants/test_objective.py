@@ -1,6 +1,8 @@
 """Values of objectives are those of the machine solved alone, gradients the differences of such solutions."""
 
 from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -54,6 +56,15 @@ def test_value_and_gradient_through_the_load_between_limit_positions(term, numbe
         return number(lw.solve_forces(crusher.with_dimensions(dict(zip(f.names, x, strict=True)))))
 
     assert gradient == pytest.approx(differences(alone, f.start), rel=2e-6, abs=1e-6 * np.abs(gradient).max())
+
+
+@pytest.mark.parametrize("direction", ["0 deg", "180 deg"])
+def test_a_peak_is_the_larger_side_whatever_its_sign(direction):
+    """The farther dead centre of an in-line slider lies at crank plus rod."""
+    text = Path(str(files("linkwright.gallery") / "slider_crank_inline.yaml")).read_text("utf-8")
+    engine = lw.loads(text.replace("direction: 0 deg", f"direction: {direction}"))
+    value, gradient = (f := lw.objective(engine, "B.x peak", vary=["crank.length", "rod.length"]))(f.start)
+    assert value == pytest.approx(0.25, rel=1e-12) and gradient == pytest.approx([1.0, 1.0], rel=1e-9)
 
 
 def test_a_load_over_an_interval_of_the_input():

@@ -138,7 +138,7 @@ def test_of_constant_speed() -> None:
     assert found.dimensions() == {"speed": pytest.approx(speed), "start": pytest.approx(math.radians(40))}
     for other in (ConstantSpeed(0.0, 0.2), ConstantSpeed(1.0, rotary=False)):
         assert other.natural_duration() is None
-    assert ConstantSpeed(0.0, 0.2).time_at(np.array([0.2, 5.0])).tolist() == [0.0, 0.0]
+    assert ConstantSpeed(0.0, 0.2).time_at(np.array([0.2, 0.0, -5.0])).tolist() == [0.0, 0.0, 0.0]
     push = lw.loads(MODEL.replace("LAW", "speed: 1 rad/s")).drivers["push"].law
     assert (push.at(2.0), push.rotary) == (pytest.approx(0.6), False)
     for name in ("expression", "cubic table", "program"):

@@ -109,7 +109,6 @@ class ClosedLoops:
         self.C, self.S, self.K = len(build.rotations), len(build.slides), len(build.loops)
         self._matrices(build)
         self.scale = np.where([kind == "turn" for kind, _ in self.unknowns], 1.0, self.size)
-        self.row_scale = 1.0 / self.size
 
     def _matrices(self, build: LoopBuilder) -> None:
         self._columns = {
@@ -252,7 +251,7 @@ class ClosedLoops:
 
     def weakest_group(self, y: Floats) -> str:
         """The group whose own equations are nearest to singular at y; one that only pairs' sums place has none."""
-        jacobian = self.jacobian(self.slopes(self.turned(y))) * self.scale * self.row_scale
+        jacobian = self.jacobian(self.slopes(self.turned(y))) * self.scale
         least: dict[str, float] = {}
         for group in dict.fromkeys(self.groups):
             rows = [k for k, name in enumerate(self.loop_groups) if name == group]

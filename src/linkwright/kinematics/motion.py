@@ -165,7 +165,7 @@ class Motion:
     positions: Positions
     states: Mapping[str, Floats]
     modes: Mapping[str, Floats]
-    rows: Rows = field(repr=False)
+    rows: Rows
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
     followed: Followed | None = None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -55,7 +54,7 @@ class Forces:
     solver: ForceSolver
     fields: Mapping[str, Floats]
     static: bool
-    rows: Rows = field(repr=False)
+    rows: Rows
     notes: tuple[str, ...] = ()
 
     @property
