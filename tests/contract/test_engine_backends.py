@@ -301,3 +301,48 @@ def test_gradients_of_random_programs_equal_differences(seed: int, backend: str)
             step[column] = 1e-6
             want = (objective(d, p[d] + step) - objective(d, p[d] - step)) / 2e-6
             assert slopes[d, column] == pytest.approx(want, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.usefixtures("vectors")
+@pytest.mark.parametrize("carried", [False, True])
+def test_truths_count_as_one_and_numbers_but_zero_as_true(carried: bool) -> None:
+    """In sums, choices and conditions, per position and per design, of values and of states."""
+    t = Trace()
+    x, a = t.position("x"), t.parameter("a")
+    low, rich = x < 0.5, a < 3.0
+    total = t.state("s") + low if carried else x
+    outputs = {
+        "counted": low * 2.0 + rich - t.negate(rich),
+        "chosen": select(x, a, -a),
+        "alone": select(a, 1.0, 2.0) + low,
+        "both": t.logic("and", x, a),
+        "neither": t.negate(t.logic("or", x, a)) + 0.0,
+        "total": total,
+    }
+    program = Program.of(t, outputs, {"s": total} if carried else None)
+    row = np.array([-1.0, 0.0, 0.25, 0.5, 2.0, 0.0, -0.0, math.inf, 0.4])
+    table, positions = np.array([[2.0], [0.0], [4.0]]), {"x": row}
+    start = np.array([[1.0]]) if carried else None
+    want = []
+    for (number,) in table:
+        below, few, some = row < 0.5, float(number < 3.0), number != 0.0
+        want.append(
+            [
+                2.0 * below + few - (1.0 - few), np.where(row != 0.0, number, -number),
+                (1.0 if some else 2.0) + below, (row != 0.0) & some, ~((row != 0.0) | some),
+                1.0 + np.cumsum(below) if carried else row,
+            ]
+        )  # fmt: skip
+    evaluator = NumpyProgram(program)
+    starts = None if start is None else np.repeat(start, 3, axis=0)
+    np.testing.assert_array_equal(evaluator.run_designs(table, positions, start=starts), want)
+    scalar, state = ScalarProgram(program), [1.0] if carried else []
+    for place, number in enumerate(row):
+        found, state = scalar.step([2.0], [number], state)
+        np.testing.assert_array_equal(found, [each[place] for each in want[0]])
+    for parameters, found in zip(table, want, strict=True):
+        own = None if start is None else start[0]
+        np.testing.assert_array_equal(evaluator.run(parameters, positions, start=own), found)
+    compiled = compile_program(program) if available() else None
+    if compiled is not None:
+        np.testing.assert_array_equal(compiled.store(table, positions, start=starts), want)

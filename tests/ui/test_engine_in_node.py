@@ -81,15 +81,18 @@ def test_every_gallery_file_gives_the_numbers_of_numpy(tmp_path: Path) -> None:
 
 
 def test_functions_look_ups_and_states(tmp_path: Path) -> None:
-    """Every function, a periodic spline with two derivatives, and a running sum."""
+    """Every function, a periodic spline with two derivatives, truths that count, and a running sum."""
     t = Trace()
     x, a, s = t.position("x"), t.parameter("a"), t.state("s")
     total = s + x * a
+    low, high = x < a, t.logic("or", x <= -2.0, x > 8.0)
     outputs = {
         "sin": sin(x), "cos": cos(x), "exp": exp(x), "log": log(x * x + 1.0), "power": power(x * x + a, 1.3),
         "angle": angle(sin(x), cos(x)), "floor": floor(x * a), "masked": select(x > a, 1.0, t.lookup("table", x)),
         "slope": slope(t.lookup("table", x), {x: 1.0}), "bend": t.lookup("table", x, 2), "less": x < a,
-        "total": total,
+        "total": total, "counted": 2.0 * low - t.negate(high), "between": t.logic("and", low, t.negate(high)),
+        "turned": -x + select(floor(x), 3.0, a), "bound": 1.0 / select(low, math.inf, -2.0),
+        "below": 1.0 / select(low, -math.inf, 4.0), "none": select(high, math.nan, x),
     }  # fmt: skip
     program = Program.of(t, outputs, {"s": total})
     table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], "periodic")

@@ -8,8 +8,14 @@ import numpy as np
 import pytest
 
 from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
+from linkwright.engine.lines import Lines
+from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.sweep import sweep
+from linkwright.engine.threads import cores
 from linkwright.engine.trace import Trace
+from linkwright.engine.wasm import wasm_module
 
 pytestmark = pytest.mark.skipif(not available(), reason="no llvmlite")
 X = np.linspace(0.0, 1.0, 40)
@@ -123,3 +129,71 @@ def test_states_without_next_values_are_not_compiled() -> None:
         ValueError, match="no next values of the states s are given: take the states as fields"
     ):
         compile_program(Program.of(t, {"y": t.state("s") * 2.0}))
+
+
+def test_a_program_of_parameters_alone_has_the_length_of_the_inputs_that_are_given() -> None:
+    t = Trace()
+    program = Program.of(t, {"y": 2.0 * t.parameter("a")})
+    compiled = compile_program(program)
+    assert compiled is not None
+    for run in (compiled.run, NumpyProgram(program).run):
+        assert run([3.0], {"x": X}).tolist() == [[6.0] * 40]
+        assert run([3.0], {}, length=5).tolist() == [[6.0] * 5]
+        with pytest.raises(ValueError, match=r"one length, but have \[\]"):
+            run([3.0], {})
+
+
+def test_an_array_for_the_outputs_is_written_again_and_another_after_it() -> None:
+    program, f, out = line(), np.ones(40), np.empty((1, 40))
+    for value in (2.0, 3.0):
+        assert program.run([value], {"x": X}, {"f": f}, out) is out
+        assert out[0] == pytest.approx(value * X + 1.0, rel=1e-15)
+    other, own = np.empty((1, 40)), program.run([5.0], {"x": X}, {"f": f})
+    program.run([4.0], {"x": X}, {"f": f}, other)
+    assert other[0] == pytest.approx(4.0 * X + 1.0, rel=1e-15)
+    assert out[0] == pytest.approx(3.0 * X + 1.0, rel=1e-15)
+    assert own[0] == pytest.approx(5.0 * X + 1.0, rel=1e-15)
+
+
+def test_kernels_are_lent_no_code_that_needs_more_than_they_give() -> None:
+    with pytest.raises(ValueError, match="needs the field inputs f: give them"):
+        line().one_by_one(np.ones((2, 1)), {"x": X}, np.empty((1, 40)))
+    t = Trace()
+    short = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x")}))
+    assert short is not None
+    with pytest.raises(ValueError, match=r"only programs of \d+ or more positions, without states"):
+        short.one_by_one(np.ones((2, 1)), {"x": X[:1]}, np.empty((1, 1)))
+
+
+def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
+    t = Trace()
+    program = Program.of(t, {"y": t.parameter("a") * t.position("x") + t.field_input("f")})
+    with pytest.raises(ValueError, match="the program has 1 position inputs, but 2 are given"):
+        ScalarProgram(program).step([1.0], [1.0, 2.0], fields=[1.0])
+    with pytest.raises(ValueError, match="the program has 1 field inputs, but 0 are given"):
+        ScalarProgram(program).step([1.0], [1.0])
+    with pytest.raises(ValueError, match=r"shape \(designs, 1\), but have \(2, 2\)"):
+        sweep(program, np.ones((2, 2)), {"x": X}, [("y", "max")], fields={"f": np.ones((2, 40))})
+    other = Trace()
+    s, r = other.state("s"), other.state("r")
+    half = Program.of(other, {"y": s + r}, {"s": s + 1.0})
+    with pytest.raises(ValueError, match="no next value is given for the states r"):
+        Lines.of(half)
+
+
+def test_machines_without_the_compiler_or_the_count_of_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert available.__wrapped__() is True
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert available.__wrapped__() is False and wasm_module([]) is None
+    monkeypatch.undo()
+
+    def missing() -> None:
+        raise OSError("no library")
+
+    monkeypatch.setattr("linkwright.engine.machine_code._binding", missing)
+    assert available.__wrapped__() is False
+    monkeypatch.delattr("os.sched_getaffinity", raising=False)
+    monkeypatch.setattr("os.cpu_count", lambda: 3)
+    assert cores() == 3
+    monkeypatch.setattr("os.cpu_count", lambda: None)
+    assert cores() == 1

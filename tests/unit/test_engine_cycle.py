@@ -300,3 +300,42 @@ def test_the_example_of_the_documentation_runs(capsys: pytest.CaptureFixture[str
     printed = capsys.readouterr().out
     assert printed.splitlines()[0] == "[3.96862697 5.        ]"
     assert f"{4.0 / math.sqrt(15.75):.8f}" in printed
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_designs_that_go_in_several_parts_are_put_together(
+    backend: Backend, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A few at a time, results, gradients and the count of what is done are those of all at once."""
+    table, cycle = designs(19), whole()
+    wanted = cycle.evaluate(table, INPUT, backend=backend)
+    stroke, slopes = cycle_gradient(cycle, "stroke").evaluate(table, INPUT, backend=backend)
+    monkeypatch.setattr("linkwright.engine.cycle._REPORT", 8 * COUNT)
+    done: list[tuple[int, int]] = []
+    found = cycle.evaluate(table, INPUT, backend=backend, progress=lambda *each: done.append(each))
+    assert done == [(8, 19), (16, 19), (19, 19)]
+    for name, column in wanted.items():
+        np.testing.assert_array_equal(found[name], column, err_msg=name)
+    done.clear()
+    gradient = cycle_gradient(cycle, "stroke")
+    values, again = gradient.evaluate(table, INPUT, backend=backend, progress=lambda *each: done.append(each))
+    assert done == [(8, 19), (16, 19), (19, 19)]
+    np.testing.assert_array_equal(values, stroke)
+    np.testing.assert_array_equal(again, slopes)
+
+
+def test_inputs_of_two_lengths_and_missing_parameters_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"one length, but have \[3, 36\]"):
+        whole().evaluate(designs(2), INPUT, {"other": np.ones((2, 3))}, backend="numpy")
+    with pytest.raises(ValueError, match=r"one length, but have \[\]"):
+        whole().evaluate(designs(2), {}, backend="numpy")
+    gradient = cycle_gradient(whole(), "stroke")
+    with pytest.raises(ValueError, match="the parameters l, e are not given"):
+        gradient({"r": 1.0}, INPUT, backend="numpy")
+    table = designs(3)
+    stroke, slopes = gradient(dict(zip("rle", table.T, strict=True)), INPUT, backend="numpy")
+    wanted = gradient.evaluate(table, INPUT, backend="numpy")
+    np.testing.assert_array_equal(stroke, wanted[0])
+    np.testing.assert_array_equal(slopes, wanted[1])
+    one, _ = gradient({"r": table[0, 0], "l": table[0, 1], "e": table[0, 2]}, INPUT, backend="numpy")
+    assert one.shape == (1,) and one[0] == stroke[0]

@@ -178,8 +178,8 @@ class CompiledProgram:
         and ``out`` (outputs, n) are read and written where they lie, and must live as long as the block is used.
         """
         inputs = self._inputs(positions, _NONE, None, tables)
-        if self.program.next_states or inputs.stride != inputs.length or inputs.fields:
-            raise ValueError(f"only programs of {self.width} or more positions, without states and fields")
+        if self.program.next_states or inputs.stride != inputs.length:
+            raise ValueError(f"only programs of {self.width} or more positions, without states")
         block = inputs.block(address_of(parameters), address_of(out))
         return ctypes.cast(self._function, ctypes.c_void_p).value or 0, block
 

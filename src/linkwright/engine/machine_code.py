@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
 import importlib.util
 import sys
 import threading
@@ -38,11 +37,6 @@ class Host:
     features: str
     width: int
     description: str
-
-    @property
-    def key(self) -> str:
-        """Short digest of the description."""
-        return hashlib.blake2b(self.description.encode(), digest_size=8).hexdigest()
 
 
 @cache
@@ -105,16 +99,6 @@ def optimised(text: str) -> str:
         passes = binding.create_pass_builder(machine, options)
         passes.getModulePassManager().run(module, passes)
         return str(module)
-
-
-def assembly(text: str, level: int = 3) -> str:
-    """Readable machine code of a module."""
-    with _LOCK:
-        machine = _target_machine(level)
-        module = _binding().parse_assembly(text)
-        module.triple = machine.triple
-        module.data_layout = str(machine.target_data)
-        return str(machine.emit_assembly(module))
 
 
 class Loaded:
