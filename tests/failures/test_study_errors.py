@@ -336,3 +336,48 @@ def test_alternatives_by_labels_that_are_not_there() -> None:
     text = said(lambda: compare(both, output={"Crank-rocker four-bar with a coupler point": "rocker"}))
     assert "(2)" in text
     assert "travels" in compare(both, metrics=["travel"], output=["rocker", "rocker"], steps=24).evaluation()
+
+
+def test_design_numbers_of_sweeps_name_what_they_have() -> None:
+    coupler = {"coupler.length": [3.2]}
+    assert (
+        said(lambda: sweep(machine(), coupler, outputs=["peak_acceleration Q9"], steps=24))
+        == '"peak_acceleration" has no value for "Q9"; there is rocker, coupler.P'
+    )
+    for name in ("grashof", "peak_reaction"):
+        text = said(lambda n=name: sweep(machine(), coupler, outputs=[n], steps=24))
+        assert text.startswith(
+            f"{name} of 'Crank-rocker four-bar with a coupler point' is no number over the cycle"
+        )
+
+
+def test_sensitivities_say_what_they_were_asked_for() -> None:
+    names = ["B.velocity max", "rocker.angle range", "B.velocity"]
+    found = sensitivity(machine(), of=names, by=["coupler.length", "rocker.length"], steps=24)
+    for wrong in ("nix max", "B.velocity"):
+        assert (
+            said(lambda w=wrong: found.value(w))
+            == f"no summary {wrong!r} was asked for; there is B.velocity max, rocker.angle range"
+        )
+    assert said(lambda: sensitivity(machine(), of=[], by=["coupler.length"])).startswith(
+        "no outputs are asked for"
+    )
+    one = sensitivity(machine(), of="rocker.angle range", by=["coupler.length"], steps=24)
+    assert repr(one).splitlines()[1:] == [
+        f"  rocker.angle range = {found.value('rocker.angle range'):.6g}",
+        f"    by coupler.length  {found.gradient('rocker.angle range')[0]:>12.6g}",
+    ]
+    assert found.text().splitlines()[-1] == "  curves: B.velocity; by coupler.length, rocker.length"
+    frame = found.to_dataframe()
+    assert frame.index.tolist() == ["B.velocity max", "rocker.angle range"]
+    assert frame.columns.tolist() == ["value", "coupler.length", "rocker.length"]
+    for name in names[:2]:
+        assert frame.loc[name].tolist() == [found.value(name), *found.gradient(name)]
+
+
+def test_compiled_derivatives_are_refused_where_nothing_can_be_compiled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("linkwright.engine.llvm_backend.compile_program", lambda *given: None)
+    text = said(lambda: sensitivity(machine(), of="B.velocity max", by=["coupler.length"], backend="llvm"))
+    assert text == "llvmlite cannot be loaded: install it, or use the numpy back end"

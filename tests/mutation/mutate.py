@@ -79,7 +79,7 @@ def _nodes(node: ast.AST) -> Iterator[ast.expr | ast.stmt]:
         if name in ("annotation", "returns", "type_comment", "decorator_list", "bases"):
             continue
         for child in value if isinstance(value, list) else [value]:
-            if not isinstance(child, ast.AST) or _silent(child):
+            if not isinstance(child, ast.AST) or _silent(child) or _rest_of_shape(node, child):
                 continue
             if isinstance(child, (ast.expr, ast.stmt)):
                 yield child
@@ -100,6 +100,12 @@ def _silent(node: ast.AST) -> bool:
     if isinstance(node, ast.keyword) and node.arg == "strict":
         return True
     return isinstance(node, (ast.Import, ast.ImportFrom, ast.Assert, ast.JoinedStr, ast.Pass))
+
+
+def _rest_of_shape(parent: ast.AST, child: ast.AST) -> bool:
+    """The -1 of a ``reshape``, where every negative number says the same."""
+    reshapes = isinstance(parent, ast.Call) and ast.unparse(parent.func).endswith("reshape")
+    return reshapes and ast.unparse(child) == "-1"
 
 
 def _changes(node: ast.expr | ast.stmt) -> Iterator[tuple[str, str]]:

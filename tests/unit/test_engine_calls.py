@@ -7,8 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
 from linkwright.engine.lines import Lines
+from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram

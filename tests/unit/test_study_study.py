@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -162,3 +163,71 @@ def test_the_words_of_what_is_measured() -> None:
     assert criterion("peak_reaction O5").label() == "peak reaction, O5"
     assert criterion("peak_reaction").label("zh") != criterion("peak_reaction").label()
     assert criterion("B.velocity max").label("zh") == "B.velocity max"
+
+
+PRESSED = """
+format: 1
+name: slider-crank
+parameters: {p: 5 m}
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  rod: {points: [A, B], length: 3 m}
+  piston: {points: [B]}
+joints: {cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  push: {kind: force, on: piston, at: B, direction: 0 deg, magnitude: "5 N*m/(cylinder - p)"}
+"""
+
+
+def test_designs_whose_load_has_no_value_are_counted_and_the_others_go_on() -> None:
+    """The piston is between 2 and 4 m from O; at 3 and 4 m the load divides by zero on the way."""
+    machine, done = lw.loads(PRESSED), []
+    found = study(
+        machine,
+        {"p": "3..5 m:3"},
+        metrics=["peak_input_torque", "travel"],
+        steps=36,
+        progress=lambda *each: done.append(each),
+    )
+    assert done == [(1, 3), (2, 3), (3, 3)]
+    assert found.ok.tolist() == [False, False, True] and found["travel"][2] == pytest.approx(2.0)
+    turn = np.linspace(0, 2 * np.pi, 200_001)
+    place = np.cos(turn) + np.sqrt(9 - np.sin(turn) ** 2)
+    torque = 5 / (place - 5) * np.gradient(place, turn)
+    assert found["peak_input_torque"][2] == pytest.approx(np.abs(torque).max(), rel=1e-6)
+    (failure,) = found.failures
+    assert (failure.kind, failure.group, failure.count) == ("metric", None, 2)
+    assert failure.designs.tolist() == [0, 1]
+    assert "\n2 by loads or metrics; the first: loads.push: " in found.text()
+    with pytest.raises(lw.LinkwrightError) as none:
+        study(machine, {"p": [3.0, 3.5]}, metrics=["peak_input_torque"], steps=36)
+    assert str(none.value).startswith(
+        "none of the 2 designs can pass its cycle: 2 fail by loads or metrics, such as:"
+    )
+    assert found.best("peak_input_torque") == 2
+    found.metrics["peak_input_torque"].setflags(write=True)
+    found.metrics["peak_input_torque"][:] = np.nan
+    with pytest.raises(lw.LinkwrightError, match="'peak_input_torque' has no value in any of the designs"):
+        found.best("peak_input_torque")
+    assert not found.has_best("peak_input_torque") and found.data()["best"] == {}
+
+
+def test_a_machine_without_outputs_is_measured_by_its_last_link() -> None:
+    """A crank alone: its travel over the turn is that of the link, its power that of gravity."""
+    crank = lw.loads(
+        "format: 1\nframe: {points: {O: [0 m, 0 m]}}\nlinks: {crank: {points: [O, A], length: 1 m, mass: 2 kg}}\n"
+        "driver: {turn: crank, about: O, speed: 3 rad/s}\ngravity: [0 m/s², -10 m/s²]\n"
+    )
+    found = study(crank, {"crank.mass": "2, 4 kg"}, metrics=["peak_input_torque"], steps=36)
+    assert found["peak_input_torque"] == pytest.approx([10.0, 20.0])
+
+
+def test_a_sobol_sequence_needs_scipy(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy.stats", None)
+    machine = lw.load("gallery:crank_rocker")
+    with pytest.raises(
+        lw.LinkwrightError, match="a Sobol sequence needs scipy; install it with: pip install scipy"
+    ):
+        study(machine, {"coupler.length": "3..4 m"}, sampling="sobol", samples=4)

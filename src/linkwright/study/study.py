@@ -26,7 +26,7 @@ from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.ranges import Range, parse_range
-from linkwright.study.sampling import MOST, grid, sobol
+from linkwright.study.sampling import grid, sobol
 from linkwright.study.terms import Asked
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
@@ -217,9 +217,6 @@ def study(
     if not ranges:
         raise RequestError(Sentence("study.nothing_varies"))
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
-    count = len(next(iter(columns.values())))
-    if count > MOST:
-        raise RequestError(Sentence("study.too_many_designs", count=count, most=MOST))
     work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
     return work.study(ranges, sampling)
 

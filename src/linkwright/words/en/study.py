@@ -128,7 +128,6 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_best": "{metric!r} has no better direction, so no design is best in it",
     "no_value": "{metric!r} has no value in any of the designs",
     "nothing_varies": 'nothing varies; give dimensions with ranges: {{"crank.length": "20..30 mm:11"}}',
-    "too_many_designs": "{count} designs are too many for a study; give {most} or fewer, or use sweep()",
     "does_not_apply": "{name!r} does not apply to {mechanism!r}",
     "none_passes": "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
     "at_group": "at the group ({group})",

@@ -109,7 +109,6 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_best": "“{metric}”没有优劣方向，因而没有最优方案",
     "no_value": "所有方案的“{metric}”都没有值",
     "nothing_varies": '没有改变任何量；请给出尺寸及其范围：{{"crank.length": "20..30 mm:11"}}',
-    "too_many_designs": "{count} 个方案对 study 太多；请给出 {most} 个或更少，或用 sweep()",
     "does_not_apply": "“{name}”不适用于“{mechanism}”",
     "none_passes": "{count} 个方案中没有一个能转过其循环：{told}；请放宽或移动范围",
     "at_group": "在杆组（{group}）处",
