@@ -1,5 +1,6 @@
 """Design numbers that are printed, or have a closed form."""
 
+from dataclasses import replace
 from math import acos, asin, degrees, hypot, pi, sqrt
 
 import numpy as np
@@ -13,6 +14,23 @@ from linkwright.metrics import MetricsTable, coupler_curve, four_bars, metrics
 
 def of(name: str, steps: int = 360) -> MetricsTable:
     return metrics(lw.solve_forces(lw.load(f"gallery:{name}"), steps=steps))
+
+
+@pytest.mark.parametrize("steps", [24, 25, 72])
+def test_a_parallelogram_that_passes_its_change_points(steps: int) -> None:
+    """Its coupler goes round a circle without turning: its pins share m r ω² evenly, and nothing drives it.
+
+    With 24 and 72 steps two positions lie on the change points, with 25 between them.
+    """
+    linkage = replace(lw.load("gallery:parallelogram"), cycle=None)
+    motion = lw.solve_motion(linkage, steps=steps, failures="mark")
+    assert motion.modes and motion.ok.all() == (steps == 25)
+    table = metrics(lw.solve_forces(motion))
+    for row in table["peak_reaction"]:
+        assert row.value == pytest.approx(2.0 * 1.0 * 5.0**2 / 2, rel=1e-4), row.subject
+    assert table.value("peak_input_torque") < 1e-4
+    assert table["peak_acceleration", "rocker"].value < 1e-4
+    assert table.value("peak_shaking_force") == pytest.approx(50.0, rel=1e-6)
 
 
 @pytest.mark.parametrize("steps", [36, 360, 361])

@@ -192,6 +192,10 @@ def test_a_load_does_not_depend_on_the_other_positions_asked(load: str) -> None:
     for chosen in ([5], [60, 3, 33], [71, 40, 10, 0]):
         some = lw.solve_forces(lw.solve_motion(mechanism, at=cycle.input[chosen])).input_torque
         np.testing.assert_allclose(some, whole[chosen], rtol=1e-9, atol=1e-9)
+    many = np.linspace(0.5, 2.5, 401)
+    together = lw.solve_forces(lw.solve_motion(mechanism, at=many)).input_torque
+    alone = lw.solve_forces(lw.solve_motion(mechanism, at=many[[0, 200, 400]])).input_torque
+    np.testing.assert_allclose(together[[0, 200, 400]], alone, rtol=1e-9, atol=1e-9)
 
 
 def test_limits_are_those_of_the_whole_turn() -> None:
@@ -276,3 +280,24 @@ def test_positions_out_of_reach_do_not_disturb_the_others(load: str) -> None:
     assert 10 < motion.ok.sum() < 62
     torques = lw.solve_forces(motion).input_torque
     assert (np.isfinite(torques) == motion.ok).all()
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_loads_that_follow_a_point(axis: str) -> None:
+    """By its place in a formula, by a table over it, and while it goes one way."""
+    place = "B.x" if axis == "x" else "B.y"
+    own = 0 if axis == "x" else 1
+    force = "kind: force, on: rocker, at: B, direction: 0 deg"
+    machine = crank_rocker(f'{force}, magnitude: "5 N/m*{place}"')
+    motion = lw.solve_motion(machine, steps=48)
+    at, rate = motion.point("B").position[:, own], motion.point("B").velocity[:, own]
+    assert np.ptp(at) > 0.5
+
+    def size(load: str) -> np.ndarray:  # type: ignore[type-arg]
+        return lw.solve_forces(lw.solve_motion(crank_rocker(load), steps=48)).load("work").force[:, 0]
+
+    assert size(f'{force}, magnitude: "5 N/m*{place}"') == pytest.approx(5 * at, abs=1e-12)
+    table = f"table: {{over: {place}, x: [-6 m, 6 m], y: [-12 N, 36 N]}}"
+    assert size(f"{force}, {table}") == pytest.approx(4 * at + 12, abs=1e-12)
+    moving = f"magnitude: 7 N, phase: {{moving: {place}, direction: increasing}}"
+    assert size(f"{force}, {moving}").tolist() == np.where(rate > 0, 7.0, 0.0).tolist()

@@ -170,8 +170,10 @@ def test_a_swing_that_does_not_exist(phase: SwingPhase, limits: list[Limit], wor
 def test_an_input_to_and_fro_needs_an_upward_interval() -> None:
     signals = Turning([0, 10])
     signals.heading = 0
-    with pytest.raises(LinkwrightError, match="write the smaller angle first"):
-        activity(degrees(30, -30), signals)
+    for wrong in (degrees(30, -30), degrees(5, 4)):
+        with pytest.raises(LinkwrightError, match="write the smaller angle first"):
+            activity(wrong, signals)
+    assert activity(degrees(5, 30), signals).where.tolist() == [False, True]
 
 
 def test_an_interval_longer_than_a_turn_is_refused() -> None:

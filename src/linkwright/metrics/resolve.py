@@ -88,7 +88,7 @@ class Resolver:
         positions = at_times(known.mechanism, time)
         before = self._before(positions.time)
         states = self._between._states(positions, before)
-        modes = {name: row[before] for name, row in known.modes.items()}
+        modes = known.modes and self._between._modes(positions)
         names = known.solver.outputs.standard
         values = known.solver.evaluate(names, positions, states, modes, known.design)
         barred = np.zeros(positions.count)
