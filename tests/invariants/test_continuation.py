@@ -377,3 +377,20 @@ def test_a_second_sweep_follows_no_way_again(monkeypatch: pytest.MonkeyPatch) ->
         assert np.array_equal(each["input_torque", "rms"], first["input_torque", "rms"])
         assert each.branch_margin is not None and first.branch_margin is not None
         assert np.array_equal(each.branch_margin, first.branch_margin)
+
+
+def test_on_a_line_of_two_drivers_what_is_reached_is_reached_from_either_side() -> None:
+    """A block of its own is pushed as the crank turns, at no time of their laws: the last position, behind a stretch
+    out of reach, is reached the other way round, as it is where the crank turns alone."""
+    text = STEPHENSON.replace("SPEED", "1").replace("driver: {", "drivers:\n  driver: {")
+    text = text.replace("links:\n", "links:\n  block: {points: [Z]}\n", 1)
+    joints = (
+        "joints: {bed: {kind: prismatic, guide: frame, through: O1, direction: 0 deg, block: block, at: Z}}\n"
+    )
+    pushed = lw.loads(joints.lstrip() + text.lstrip() + "  push: {slide: bed, speed: 0.1 m/s}\n")
+    q = np.radians(160.0 + np.linspace(0.0, 350.0, 9))
+    one = lw.solve_motion(lw.loads(STEPHENSON.replace("SPEED", "1")), at=q, failures="mark")
+    two = lw.solve_motion(pushed, at={"driver": q, "push": 0.5 + 0.2 * np.arange(9)}, failures="mark")
+    assert one.ok.tolist() == two.ok.tolist() == [True, *[False] * 7, True]
+    for link in one.mechanism.links:
+        assert two.link(link).direction == pytest.approx(one.link(link).direction, abs=1e-9, nan_ok=True)

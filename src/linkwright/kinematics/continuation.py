@@ -408,9 +408,6 @@ class _Journey:
             moved = self._leg(begin, state[0], np.array([i]), state[1])
             if moved is not None:
                 begin, state = self.q[i], moved
-            elif not self.apart:
-                self.stop_of[i:] = self.stop_of[i]
-                return
 
     def _stopped(self, branch: Branch, index: NDArray[np.intp]) -> None:
         loops = self.follower.loops

@@ -28,10 +28,6 @@ class MotionOutputs:
         """The traced value of an output."""
         if name == "outcome":
             return self.motion.outcome
-        if name == "valid":
-            from linkwright.engine.trace import select
-
-            return select(self.motion.valid, 1.0, 0.0)
         kind, key = name.split(":", 1)
         if kind in ("p", "v", "a"):
             base, axis = key.rsplit(".", 1)
@@ -52,10 +48,8 @@ class MotionOutputs:
             return self.slide(key)[("s", "sv", "sa").index(kind)]
         if kind == "quality":
             return self.motion.placed[key].quality
-        if kind == "fact":
-            group, fact = key.rsplit("|", 1)
-            return self.motion.placed[group].facts[fact]
-        raise KeyError(name)
+        group, fact = key.rsplit("|", 1)
+        return self.motion.placed[group].facts[fact]
 
     def point(self, key: str) -> tuple[Vec, Vec, Vec]:
         """Position, velocity, acceleration of ``C``, ``jaw.D`` or ``jaw.centre`` (the mass centre)."""

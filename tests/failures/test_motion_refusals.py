@@ -1,0 +1,108 @@
+"""What motion, ranges and ranks refuse, or can say nothing of: with the reason and what to do."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.failures.test_unreachable import TRIAD
+from tests.invariants.test_limits_change_points import fourbar
+from tests.invariants.test_limits_range import tied
+
+import linkwright as lw
+from linkwright.kinematics.assembly import AssemblyError
+from linkwright.kinematics.input_range import input_range
+from linkwright.kinematics.passing import plainly_passed
+from linkwright.kinematics.rank import rank_sentence
+from linkwright.mechanism.mechanism import Cycle, Mechanism
+
+SWUNG = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 3 m}
+  rocker: {points: [O2, B], length: 2.5 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, position: "70 deg + 65 deg*sin(2*pi*t/(3 s))"}
+cycle: {duration: 3 s}
+"""
+
+
+def test_a_group_without_closed_form_needs_its_points_drawn() -> None:
+    text = re.sub("drawing:.*\n", "", TRIAD).replace("START", "160").replace("SPEED", "1")
+    with pytest.raises(AssemblyError, match=r"crank, coupler, rocker, bar.* class 3 .*drawing: \{A, B, C:"):
+        lw.solve_motion(lw.loads(text))
+
+
+@pytest.mark.parametrize("cycle", [Cycle(turns=1.0), Cycle(start=0.1, end=0.3)])
+def test_a_cycle_by_a_coordinate_that_does_not_grow_evenly_is_refused(cycle: Cycle) -> None:
+    with pytest.raises(lw.LinkwrightError, match="driver 'driver', which has no constant speed; write cycle"):
+        lw.solve_motion(replace(lw.loads(SWUNG), cycle=cycle), steps=5)
+
+
+def test_a_table_without_pandas_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    motion = lw.solve_motion(lw.loads(SWUNG), steps=5)
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(lw.LinkwrightError, match="pandas"):
+        motion.to_dataframe()
+
+
+def test_no_rank_is_said_where_no_position_is_reached() -> None:
+    assert rank_sentence(fourbar(1, 1, 1, 9, start=0)) == ""
+    assert rank_sentence(lw.loads(re.sub("cycle:.*\n", "", SWUNG))) == ""
+    assert "mobility 1" in rank_sentence(lw.loads(SWUNG))
+
+
+def test_a_dyad_that_is_out_of_reach_behind_a_triad_leaves_no_place_to_begin() -> None:
+    """Stretched at 140°, while the drawing and the start are at 160°."""
+    with pytest.raises(lw.LinkwrightError, match=r"cannot be assembled at any coordinate.*160"):
+        input_range(tied(np.radians(140), 1))
+
+
+PASSED = (
+    "crank_rocker", "jaw_crusher_sixbar", "theo_jansen_leg", "slider_crank_offset", "dyad_rpr", "whitworth",
+    "parallelogram", "kite", "change_point_fourbar", "triad", "tangent_mechanism", "scotch_yoke", "geared_fivebar",
+    "dyad_prp", "double_slider", "truss", "excavator", "swing_conveyor",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("steps", [36, 120])
+@pytest.mark.parametrize("name", PASSED)
+def test_what_plainly_passes_its_cycle_is_so_when_it_is_solved(name: str, steps: int) -> None:
+    """Nothing is asked of machines of which plain numbers cannot tell."""
+    mechanism = lw.load(f"gallery:{name}")
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    whole = len(mechanism.drivers) == 1 and mechanism.cycle is None
+    law = next(iter(mechanism.drivers.values())).law if mechanism.drivers else None
+    groups = [p for p in motion.solver.motion.placed.values() if p.group.unknowns]
+    closed = all("sine" not in p.facts and p.dyad is not None for p in groups)
+    wheels = any(joint.higher for joint in mechanism.joints.values())
+    plain = (
+        whole and law is not None and law.constant_speed is not None and law.rotary and closed and not wheels
+    )
+    found = plainly_passed(mechanism, lw.structure(mechanism), steps)
+    assert found == (plain and bool(motion.ok.all()) and not motion.notes)
+
+
+@pytest.mark.parametrize(
+    ("make", "passed"),
+    [
+        (lambda: fourbar(1, 3, 2.5, 2, start=20), True),
+        (lambda: fourbar(3, 1, 2.8, 3.2, start=50), False),
+        (lambda: fourbar(1.00001, 3, 2, 4, start=20.5), False),
+        (lambda: fourbar(0.99999, 3, 2, 4, start=20.5), False),
+        (lambda: fourbar(0.9, 3, 2, 4, start=20.5), True),
+        (lambda: replace(fourbar(1, 3, 2.5, 2, start=20), cycle=Cycle(turns=1.0)), False),
+    ],
+)
+@pytest.mark.parametrize("steps", [5, 90])
+def test_a_crank_that_comes_near_to_its_end_is_not_said_to_pass(
+    make: Callable[[], Mechanism], passed: bool, steps: int
+) -> None:
+    mechanism = make()
+    assert plainly_passed(mechanism, lw.structure(mechanism), steps) is passed
