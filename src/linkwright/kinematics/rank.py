@@ -80,25 +80,21 @@ class RankReport:
 def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     """Rank of the constraint Jacobian of the whole mechanism at a solved position, by singular values.
 
-    A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints,
-    special lengths, special positions (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody
-    Systems, ch. 5). Raises LinkwrightError if the position is not solved.
+    A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints
+    (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody Systems, ch. 5). Special lengths and
+    positions have no solved positions; of these :func:`rank_from_drawing` tells. Raises LinkwrightError if the
+    position is not solved.
     """
     if not motion.ok[index]:
         raise LinkwrightError(Sentence("motion.no_rank", index=index))
     mechanism = motion.mechanism
     system = ConstraintSystem(mechanism)
     here = coordinates(motion, index)
-    guides = motion.structure.redundant
     if _regular_in_groups(mechanism, motion.structure, here):
         rank, redundant = len(system.rows(here)), tuple[Sentence, ...]()
     else:
         rank, redundant = _rank(system, here, ZERO)
-    special, links = False, tuple[str, ...]()
-    if system.freedoms - rank > motion.structure.mobility:
-        special = not _moves(system, here, rank)
-        links = () if special else _spare_links(mechanism, here, ZERO)
-    return _report(mechanism, system, rank, redundant, links, special, False, guides)
+    return _report(mechanism, system, rank, redundant, (), False, False, motion.structure.redundant)
 
 
 def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
