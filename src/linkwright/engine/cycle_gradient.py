@@ -41,10 +41,12 @@ _STEPWISE = ("count", "argmin", "argmax")
 _COUNT = Reduction("valid", "count")
 
 
-def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = None) -> CycleGradient:
-    """Value and gradient of a result of a cycle program with respect to dimensions.
+def cycle_gradient(
+    cycle: CycleProgram, value: str | Sequence[str], wrt: Sequence[str] | None = None
+) -> CycleGradient:
+    """Value and gradient of a result of a cycle program, or of several, with respect to dimensions.
 
-    ``value``: the name of a result that is a number; ``wrt``: names of dimensions, None for all of them.
+    ``value``: names of results that are numbers; ``wrt``: names of dimensions, None for all of them.
     Kept fields, position numbers and counts are taken as constants. Raises ValueError for unknown names,
     and for stages on the way that carry states but do not say what they solve (``Stage.roots``).
     """
@@ -52,10 +54,15 @@ def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = 
     unknown = [name for name in names if name not in cycle.dimensions]
     if unknown:
         raise ValueError(f"the cycle program has no dimension {', '.join(unknown)}")
-    if value not in cycle.results:
-        raise ValueError(f"the cycle program has no result '{value}'")
-    stages, value = _up_to(cycle.stages, value)
-    active, wanted = set(names), {value}
+    values = (value,) if isinstance(value, str) else tuple(value)
+    for each in values:
+        if each not in cycle.results:
+            raise ValueError(f"the cycle program has no result '{each}'")
+    stages = cycle.stages
+    if len(values) == 1:
+        stages, first = _up_to(stages, values[0])
+        values = (first,)
+    active, wanted = set(names), set(values)
     for stage in stages:
         if any(name in active for name in stage.parameters):
             active |= set(stage.results)
@@ -71,7 +78,7 @@ def cycle_gradient(cycle: CycleProgram, value: str, wrt: Sequence[str] | None = 
     for step in backwards:
         recorded[step.number] = step.recorded
     forwards, plain = (CycleProgram(tuple(each), cycle.dimensions) for each in (recorded, stages))
-    return CycleGradient(forwards, plain, value, names, tuple(backwards))
+    return CycleGradient(forwards, plain, values, names, tuple(backwards))
 
 
 def _up_to(stages: tuple[Stage, ...], value: str) -> tuple[tuple[Stage, ...], str]:
@@ -88,16 +95,21 @@ def _up_to(stages: tuple[Stage, ...], value: str) -> tuple[tuple[Stage, ...], st
 
 @dataclass(frozen=True, eq=False)
 class CycleGradient:
-    """Value and gradient of a result: the cycle program forwards, then some of its stages backwards.
+    """Values and gradients of results: the cycle program forwards, then for each some of its stages backwards.
 
-    ``plain``: the stages for the value alone, whose name among their results is ``value``.
+    ``plain``: the stages for the values alone, whose names among their results are ``values``.
     """
 
     cycle: CycleProgram
     plain: CycleProgram
-    value: str
+    values: tuple[str, ...]
     wrt: tuple[str, ...]
     backwards: tuple[Backwards, ...]
+
+    @property
+    def value(self) -> str:
+        """The name of the first value."""
+        return self.values[0]
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -134,28 +146,46 @@ class CycleGradient:
         backend: Backend = "auto",
         progress: Progress | None = None,
     ) -> tuple[Floats, Floats]:
-        """Values (designs,) and gradients (designs, wrt); inputs as for :meth:`CycleProgram.evaluate`.
+        """The first value (designs,) and its gradient (designs, wrt), as :meth:`evaluate_all`."""
+        values, gradients = self.evaluate_all(
+            table, positions, fields, tables=tables, threads=threads, backend=backend, progress=progress
+        )
+        return values[0], gradients[0]
 
-        NaN for designs without the result.
+    def evaluate_all(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+        progress: Progress | None = None,
+    ) -> tuple[Floats, Floats]:
+        """All values (values, designs) and gradients (values, designs, wrt); inputs as for
+        :meth:`CycleProgram.evaluate`. NaN for designs without the result.
         """
         count = len(np.asarray(table))
-        values, gradient = np.empty(count), np.zeros((count, len(self.wrt)))
+        values = np.empty((len(self.values), count))
+        gradients = np.zeros((len(self.values), count, len(self.wrt)))
         first = 0
         for end, known, run in self.cycle.blocks(
             table, positions, fields, tables=tables, threads=threads, backend=backend
         ):
-            values[first:end] = known.values[self.value]
-            bars: Bars = {self.value: np.ones(end - first)}
-            with np.errstate(all="ignore"):
-                for step in self.backwards:
-                    step.pass_on(known, bars, run)
-            for column, name in enumerate(self.wrt):
-                gradient[first:end, column] = bars.get(name, 0.0)
+            for row, value in enumerate(self.values):
+                values[row, first:end] = known.values[value]
+                bars: Bars = {value: np.ones(end - first)}
+                with np.errstate(all="ignore"):
+                    for step in self.backwards:
+                        step.pass_on(known, bars, run)
+                for column, name in enumerate(self.wrt):
+                    gradients[row, first:end, column] = bars.get(name, 0.0)
             first = end
             if progress is not None:
                 progress(end, count)
-        gradient[np.isnan(values)] = np.nan
-        return values, gradient
+        gradients[np.isnan(values)] = np.nan
+        return values, gradients
 
 
 class Backwards:

@@ -42,18 +42,18 @@ class State:
         }
 
 
-def begin(task: Task, size: int) -> State:
-    """The start itself and designs spread evenly between the bounds."""
+def begin(task: Task, count: int) -> State:
+    """The start itself, designs near it, and others spread evenly between the bounds."""
     from scipy.stats import qmc
 
     k = len(task.problem.variables)
     draw = np.random.default_rng(task.problem.seed)
     with np.errstate(all="ignore"):
-        x = qmc.LatinHypercube(k, rng=draw).random(size)
+        x = qmc.LatinHypercube(k, rng=draw).random(count)
     x[0] = np.clip(task.inverse(task.problem.start), 0, 1)
-    near = max(2, size // 4)
+    near = max(2, count // 4)
     x[1:near] = np.clip(x[0] + 0.05 * draw.normal(size=(near - 1, k)), 0, 1)
-    return State(task.judge(x), 0, size, draw, [])
+    return State(task.judge(x), 0, count, draw, [])
 
 
 def resumed(task: Task, data: dict[str, Any]) -> State:
@@ -61,14 +61,11 @@ def resumed(task: Task, data: dict[str, Any]) -> State:
     draw = np.random.default_rng()
     draw.bit_generator.state = data["draw"]
     x = np.array(data["x"], dtype=float)
-    done, evaluations, history = (
-        int(data["generation"]),
-        int(data["evaluations"]),
-        [*map(float, data["history"])],
-    )
+    done, evaluations = int(data["generation"]), int(data["evaluations"])
+    history = [*map(float, data["history"])]
     if x.shape[1:] != (len(task.problem.variables),) or not ((x >= 0.0) & (x <= 1.0)).all():
         raise ValueError("x")
-    if done != len(history) or evaluations != len(x) * (done + 1):
+    if done != len(history) or evaluations < len(x) * (done + 1):
         raise ValueError("generation")
     return State(task.judge(x), done, evaluations, draw, history)
 

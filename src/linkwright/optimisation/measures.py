@@ -221,35 +221,49 @@ class Measures:
             return np.asarray(expression.evaluate({n: found[m] for n, m in names.items()}, array_functions()))
 
     # gradients ---------------------------------------------------------------------------------------
-    def gradient(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
-        """Gradients (designs, k) of a quantity by the addresses ``by``, from columns (designs,)."""
+    def with_slopes(
+        self, columns: Mapping[str, Floats], by: tuple[str, ...]
+    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
+        """Values (designs,) of every text and gradients (designs, k) by the addresses ``by``, from columns."""
         count = len(next(iter(columns.values())))
+        self.evaluations += count
+        found, slopes = dict(self._held(columns, count)), {}
+        for name in found:
+            slopes[name] = np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
+        for name in self.paths.parts:
+            found[name], slopes[name] = self.paths.with_slopes(name, columns, by)
+        if self.numbers:
+            numbers, gradients = self._numbers_with_slopes(columns, by)
+            found |= zip(self.numbers, numbers, strict=True)
+            slopes |= zip(self.numbers, gradients, strict=True)
+        values = {text: self._combined(text, found) for text in self.expressions}
+        return values, {text: self._chained(text, found, slopes) for text in self.expressions}
+
+    def _chained(self, text: str, found: Mapping[str, Floats], slopes: Mapping[str, Floats]) -> Floats:
+        """The gradient of an expression from those of its numbers."""
         expression, names = self.expressions[text]
         if expression is None:
-            return self._slope(names[""], columns, by)
-        found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
+            return slopes[names[""]]
         values = {name: found[number] for name, number in names.items()}
-        total = np.zeros((count, len(by)))
+        total = np.zeros_like(next(iter(slopes.values())))
         for name, number in names.items():
             with np.errstate(all="ignore"):
                 rate = np.asarray(expression.diff(name).evaluate(values, array_functions()))
-            total = total + np.broadcast_to(rate, count)[:, None] * self._slope(number, columns, by)
+            total = total + np.broadcast_to(rate, len(total))[:, None] * slopes[number]
         return total
 
-    def _slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
-        count = len(next(iter(columns.values())))
-        if name in self._dimensions:
-            return np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
-        if name in self.paths:
-            return self.paths.slope(name, columns, by)
+    def _numbers_with_slopes(
+        self, columns: Mapping[str, Floats], by: tuple[str, ...]
+    ) -> tuple[Floats, Floats]:
+        """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers."""
         assert self.cycle is not None
-        own = tuple(address for address in by if address in self.cycle.dimensions)
-        slope = np.zeros((count, len(by)))
-        if own:
-            with np.errstate(all="ignore"):
-                _, found = self.cycle.gradient({name: 1.0}, columns, own, backend=self.backend)
-            slope[:, [by.index(address) for address in own]] = found
-        return slope
+        own = [k for k, address in enumerate(by) if address in self.cycle.dimensions]
+        asked, mine = [{name: 1.0} for name in self.numbers], [by[k] for k in own]
+        with np.errstate(all="ignore"):
+            values, part = self.cycle.gradients(asked, columns, mine, backend=self.backend)
+        slopes = np.zeros((*values.shape, len(by)))
+        slopes[:, :, own] = part
+        return values, slopes
 
 
 def _designs(problem: Problem, columns: Mapping[str, Floats]) -> dict[str, Floats]:

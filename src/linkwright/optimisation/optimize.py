@@ -25,10 +25,12 @@ from linkwright.optimisation.evolution import (
     fronts,
     generation,
     idle,
+    joined,
     ranked,
     resumed,
     taken,
 )
+from linkwright.optimisation.front import Scale, nearest, picked, spread
 from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, hypervolume
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
@@ -40,10 +42,19 @@ from linkwright.words.titles import title_said
 Progress = Callable[[int, int], None]
 #: Evaluations where designs go one after the other and nobody says how many; seconds between two saved states.
 SLOW, SAVED = 400, 2.0
-#: Designs that are polished with one objective; twice as many between the ends of a front.
-POLISHED = 3
+#: Share of the evaluations that the first designs take, how many of them the local search starts from, its steps, and
+#: how far apart they lie in the cube.
+SAMPLED, STARTS, FEW, APART = 0.5, 16, 15, 0.1
+#: Designs that are polished in the end for each objective; places along a front, and where designs go one by one.
+POLISHED, FRONT, FRONT_ALONE = 3, 48, 6
+#: Steps of the last local search, and how near in the cube two of its designs may begin.
+LAST, NEAR = 90, 0.03
+_NO_ROWS = np.array([], dtype=np.intp)
+Floats = NDArray[np.float64]
 #: Designs of a front are alike whose objectives differ by less than this share.
 ALIKE = 1e-5
+#: Objectives below this share of the start's are none.
+NOTHING = 1e-9
 
 
 def optimize(
@@ -113,16 +124,6 @@ def _digest(asked: Any, given: Mapping[str, Any]) -> str:
     return hashlib.blake2b(repr((plain, known)).encode(), digest_size=12).hexdigest()
 
 
-def _between(front: Judged) -> NDArray[np.float64]:
-    """Places of the cube along a front: its designs, and between those whose objectives lie far apart."""
-    order = np.lexsort(front.goals.T[::-1])
-    x, goals = front.x[order], front.goals[order]
-    size = np.maximum(np.ptp(goals, axis=0), 1e-300)
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(goals / size, axis=0), axis=1))])
-    wanted = np.linspace(0, along[-1], 2 * POLISHED + 2)[1:-1]
-    return np.column_stack([np.interp(wanted, along, column) for column in x.T]) if len(x) > 1 else x
-
-
 def _apart(judged: Judged) -> Judged:
     """Without designs whose objectives differ less than ``ALIKE`` from those of the one before."""
     rows = [0]
@@ -149,10 +150,10 @@ class _Run:
         self.task, self.size, self.most, self.path = task, size, most, path
         self.progress, self.digest, self.stopped = progress, digest, False
         self.document, self.leading = document, leading
+        self.polish = Polish(task)
 
     def optimum(self) -> Optimum:
-        state = self._searched()
-        judged = state.judged if self.stopped else self._polished(state.judged)
+        state, judged = self._searched()
         chosen = self._chosen(judged)
         if not np.isfinite(chosen.violations).all():
             raise RequestError(
@@ -182,10 +183,12 @@ class _Run:
             if np.isfinite(chosen.violations).all():
                 self.leading(self._made(chosen, state, made=False))
 
-    def _searched(self) -> State:
-        state = self._begun()
-        snapshot, saved = state.data(), time.monotonic()
+    def _searched(self) -> tuple[State, Judged]:
+        """The search's end, and its designs, polished but where it was stopped."""
+        snapshot, saved = dict[str, Any](), time.monotonic()
         try:
+            state = self._begun()
+            snapshot = state.data()
             while state.evaluations < self.most and not idle(state):
                 generation(self.task, state)
                 snapshot = state.data()
@@ -193,19 +196,22 @@ class _Run:
                     self._save(snapshot)
                     saved = time.monotonic()
                 self._tell(state)
+            if self.path is not None:
+                self._save(snapshot)
+            return state, self._polished(state.judged)
         except KeyboardInterrupt:
+            if not snapshot:
+                raise
             self.stopped = True
             if self.path is None:
                 self.path = Path(f"{self.task.problem.mechanism.name.replace(' ', '_')}.search.json")
             self._save(snapshot)
-            return resumed(self.task, snapshot)
-        if self.path is not None:
-            self._save(snapshot)
-        return state
+            state = resumed(self.task, snapshot)
+            return state, state.judged
 
     def _begun(self) -> State:
         if self.path is None or not self.path.exists():
-            return begin(self.task, self.size)
+            return self._fresh()
         try:
             data = json.loads(self.path.read_text(encoding="utf-8"))
             if data["problem"] != self.digest:
@@ -214,26 +220,62 @@ class _Run:
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
 
+    def _fresh(self) -> State:
+        """The first population: the best of many designs, some of them after a short local search."""
+        if not self.task.measures.side_by_side:
+            return begin(self.task, self.size)
+        state = begin(self.task, max(self.size, int(SAMPLED * self.most)))
+        goals = state.judged.goals.shape[1]
+        better = self._descended(state.judged, spread(goals, STARTS), STARTS, APART, FEW)
+        judged = joined(state.judged, better, _NO_ROWS, np.arange(len(better.x)))
+        distance = nearest(judged, Scale.of(judged), spread(goals, self.size))
+        state.judged = taken(judged, np.array(picked(judged, distance, self.size, 0.0), dtype=np.intp))
+        return state
+
+    def _descended(self, judged: Judged, points: Floats, count: int, apart: float, steps: int) -> Judged:
+        """Designs by turns nearest to points between the best and the worst of each objective, moved nearer."""
+        scale = Scale.of(judged)
+        rows = picked(judged, nearest(judged, scale, points), count, apart)
+        before = taken(judged, np.array(rows, dtype=np.intp))
+        if before.goals.shape[1] == 1:
+            return self.polish.polished(
+                before, 1.0 / self._sizes(before, 0)[:, None], np.zeros_like(before.goals), steps
+            )
+        aims = np.resize(scale.aims(points), before.goals.shape)
+        return self.polish.polished(before, np.tile(1.0 / scale.span, (len(rows), 1)), aims, steps)
+
+    def _sizes(self, judged: Judged, goal: int) -> Floats:
+        """What counts as much of an objective, (K,): its value, but for values next to nothing beside the start's."""
+        start = abs(self.task.at_start[self.task.problem.goals[goal].text])
+        least = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
+        found = np.abs(judged.goals[:, goal])
+        return np.maximum(np.where(np.isfinite(found), found, 1.0), least)
+
     def _save(self, snapshot: dict[str, Any]) -> None:
         assert self.path is not None
         write_whole(self.path, json.dumps({"problem": self.digest, **snapshot}).encode())
 
     def _polished(self, judged: Judged) -> Judged:
-        """The population with its best designs polished."""
+        """The population with its best designs polished; of several objectives the front, evenly filled."""
         count = judged.goals.shape[1]
-        polish = Polish(self.task)
         if count == 1 or not (judged.total == 0).any():
-            rows = self._different(judged, ranked(judged), POLISHED)
-            return self._bettered(judged, polish.polished(judged, rows, [~0] * len(rows)))
-        inside = np.where(judged.total[:, None] == 0, judged.goals, np.inf)
-        ends = [int(each) for each in inside.argmin(axis=0)]
-        judged = self._bettered(judged, polish.polished(judged, ends, [~k for k in range(count)]))
-        front = taken(judged, np.flatnonzero((fronts(judged) == 0) & (judged.total == 0)))
-        between = self.task.judge(_between(front))
-        middle = self._different(between, ranked(between), 2 * POLISHED)
-        return self._bettered(
-            judged, polish.polished(between, middle, [k % count for k in range(len(middle))])
-        )
+            better = self._descended(judged, np.zeros((1, count)), POLISHED, NEAR, LAST)
+            return self._bettered(judged, better)
+        for goal in range(count):
+            judged = self._bettered(judged, self._end(judged, goal))
+        points = spread(count, FRONT if self.task.measures.side_by_side else FRONT_ALONE)
+        judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, LAST))
+        rows = picked(judged, nearest(judged, Scale.of(judged), points), len(points), 0.0)
+        return taken(judged, np.array(rows, dtype=np.intp))
+
+    def _end(self, judged: Judged, goal: int) -> Judged:
+        """Designs with one objective least."""
+        alone = np.where(judged.total == 0, judged.goals[:, goal], np.inf)
+        rows = np.array(picked(judged, alone[None], POLISHED, NEAR), dtype=np.intp)
+        weights = np.zeros((len(rows), judged.goals.shape[1]))
+        before = taken(judged, rows)
+        weights[:, goal] = 1.0 / self._sizes(before, goal)
+        return self.polish.polished(before, weights, np.zeros_like(weights), LAST)
 
     @staticmethod
     def _bettered(judged: Judged, better: Judged) -> Judged:
@@ -247,17 +289,6 @@ class _Run:
         pairs = np.array([[i, j] for i in range(len(both.x)) for j in range(size, len(both.x))])
         beaten = pairs[dominates(both, both, pairs[:, 1], pairs[:, 0]), 0]
         return taken(both, np.setdiff1d(np.arange(len(both.x)), beaten))
-
-    @staticmethod
-    def _different(judged: Judged, order: NDArray[np.intp], most: int) -> list[int]:
-        """The first rows that lie apart."""
-        rows: list[int] = []
-        for row in order:
-            if all(np.abs(judged.x[row] - judged.x[other]).max() > 0.03 for other in rows):
-                rows.append(int(row))
-            if len(rows) == most:
-                break
-        return rows
 
     def _made(self, chosen: Judged, state: State, *, made: bool) -> Optimum:
         """The designs as an optimum; ``made``: at the end, with the share of machines that meet all demands and the

@@ -16,6 +16,8 @@ from linkwright.study.objective import Part, PathError, of_path
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+#: Designs that one thread takes.
+ALONE = 512
 
 
 def path_error(given: Any) -> PathError | None:
@@ -41,6 +43,11 @@ def _is_pair(row: Any) -> bool:
     return isinstance(row, Sequence) and not isinstance(row, str) and len(row) == 2
 
 
+def _threads(columns: Mapping[str, Floats]) -> int | None:
+    """One where a second one costs more than it takes off."""
+    return None if len(next(iter(columns.values()))) > ALONE else 1
+
+
 class PathErrors:
     """Values (designs,) of path errors by name, and their exact gradients."""
 
@@ -61,12 +68,15 @@ class PathErrors:
     def values(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """m²; NaN where a design does not pass its cycle."""
         with np.errstate(all="ignore"):
-            return {name: part.values(columns, None) for name, part in self.parts.items()}
+            return {name: part.values(columns, _threads(columns)) for name, part in self.parts.items()}
 
-    def slope(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
-        """Gradients (designs, k) by the addresses ``by``."""
+    def with_slopes(
+        self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]
+    ) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, k) by the addresses ``by``."""
         part = self.parts[name]
-        _, found = part.many(columns, None)
+        with np.errstate(all="ignore"):
+            values, found = part.many(columns, _threads(columns))
         slope = np.zeros((len(found), len(by)))
         slope[:, [by.index(address) for address in part.names]] = found
-        return slope
+        return values, slope

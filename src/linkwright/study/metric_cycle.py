@@ -15,6 +15,7 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
@@ -65,8 +66,20 @@ def metric_cycle(
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the cycle is no single turn of one driver of constant speed, groups have no closed
     form, the way passes change points, loads do not follow the input, or polynomials do not meet the machine itself.
+    What is found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
+    key = (addresses, given, steps, asked)
+    return _cycles.get(mechanism, key, lambda: _metric_cycle(mechanism, addresses, given, steps, asked))
+
+
+def _metric_cycle(
+    mechanism: Mechanism,
+    addresses: tuple[str, ...],
+    given: tuple[str | Term, ...],
+    steps: int,
+    asked: Asked | None,
+) -> MetricCycle | None:
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
     placed = plain.solver.motion.placed.values()
     if any(each.next_states for each in placed) or not one_turn(plain, addresses):
@@ -88,6 +101,9 @@ def metric_cycle(
         if found.met(nominal).all():
             return found
     return None
+
+
+_cycles: Recent[Mechanism, MetricCycle | None] = Recent(16)
 
 
 def numbers_of(
@@ -305,9 +321,23 @@ class MetricCycle:
         backend: Backend = "auto",
     ) -> tuple[Floats, Floats]:
         """A weighted sum of terms (designs,) and its gradient (designs, by); NaN where it is not certain."""
+        values, slopes = self.gradients([weights], columns, by, threads=threads, backend=backend)
+        return values[0], slopes[0]
+
+    def gradients(
+        self,
+        sums: Sequence[Mapping[str, float]],
+        columns: Mapping[str, Floats],
+        by: Sequence[str],
+        *,
+        threads: int | None = 1,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """Weighted sums of terms (sums, designs) and their gradients (sums, designs, by), from one evaluation of the
+        cycle; NaN where it is not certain."""
         designs = len(next(iter(columns.values())))
-        values, slopes = np.empty(designs), np.empty((designs, len(by)))
-        backwards = self._backwards(tuple(weights.items()), tuple(by))
+        values, slopes = np.empty((len(sums), designs)), np.empty((len(sums), designs, len(by)))
+        backwards = self._backwards(tuple(tuple(each.items()) for each in sums), tuple(by))
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
@@ -316,30 +346,32 @@ class MetricCycle:
             for summary in self._summaries:
                 fields |= seen.weights(summary)
             table = self._table(backwards.cycle, part)
-            found, slope = backwards.evaluate(
+            found, slope = backwards.evaluate_all(
                 table, self._positions, fields, tables=self.loads.tables, threads=1, backend=backend
             )
-            found[~seen.certain], slope[~seen.certain] = np.nan, np.nan
+            found[:, ~seen.certain], slope[:, ~seen.certain] = np.nan, np.nan
             left = np.flatnonzero(seen.passed & ~seen.certain)
             if len(left) and self.finer is not None:
                 rest = {a: c[left] for a, c in part.items()}
-                found[left], slope[left] = self.finer.gradient(weights, rest, by, backend=backend)
-            values[first:end], slopes[first:end] = found, slope
+                found[:, left], slope[:, left] = self.finer.gradients(sums, rest, by, backend=backend)
+            values[:, first:end], slopes[:, first:end] = found, slope
 
         spread_over(designs, WEIGHED, cores() if threads is None else threads, work)
         return values, slopes
 
-    def _backwards(self, weights: tuple[tuple[str, float], ...], by: tuple[str, ...]) -> CycleGradient:
-        key = (weights, by)
+    def _backwards(
+        self, sums: tuple[tuple[tuple[str, float], ...], ...], by: tuple[str, ...]
+    ) -> CycleGradient:
+        key = (sums, by)
         if key not in self._kept:
-            self._kept[key] = self._differentiable(dict(weights), by)
+            self._kept[key] = self._differentiable([dict(each) for each in sums], by)
         return self._kept[key]
 
     @cached_property
     def _kept(self) -> dict[object, CycleGradient]:
         return {}
 
-    def _differentiable(self, weights: Mapping[str, float], by: tuple[str, ...]) -> CycleGradient:
+    def _differentiable(self, asked: Sequence[Mapping[str, float]], by: tuple[str, ...]) -> CycleGradient:
         """The same summaries as sums over the Gauss points with known weights, whose places stay in their pieces."""
         trace, found = self.gauss.signals(self.quantities)
         width = found[SHARE]
@@ -365,12 +397,12 @@ class MetricCycle:
         )
         t = Trace()
         parts = {text: self._part(t, text) for text in self.parts}
-        total: Scalar = 0.0
-        for each in self.terms:
-            if each.name in weights:
-                total = total + weights[each.name] * each.value(parts)
-        last = Stage(Program.of(t, {VALUE: total}), {VALUE: Reduction(VALUE, "first")}, steps=1)
-        return cycle_gradient(CycleProgram((*self._before, motion, last)), VALUE, by)
+        totals: dict[str, Scalar] = {}
+        for number, weights in enumerate(asked):
+            known = (weights[each.name] * each.value(parts) for each in self.terms if each.name in weights)
+            totals[f"{VALUE} {number}"] = sum(known, start=0.0)
+        last = Stage(Program.of(t, totals), {name: Reduction(name, "first") for name in totals}, steps=1)
+        return cycle_gradient(CycleProgram((*self._before, motion, last)), tuple(totals), by)
 
     def _part(self, t: Trace, text: str) -> Scalar:
         """A summary from the sums."""

@@ -15,6 +15,7 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.states import states_as_fields
@@ -227,8 +228,14 @@ def of_metrics(
 
 
 def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:
-    """A path error over the cycle; ``names`` on which it does not depend are left out."""
-    return _of_positions(mechanism, names, {path: 1.0}, 0, None, backend)
+    """A path error over the cycle, kept for the machine; ``names`` on which it does not depend are left out."""
+    target = np.array(path.target, dtype=float)
+    key = (names, path.point, target.shape, target.tobytes(), backend)
+    made = replace(path, target=target)
+    return _paths.get(mechanism, key, lambda: _of_positions(mechanism, names, {made: 1.0}, 0, None, backend))
+
+
+_paths: Recent[Mechanism, Part] = Recent(16)
 
 
 def _of_positions(
