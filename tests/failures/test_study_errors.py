@@ -315,10 +315,9 @@ def test_objectives_that_have_no_gradient_or_another_shape() -> None:
     text = lw.dump(lw.load("gallery:shaper_quick_return")).replace(
         "kind: prismatic,", "kind: prismatic, friction: 0.1,"
     )
-    for term in ("driver.effort rms", "rms_input_torque"):
-        assert "gradient" in said(
-            lambda t=term: lw.objective(lw.loads(text), t, vary=["crank.length"], steps=24)
-        )
+    assert "pressed from both sides" in said(
+        lambda: lw.objective(lw.loads(text), "rms_input_torque", vary=["crank.length"], steps=24)
+    )
     assert "stroke" in said(lambda: lw.objective(machine(), "stroke", vary=["coupler.length"]))
     assert "rocker.mass has no influence" in said(
         lambda: lw.objective(machine(), "rocker.angle range", vary=["coupler.length", "rocker.mass"])

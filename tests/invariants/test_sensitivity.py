@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -238,11 +239,13 @@ def test_loads_of_a_machine_without_closed_form_go_on_acting_where_they_act(load
     assert found.curve("input_torque") == pytest.approx(alone, rel=1e-9, abs=1e-9)
 
 
-def test_what_moves_without_a_closed_form_or_rubs_has_no_derivative() -> None:
+def test_what_moves_without_a_closed_form_or_rubs_beside_wheels_has_no_derivative() -> None:
     ramp = iterated("ramp: [10 N, 200 N], phase: {of: bar_2, from: max, to: min}")
     with pytest.raises(lw.LinkwrightError, match="push"):
         sensitivity(ramp, of=["input_torque"], by=["plate.R.y"], steps=60)
-    text = lw.dump(lw.load("gallery:shaper_quick_return"))
-    rubbing = lw.loads(text.replace("kind: prismatic,", "kind: prismatic, friction: 0.1,"))
-    with pytest.raises(lw.LinkwrightError, match="friction"):
-        sensitivity(rubbing, of=["input_torque"], by=["crank.length"], steps=24)
+    wheels = lw.load("gallery:rack_and_rocker")
+    pin = next(name for name, joint in wheels.joints.items() if joint.coordinate == "turn")
+    joints = {**wheels.joints, pin: replace(wheels.joints[pin], friction=0.1, pin_radius=0.01)}
+    mass = next(name for name, value in wheels.dimensions().items() if name.endswith(".mass") and value)
+    with pytest.raises(lw.LinkwrightError, match="friction has a derivative"):
+        sensitivity(replace(wheels, joints=joints), of=["input_torque"], by=[mass], steps=24)

@@ -41,6 +41,23 @@ def _gauss_jordan(matrix: Sequence[Sequence[Scalar]]) -> Matrix:
     return [row[size:] for row in rows]
 
 
+def solution(matrix: Sequence[Sequence[Scalar]], vector: Sequence[Scalar]) -> list[Scalar]:
+    """x with matrix · x = vector, by elimination without exchanges.
+
+    For matrices 1 - J where the absolute values of J have a spectral radius below 1, whose pivots stay above zero
+    (they are H-matrices: Golub & Van Loan, Matrix Computations, ch. 3.4).
+    """
+    rows: Matrix = [[*row, right] for row, right in zip(matrix, vector, strict=True)]
+    for column in range(len(rows)):
+        factor = reciprocal(rows[column][0])
+        pivot = [entry * factor for entry in rows[column][1:]]
+        rows = [
+            pivot if i == column else [x - row[0] * y for x, y in zip(row[1:], pivot, strict=True)]
+            for i, row in enumerate(rows)
+        ]
+    return [row[0] for row in rows]
+
+
 def determinant(matrix: Sequence[Sequence[Scalar]]) -> Scalar:
     """Determinant of a k×k matrix, by the same elimination as its inverse."""
     rows: Matrix = [list(row) for row in matrix]

@@ -35,6 +35,9 @@ class FrictionTerm:
         """Name of the program's input that holds it."""
         return f"friction:{self.joint}|{self.b}"
 
+    def __str__(self) -> str:
+        return self.field
+
 
 class FrictionTerms:
     """All friction of a mechanism's joints."""
@@ -60,12 +63,12 @@ class FrictionTerms:
                 terms += [FrictionTerm(name, a, b, arm, slides) for a, b in pairs]
         return cls(motion, tuple(terms))
 
-    def wrenches(self) -> dict[str, list[Wrench]]:
-        """The friction as loads on both links, with magnitudes from the program's inputs."""
-        return {term.field: self._wrenches(term) for term in self.terms}
+    def wrenches(self, sizes: Mapping[str, Scalar] | None = None) -> dict[str, list[Wrench]]:
+        """The friction as loads on both links; magnitudes by the names of the fields, else inputs of these names."""
+        given = sizes or {term.field: self.motion.trace.field_input(term.field) for term in self.terms}
+        return {term.field: self._wrenches(term, given[term.field]) for term in self.terms}
 
-    def _wrenches(self, term: FrictionTerm) -> list[Wrench]:
-        size: Scalar = self.motion.trace.field_input(term.field)
+    def _wrenches(self, term: FrictionTerm, size: Scalar) -> list[Wrench]:
         if not term.slides:
             return [Wrench(term.b, torque=size), Wrench(term.a, torque=-size)]
         direction, place, _ = guide_state(self.motion, term.joint)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -15,6 +16,9 @@ from linkwright.kinetostatics.named import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
 from linkwright.loads.along_input import followed_by
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.friction_stage import SolvedFriction, Wrenches
 
 #: Before an output in words among the names of outputs.
 _WORDS = "words:"
@@ -33,23 +37,42 @@ def _no_angle(link: str) -> float:
 class ForcePrograms:
     """The traced forces of all mechanisms of one shape, and the programs made of them."""
 
-    def __init__(self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str]) -> None:
+    def __init__(
+        self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str], rubbing: bool
+    ) -> None:
         self.motion = motion
         self.inertia = inertia
         self.along_input = along_input
+        self.rubbing = rubbing
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
 
     @cached_property
     def forces(self) -> ForceTrace:
         """Reactions and efforts as traced values."""
         with self.motion.lock:
-            friction = FrictionTerms.of(self.motion.mechanism, self.motion.motion)
-            return trace_forces(
-                self.motion.motion,
-                inertia=self.inertia,
-                extra=friction.wrenches(),
-                along_input=self.along_input,
-            )
+            solved = self.friction
+            wrenches = self._terms.wrenches(None if solved is None else solved.sizes)
+            return self._under(wrenches)
+
+    @cached_property
+    def friction(self) -> SolvedFriction | None:
+        """The friction where it is traced; None where it is an input, or there is none."""
+        if not self.rubbing or not self._terms.terms:
+            return None
+        from linkwright.kinetostatics.friction_stage import solved_friction
+
+        with self.motion.lock:
+            return solved_friction(self._terms, self._under)
+
+    @cached_property
+    def _terms(self) -> FrictionTerms:
+        return FrictionTerms.of(self.motion.mechanism, self.motion.motion)
+
+    def _under(self, wrenches: Wrenches) -> ForceTrace:
+        """The forces under further wrenches."""
+        return trace_forces(
+            self.motion.motion, inertia=self.inertia, extra=wrenches, along_input=self.along_input
+        )
 
     @cached_property
     def outputs(self) -> ForceOutputs:
@@ -99,11 +122,16 @@ class ForcePrograms:
 
 
 def force_programs(
-    motion: MotionPrograms, *, inertia: bool = True, along_input: frozenset[str] = frozenset()
+    motion: MotionPrograms,
+    *,
+    inertia: bool = True,
+    along_input: frozenset[str] = frozenset(),
+    rubbing: bool = False,
 ) -> ForcePrograms:
-    """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``."""
-    key = (inertia, along_input)
-    return _kept.get(motion, key, lambda: ForcePrograms(motion, inertia, along_input))
+    """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``, ``rubbing``:
+    the friction is traced, else an input per position."""
+    key = (inertia, along_input, rubbing)
+    return _kept.get(motion, key, lambda: ForcePrograms(motion, *key))
 
 
 _kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)

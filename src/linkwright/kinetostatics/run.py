@@ -23,6 +23,8 @@ from linkwright.words.sentence import Sentence, together
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400
 FRICTION_CHANGE = 1e-12
+#: Share of a joint's largest rate below which it stands still.
+STILL = 1e-12
 
 
 class FrictionError(LinkwrightError):
@@ -165,13 +167,18 @@ def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats
     raise FrictionError(_locked(motion, terms, fields))
 
 
-def _rate(motion: Motion, term: FrictionTerm) -> Floats:
+def joint_rate(motion: Motion, term: FrictionTerm) -> Floats:
+    """Rate of link b against link a, (n,) rad/s, or of the block along the guide, m/s."""
     if term.slides:
-        rate = motion.joint(term.joint).velocity
-    else:
-        rate = motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity
+        return motion.joint(term.joint).velocity
+    return np.asarray(motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity)
+
+
+def _rate(motion: Motion, term: FrictionTerm) -> Floats:
+    """The same, zero where the joint stands still."""
+    rate = joint_rate(motion, term)
     scale = np.nanmax(np.abs(rate), initial=0.0)
-    return np.where(np.abs(rate) < 1e-12 * scale, 0.0, rate)
+    return np.where(np.abs(rate) < STILL * scale, 0.0, rate)
 
 
 def _pressing(forces: Forces, term: FrictionTerm) -> Floats:

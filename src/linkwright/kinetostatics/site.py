@@ -10,7 +10,7 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
 
 
-def limit_name(output: Output, kind: str) -> str:
+def limit_name(output: object, kind: str) -> str:
     """Name of the parameter that holds the input of an output's limit."""
     return f"limit:{output}:{kind}"
 
@@ -24,7 +24,7 @@ def constant_name(load: str, field: str) -> str:
     return f"constant:{load}:{field}"
 
 
-def value_name(output: Output, kind: str) -> str:
+def value_name(output: object, kind: str) -> str:
     """Name of the parameter that holds an output at its limit."""
     return f"value:{output}:{kind}"
 

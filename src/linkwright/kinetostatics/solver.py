@@ -22,11 +22,17 @@ class ForceSolver:
     """Evaluates the forces of a motion solver's mechanism."""
 
     def __init__(
-        self, motion: MotionSolver, *, inertia: bool = True, along_input: frozenset[str] = frozenset()
+        self,
+        motion: MotionSolver,
+        *,
+        inertia: bool = True,
+        along_input: frozenset[str] = frozenset(),
+        rubbing: bool = False,
     ) -> None:
         self.motion = motion
         self.inertia = inertia
         self.along_input = along_input
+        self.rubbing = rubbing
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what every process makes for itself."""
@@ -35,7 +41,9 @@ class ForceSolver:
     @cached_property
     def programs(self) -> ForcePrograms:
         """The programs of the mechanism's shape."""
-        return force_programs(self.motion.programs, inertia=self.inertia, along_input=self.along_input)
+        return force_programs(
+            self.motion.programs, inertia=self.inertia, along_input=self.along_input, rubbing=self.rubbing
+        )
 
     @cached_property
     def friction(self) -> FrictionTerms:

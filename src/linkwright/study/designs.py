@@ -158,9 +158,9 @@ def sweep(
         LinkwrightError: unknown names (nearest ones offered), values that no design can have, dimensions that
             change the drive's law.
 
-    A dimension that changes the positions of the input is refused. Friction, loads that divide by an output
-    or follow a link that turns through, those of machines without a single turn at constant speed, and motion through
-    change points are found design by design, which takes milliseconds each.
+    A dimension that changes the positions of the input is refused. Friction beside wheels, racks or cams or near
+    locking, loads that divide by an output or follow a link that turns through, those of machines without a single
+    turn at constant speed, and motion through change points are found design by design, in milliseconds each.
     """
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)

@@ -20,20 +20,22 @@ from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, sign
+from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import limit_name
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
 from linkwright.study.limit_stages import edge_name, part_edge
-from linkwright.study.loaded_cycle import AlongInput
+from linkwright.study.loaded_cycle import AlongInput, friction_doubt
 from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]
 #: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
 #: has at least.
 PIECES, LEAST = (12, 28, 56, 112), 0.25
+#: Share of the turn within which two cuts are one.
+SAME = 1e-9
 #: The constant that is the input where the turn begins.
 FIRST = "first input"
 #: The output that is a node's share of the cycle's time.
@@ -53,10 +55,12 @@ class GaussCycle:
 
     @classmethod
     def of(cls, traced: Traced, loads: AlongInput, wanted: int) -> GaussCycle:
-        """For the loads whose magnitudes are traced."""
+        """For the loads whose magnitudes are traced, and the friction."""
         found: dict[str, None] = {}
         for name in sorted(loads.names):
             found |= dict.fromkeys(_cuts(traced.mechanism.loads[name]))
+        for term in loads.swinging:
+            found |= dict.fromkeys(limit_name(term, kind) for kind in ("max", "min"))
         return cls(traced, tuple(found), wanted)
 
     @property
@@ -153,14 +157,15 @@ class GaussCycle:
                     minimum(shares[k], shares[k + 1]),
                     maximum(shares[k], shares[k + 1]),
                 )
-        outputs = {f"cut {k}": share for k, share in enumerate(shares)}
+        outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
         return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
     def signals(self, quantities: Mapping[str, Quantity]) -> tuple[Trace, dict[str, Scalar]]:
         """A trace over the Gauss points with the quantities, whether they are valid, and the share of the time."""
         motion = self.traced.solver.motion
         outputs = {name: each.value for name, each in quantities.items()}
-        source = Program.of(motion.trace, {**outputs, VALID: self.traced.counted_for_certain})
+        sure = motion.trace.logic("and", self.traced.counted_for_certain, friction_doubt(self.traced) < 0.5)
+        source = Program.of(motion.trace, {**outputs, VALID: sure})
         t = Trace()
         (driver,) = self.traced.mechanism.drivers
         place: Scalar = t.position("place after")
@@ -176,6 +181,23 @@ class GaussCycle:
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         found = self.traced.at_input(source, t, angle, {"input": angle, "time": time})
         return t, {**found, SHARE: width}
+
+
+def _apart(shares: list[Scalar]) -> list[Scalar]:
+    """The same cuts, in order, those that coincide moved into the stretches beside them.
+
+    Where two limit positions are one, as of links that turn together, a stretch of no width would lie between them,
+    in which loads and friction are what rounding makes of them.
+    """
+    found, last = list(shares), len(shares) - 1
+    for k in range(last, 0, -1):
+        following = found[k + 1] if k < last else found[0] + 1.0
+        together = found[k] - found[k - 1] <= SAME
+        found[k] = select(together, 0.5 * (found[k] + following), found[k])
+    if last:
+        around = found[0] + 1.0 - found[last] <= SAME
+        found[last] = select(around, 0.5 * (found[last - 1] + found[last]), found[last])
+    return found
 
 
 def _edges(load: str, phase: SwingPhase) -> dict[int, str]:

@@ -19,6 +19,7 @@ from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase
+from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
@@ -27,7 +28,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.phases import activity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import AlongInput, numbers_of_loads, one_turn
+from linkwright.study.loaded_cycle import AlongInput, numbers_of_loads, one_turn, still_rates
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
@@ -37,28 +38,37 @@ Floats = NDArray[np.float64]
 @dataclass(frozen=True)
 class KnownLoads:
     """``names``: loads as ``Traced`` takes them; ``numbers`` by name, ``slopes`` (dimensions,) of those that move,
-    ``fields`` (n,) by name, and ``tables``."""
+    ``fields`` (n,) by name, and ``tables``; ``rubbing``: the friction of joints is traced."""
 
     names: frozenset[str] = frozenset()
     numbers: Mapping[str, float] = field(default_factory=dict)
     slopes: Mapping[str, Floats] = field(default_factory=dict)
     fields: Mapping[str, Floats] = field(default_factory=dict)
     tables: Tables = field(default_factory=dict)
+    rubbing: bool = False
 
 
 def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> KnownLoads:
     """What the loads behind a program's inputs per position take at the mechanism as it is.
 
     Raises:
-        LinkwrightError: friction, which is an iteration; loads that have no value somewhere, or no derivative.
+        LinkwrightError: friction in which the joint forces are not linear; loads that have no value somewhere, or no
+            derivative.
     """
-    given = [name for name in fields if name not in plain.nominal.states]
-    if any(name.startswith("friction:") for name in given):
-        raise LinkwrightError(Sentence("study.friction_slope"))
+    rubbing = any(name.startswith("friction:") for name in fields)
+    terms = plain.forces.friction.terms if rubbing else ()
+    if not can_be_traced(plain.mechanism, len(terms)):
+        raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
+    given = [
+        name
+        for name in (plain.forces.fields_needed() if rubbing else fields)
+        if name not in plain.nominal.states
+    ]
     if not given:
         return KnownLoads()
     run_forces(plain.nominal, False)
-    loads = [plain.mechanism.loads[name.removeprefix("load:")] for name in given]
+    named = [name.removeprefix("load:") for name in given if name.startswith("load:")]
+    loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
         if type(load).from_cycle is not Load.from_cycle and type(load).traced is Load.traced:
             raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
@@ -73,7 +83,8 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
                 known |= _phase(load, signals)
         moving = {}, {}
-    return KnownLoads(frozenset(names), {**along.constants, **moving[0]}, moving[1], known, along.tables)
+    numbers = {**along.constants, **moving[0], **still_rates(plain, terms)}
+    return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
 
 
 def _moving(

@@ -14,6 +14,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import Output, SwingPhase
+from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
@@ -39,8 +40,12 @@ NEAR_STEPS, AT = 5, 1e-9
 EDGE_STEPS = 40
 
 
+#: What comes and goes: an output, or the angle between the links of a pin with friction.
+Swinging = Output | FrictionTerm
+
+
 def limit_stages(
-    traced: Traced, outputs: Iterable[Output], *, judged: bool = True, valued: Iterable[Output] = ()
+    traced: Traced, outputs: Iterable[Swinging], *, judged: bool = True, valued: Iterable[Output] = ()
 ) -> list[Stage]:
     """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
     also ``value:OUTPUT:max`` and ``:min``, and where ``judged`` ``doubt:OUTPUT``: above zero where these are not
@@ -52,10 +57,25 @@ def limit_stages(
     return [_seen(traced, asked, judged), *refined, *([_doubt(traced, asked)] if judged else [])]
 
 
-def rates(traced: Traced, output: Output) -> tuple[Scalar, Scalar]:
+def rates(traced: Traced, output: Swinging) -> tuple[Scalar, Scalar]:
     """Rate and second derivative of an output as traced values."""
+    if isinstance(output, FrictionTerm):
+        a, b = (traced.solver.motion.states[link] for link in (output.a, output.b))
+        return b.omega - a.omega, b.alpha - a.alpha
     rate, second = (traced.solver.outputs.value(name) for name in _rate_names(traced, output))
     return rate, second
+
+
+def _course(traced: Traced, output: Swinging) -> Scalar:
+    """What has its largest and smallest value where an output has."""
+    if isinstance(output, Output):
+        return traced.named.quantity(f"{output.owner}.{output.kind}").carrier
+    turned = traced.nominal.link(output.b).angle - traced.nominal.link(output.a).angle
+    middle = 0.5 * float(np.nanmin(turned) + np.nanmax(turned))
+    a, b = (traced.solver.motion.poses[link].direction for link in (output.a, output.b))
+    c, s = float(np.cos(middle)), float(np.sin(middle))
+    along, across = a.dot(b), a.cross(b)
+    return (across * c - along * s) / (1.0 + along * c + across * s)
 
 
 def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
@@ -63,7 +83,7 @@ def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
     return RATES[output.kind](owner)
 
 
-def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
+def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
     """The inputs of the positions with the largest and the smallest value; where ``judged`` how many positions have a
     growing value, and the sum of their directions on the circle of inputs."""
     trace = traced.solver.motion.trace
@@ -71,7 +91,7 @@ def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
     found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.counted_for_certain}
     wanted: dict[str, Reduction] = {}
     for each in outputs:
-        found[f"{each}"] = traced.named.quantity(f"{each.owner}.{each.kind}").carrier
+        found[f"{each}"] = _course(traced, each)
         wanted |= {
             f"near:{each}:{kind}": Reduction("input", f"at_{kind}", f"{each}")  # type: ignore[arg-type]
             for kind in ("max", "min")
@@ -90,7 +110,7 @@ def _seen(traced: Traced, outputs: Iterable[Output], judged: bool) -> Stage:
     return Stage(program, wanted, valid=VALID, count=count)
 
 
-def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
+def _refined(traced: Traced, output: Swinging, kind: str, valued: bool) -> Stage:
     """The input where the rate is zero, within one step of the nearest position."""
     t = Trace()
     (driver,) = traced.mechanism.drivers
@@ -98,7 +118,7 @@ def _refined(traced: Traced, output: Output, kind: str, valued: bool) -> Stage:
     speed = t.parameter(f"{driver}.speed")
     rate, second = rates(traced, output)
     sought = {"rate": rate, "second": second}
-    if valued:
+    if valued and isinstance(output, Output):
         sought["value"] = output_value(traced.solver.motion, output)
     motion = Program.of(traced.solver.motion.trace, sought)
     there = traced.at_input(motion, t, x)
@@ -214,7 +234,7 @@ def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
     return found
 
 
-def _doubt(traced: Traced, outputs: Iterable[Output]) -> Stage:
+def _doubt(traced: Traced, outputs: Iterable[Swinging]) -> Stage:
     """Whether the value grows in one stretch of the positions, and all steps came to an end.
 
     Of all choices of m of n places evenly round a circle, m beside each other have the longest sum of directions,

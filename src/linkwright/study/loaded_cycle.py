@@ -14,9 +14,12 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.table import Table
-from linkwright.engine.trace import Scalar
+from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import MovingPhase, Output, SwingPhase
+from linkwright.kinetostatics.friction import FrictionTerm
+from linkwright.kinetostatics.friction_stage import can_be_traced, still_name
+from linkwright.kinetostatics.run import STILL, joint_rate
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, constant_name, middle_name
 from linkwright.loads.along_input import constants as of_load
@@ -24,12 +27,12 @@ from linkwright.loads.along_input import followed, magnitude, outputs_of
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators
 from linkwright.loads.phases import TURN
-from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.limit_stages import Swinging, constants, limit_stages
 from linkwright.study.traced import TURNING, VALID, Traced
 
 Floats = NDArray[np.float64]
-#: The output that is the sum of magnitudes which may not exist.
-SIZES = "sizes of loads"
+#: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
+SIZES, RUBBING = "sizes of loads", "doubt of friction"
 
 
 @dataclass(frozen=True)
@@ -43,8 +46,8 @@ class LoadedCycle:
     def evaluate(
         self, part: Mapping[str, Floats], threads: int | None, backend: Backend
     ) -> tuple[Results, NDArray[np.intp]]:
-        """Results of designs with the given columns, and the numbers of those whose limits are not certain, or whose
-        loads have no value somewhere."""
+        """Results of designs with the given columns, and the numbers of those of which limits or friction are not
+        certain, or loads have no value somewhere."""
         results = self.cycle.evaluate(
             self.table(part),
             self.traced.positions.arrays,
@@ -57,6 +60,8 @@ class LoadedCycle:
             doubt += results[f"doubt:{each}"]
         if self.loads.fallible:
             doubt += 0.0 * results[SIZES]
+        if self.loads.rubbing:
+            doubt += results[RUBBING]
         doubt[results[VALID_COUNT] != self.traced.positions.count] = 0.0
         return results, np.flatnonzero(~(doubt == 0.0))
 
@@ -74,7 +79,8 @@ class AlongInput:
 
     ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``constants`` by
     name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
-    value for some designs.
+    value for some designs; ``rubbing``: the friction of joints is traced as well, that of the ``swinging`` ones turns
+    round at two positions.
     """
 
     names: frozenset[str]
@@ -83,6 +89,17 @@ class AlongInput:
     constants: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, Table] = field(default_factory=dict)
     fallible: tuple[str, ...] = ()
+    rubbing: bool = False
+    swinging: tuple[Swinging, ...] = ()
+
+    def traced(self, plain: Traced) -> Traced:
+        """The same outputs with these loads, and the friction, traced."""
+        if not self.names and not self.rubbing:
+            return plain
+        manner = plain.solver.manner
+        return Traced(
+            plain.mechanism, manner.free, plain.positions, along_input=self.names, rubbing=self.rubbing
+        )
 
     def stages(self, traced: Traced, *, judged: bool = True) -> list[Stage]:
         """The stages that find the limit positions."""
@@ -102,19 +119,54 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     """The loads behind a program's inputs per position; None where some input is no load that can be traced, or the
     cycle is no single turn of one driver of constant speed."""
     mechanism, given = traced.mechanism, tuple(fields)
-    names = frozenset(name.removeprefix("load:") for name in given)
-    if not given:
-        return AlongInput(names)
-    if not one_turn(traced, varied) or any(not name.startswith("load:") for name in given):
+    rubbing = any(name.startswith("friction:") for name in given)
+    if rubbing:
+        given = traced.forces.fields_needed()
+    names = [name.removeprefix("load:") for name in given if name.startswith("load:")]
+    terms = traced.forces.friction.terms if rubbing else ()
+    if len(names) + len(terms) < len(given) or not can_be_traced(mechanism, len(terms)):
         return None
+    still = still_rates(traced, terms)
+    swinging = dict.fromkeys(_swinging(term) for term in terms if _swings(traced, term))
+    plain = AlongInput(frozenset(), constants=still, rubbing=rubbing, swinging=tuple(swinging))
+    if not names:
+        return plain
     loads = [mechanism.loads[name] for name in sorted(names)]
-    if not all(followed(load, mechanism) for load in loads):
+    if not one_turn(traced, varied) or not all(followed(load, mechanism) for load in loads):
         return None
     middles = _middles(traced, loads)
     if middles is None:
         return None
     known = numbers_of_loads(loads)
-    return replace(known, constants={**known.constants, **middles})
+    constants = {**known.constants, **middles, **still}
+    return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
+
+
+def _swinging(term: FrictionTerm) -> Swinging:
+    """What comes and goes with a joint, the motion of a link where that tells it."""
+    if term.slides:
+        return Output("displacement", term.joint, term.joint)
+    moving = [link for link in (term.a, term.b) if link != "frame"]
+    return Output("angle", moving[0], moving[0]) if len(moving) == 1 else term
+
+
+def _swings(traced: Traced, term: FrictionTerm) -> bool:
+    """Whether the parts of a joint move both ways."""
+    rate = joint_rate(traced.nominal, term)
+    largest = STILL * float(np.nanmax(np.abs(rate), initial=0.0))
+    return bool(np.nanmin(rate) < -largest and np.nanmax(rate) > largest)
+
+
+def friction_doubt(traced: Traced) -> Scalar:
+    """1 where the traced friction is not certain, as a traced value."""
+    friction = traced.forces.programs.friction
+    return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
+
+
+def still_rates(traced: Traced, terms: Iterable[FrictionTerm]) -> dict[str, float]:
+    """Rates below which joints with friction stand still."""
+    rates = {still_name(term): np.abs(joint_rate(traced.nominal, term)) for term in terms}
+    return {name: STILL * float(np.nanmax(rate, initial=0.0)) for name, rate in rates.items()}
 
 
 def numbers_of_loads(loads: Iterable[Load]) -> AlongInput:
@@ -172,16 +224,18 @@ def loaded_cycle(
     known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)
     if known is None:
         return None
-    over_input = Traced(traced.mechanism, varied, traced.positions, along_input=known.names)
+    over_input = known.traced(traced)
     try:
         stages = known.stages(over_input)
     except LinkwrightError:
         return None
-    program = over_input.program(over_input.quantities(names))
-    made = {each.name: each for each in reductions}
+    made, more = {each.name: each for each in reductions}, dict[str, Scalar]()
     if known.fallible:
-        program = over_input.program(over_input.quantities(names), more={SIZES: known.sizes(over_input)})
-        made[SIZES] = Reduction(SIZES, "sum")
+        more[SIZES] = known.sizes(over_input)
+    if known.rubbing:
+        more[RUBBING] = friction_doubt(over_input)
+    program = over_input.program(over_input.quantities(names), more=more)
+    made |= {name: Reduction(name, "sum") for name in more}
     stages.append(Stage(program, made, valid=VALID, count=VALID_COUNT))
     return LoadedCycle(over_input, CycleProgram(tuple(stages)), known)
 

@@ -93,7 +93,7 @@ def _metric_cycle(
     loads = along_input(plain, addresses, plain.program(plain.quantities(outputs)).fields)
     if loads is None:
         return None
-    traced = Traced(mechanism, addresses, plain.positions, along_input=loads.names)
+    traced = loads.traced(plain)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
@@ -180,7 +180,9 @@ class MetricCycle:
             if output is not None
         }
         self.outputs = tuple(
-            dict.fromkeys([*loads.outputs, *(each for each in places.values() if each is not None)])
+            dict.fromkeys(
+                [*loads.outputs, *loads.swinging, *(each for each in places.values() if each is not None)]
+            )
         )
         names = [part.output for text, part in self.parts.items() if text not in self.limited]
         self.quantities = traced.quantities(names)

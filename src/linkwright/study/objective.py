@@ -27,7 +27,7 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import along_input
+from linkwright.study.loaded_cycle import along_input, friction_doubt
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.traced import CLEAR, VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
@@ -189,12 +189,13 @@ def objective(
         at: inputs of the first driver, rad or m, instead of the cycle.
         backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
 
-    Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives.
+    Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives;
+    friction too, NaN where it is near locking.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, friction, and the loads that :func:`sweep` finds
-            design by design, through which no gradient is found yet; positions too far apart to count the turns of a
-            link that a dyad places and a wheel follows.
+        LinkwrightError: unknown names; groups without closed form, and the friction and loads that :func:`sweep`
+            finds design by design, through which no gradient is found yet; positions too far apart to count the turns
+            of a link that a dyad places and a wheel follows.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
@@ -293,7 +294,7 @@ class _Builder:
         if loads is None:
             raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
         self.loads = loads
-        self.traced = Traced(mechanism, names, positions, along_input=loads.names) if loads.names else plain
+        self.traced = loads.traced(plain)
 
     @cached_property
     def summaries(self) -> dict[Summary, float]:
@@ -333,13 +334,15 @@ class _Builder:
         return OverPositions(own, gradient, arrays, known, self.loads.tables, backend)
 
     def _valid(self) -> Mask:
-        """Where a position is reached and all loads have values."""
+        """Where a position is reached, all loads have values, and the friction is certain."""
         motion = self.traced.solver.motion
-        if not self.loads.fallible:
-            return motion.valid
-        return motion.trace.logic(
-            "and", motion.valid, absolute(self.loads.sizes(self.traced)) <= LARGEST["torque"]
-        )
+        valid = motion.valid
+        if self.loads.fallible:
+            exist = absolute(self.loads.sizes(self.traced)) <= LARGEST["torque"]
+            valid = motion.trace.logic("and", valid, exist)
+        if self.loads.rubbing:
+            valid = motion.trace.logic("and", valid, friction_doubt(self.traced) < 0.5)
+        return valid
 
     def _outputs(self) -> tuple[dict[str, Scalar], dict[str, Floats]]:
         """What is reduced, and the targets as inputs per position."""

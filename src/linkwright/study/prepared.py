@@ -204,8 +204,9 @@ class _Followed:
         if not fields or prepared.backend == "numpy" or not available() or plain.solver.motion.next_states:
             return cls(plain, nothing)
         loads = along_input(plain, vary, fields) or nothing
-        traced = Traced(mechanism, vary, positions, along_input=loads.names) if loads.names else plain
-        return cls(traced, loads)
+        if loads.rubbing:
+            return cls(plain, nothing)
+        return cls(loads.traced(plain), loads)
 
     @cached_property
     def sizes(self) -> dict[str, Scalar]:

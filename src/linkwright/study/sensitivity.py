@@ -13,9 +13,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, locked
 from linkwright.core.html import html_table
 from linkwright.engine.sweep import Backend
-from linkwright.errors import RequestError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal
+from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary
@@ -166,8 +167,8 @@ def sensitivity(
         expressions) are included by the chain rule.
 
     Raises:
-        LinkwrightError: unknown names (nearest ones offered); friction, for which there is no derivative; dimensions
-            that wheels of given size fix, as the distance of their centres.
+        LinkwrightError: unknown names (nearest ones offered); friction near self-locking, or beside wheels, racks
+            or cams; dimensions that wheels of given size fix, as the distance of their centres.
         PositionError: the mechanism does not pass its cycle.
 
     Where the size of a vector is zero its derivative is taken as zero.
@@ -217,13 +218,16 @@ class _Derivation:
         self.traced, self.by, self.asked = traced, by, asked
         names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
         loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
-        if loads.names:
+        if loads.names or loads.rubbing:
             self.traced = traced = Traced(
                 traced.mechanism, by, traced.positions, turning=True,
                 flipping=bool(traced.solver.manner.flipping), along_input=loads.names,
+                rubbing=loads.rubbing,
             )  # fmt: skip
         self.quantities = traced.quantities(names)
         self.work = Slopes(traced, self.quantities, by, backend, loads)
+        if not self.work.certain:
+            raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:

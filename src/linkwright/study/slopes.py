@@ -17,6 +17,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import middle_name
 from linkwright.study.known_loads import KnownLoads
+from linkwright.study.loaded_cycle import RUBBING, friction_doubt
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
 
@@ -40,7 +41,7 @@ class Slopes:
     ) -> None:
         self.traced, self.quantities, self.by = traced, quantities, by
         self.backend, self.loads = backend, loads
-        self.program = _known_as_fields(traced.program(quantities))
+        self.program = _known_as_fields(traced.program(quantities, {RUBBING: friction_doubt(traced)}))
         self.own = tuple(each for each in by if each in self.program.parameters)
         self.moving = tuple(each for each in loads.slopes if each in self.program.parameters)
         self._rows: dict[str, Floats] = {}
@@ -54,6 +55,11 @@ class Slopes:
     def numbers(self) -> dict[str, float]:
         """All that the program takes of the mechanism."""
         return {**self.traced.solver.nominal.parameters, **self.loads.numbers}
+
+    @property
+    def certain(self) -> bool:
+        """Whether the friction is, at all positions."""
+        return not self.loads.rubbing or not self.values(RUBBING).any()
 
     def values(self, name: str) -> Floats:
         """The carrier of a quantity, (n,)."""

@@ -44,7 +44,8 @@ class Traced:
 
     ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form;
     ``turning``: angles of links that turn through may be asked; ``flipping``: the programs take the signs of assembly
-    modes per position; ``along_input``: loads whose magnitudes are traced over the input.
+    modes per position; ``along_input``: loads whose magnitudes are traced over the input; ``rubbing``: the friction
+    of joints is traced as well.
     """
 
     def __init__(
@@ -57,6 +58,7 @@ class Traced:
         turning: bool = False,
         flipping: bool = False,
         along_input: frozenset[str] = frozenset(),
+        rubbing: bool = False,
     ) -> None:
         self.mechanism = mechanism
         self.positions = positions
@@ -66,7 +68,7 @@ class Traced:
             groups = modal_groups(motion_programs(mechanism, manner).structure)
             manner = replace(manner, flipping=frozenset(groups))
         self.solver = MotionSolver(mechanism, manner)
-        self.forces = ForceSolver(self.solver, along_input=along_input)
+        self.forces = ForceSolver(self.solver, along_input=along_input, rubbing=rubbing)
         self.named = Named(self.forces, self._middle)
 
     @cached_property

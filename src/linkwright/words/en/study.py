@@ -56,8 +56,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     '"driver.effort rms"',
     "no_value_for": "{name!r} of {label!r} has no value for {subject!r}; {hint}",
     "not_asked": "{summary!r} was not asked for; there is {summaries}",
-    "friction_slope": "friction in joints follows the reactions by an iteration, for which no derivative is "
-    "found; leave the friction out of the model, or vary the dimension in a study",
+    "friction_slope": "friction has a derivative where all joint forces are linear in it and it is far from locking: "
+    "not beside wheels, racks or cams, in more than {most} pairs, or near self-locking; leave the friction out of "
+    "the model, or vary the dimension in a study",
     "ramp_slope": "loads.{name}: a ramp between limit positions has a derivative where these are the only two in one "
     "turn at constant speed, and all groups have a closed form; change the dimension in study instead",
     "cycle_load_slope": "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which no "
@@ -105,9 +106,10 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_target": "the target of a path error is a list of points [x, y] in m, and all targets have as many "
     "points",
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
-    "objective_loads": "{name!r} has friction, loads that divide by an output or follow a link that turns through, "
-    "or no single turn at constant speed, so no gradient of many designs is found; for outputs use "
-    "sensitivity, which takes one design at a time, for design numbers study",
+    "objective_loads": "{name!r} has friction beside wheels, racks or cams, or (for design numbers) on a guide that "
+    "is pressed from both sides, loads that divide by an output or follow a link that turns through, or no single "
+    "turn at constant speed, so no gradient of many designs is found; for outputs use sensitivity, which takes one "
+    "design at a time, for design numbers study",
     "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
     "found; for outputs use sensitivity, for design numbers study",
     "objective_turns": "{name!r}: {links} turns so far between two positions that its turns cannot be counted; "

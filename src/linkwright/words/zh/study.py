@@ -51,7 +51,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_metric": "没有指标“{name}”；{hint} 带汇总方式的输出也可以，如“driver.effort rms”",
     "no_value_for": "{label} 的 {name} 没有“{subject}”的值；{hint}",
     "not_asked": "没有要求“{summary}”；已有 {summaries}",
-    "friction_slope": "运动副中的摩擦由反力迭代求得，没有导数；请去掉模型中的摩擦，或在 study 中改变尺寸",
+    "friction_slope": "运动副中的摩擦只有在各反力与其成线性关系且远离自锁时才有导数：含有齿轮、齿条或凸轮，"
+    "摩擦副多于 {most} 个，或接近自锁时没有；请去掉模型中的摩擦，或在 study 中改变尺寸",
     "ramp_slope": "loads.{name}：极限位置之间的斜坡载荷，只有在原动件匀速转一整周、其间仅有两个极限位置"
     "且各杆组有闭式解时才有导数；请改在 study 中改变尺寸",
     "cycle_load_slope": "loads.{name}：{kind} 类载荷由整个循环求得，没有导数；请改在 study 中改变尺寸",
@@ -91,7 +92,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_shape": "各方案的列必须是 {names}，而不是形状 {shape}",
     "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
-    "objective_loads": "{name!r} 含有摩擦，或载荷以输出为除数、取决于整转构件的转角，或原动件不是匀速转一整周，"
+    "objective_loads": "{name!r} 除齿轮、齿条或凸轮外还含有摩擦，或（求设计指标时）有摩擦的导路两侧交替受压，"
+    "或载荷以输出为除数、取决于整转构件的转角，或原动件不是匀速转一整周，"
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
     "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；输出的梯度请用 sensitivity，"
     "设计指标请用 study",
