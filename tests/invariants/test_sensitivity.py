@@ -51,6 +51,7 @@ def differences(
 
 
 CASES = [
+    ("press_double_crank", ["cylinder_crank.angle", "coupler.angle"], ["coupler.length", "frame.O2.x"], 1e-4),
     ("crank_rocker", ["coupler.angle", "coupler.P.acceleration"], ["coupler.length", "frame.O2.x"], 1e-4),
     (
         "jaw_crusher_sixbar",

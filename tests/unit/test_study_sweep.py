@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.engine.sweep import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
 
@@ -364,3 +367,24 @@ def test_curves_of_designs_are_those_of_the_machines(model: str, backend: str) -
         size = np.abs(forces.input_torque).max()
         assert curves[outputs[1]][k] == pytest.approx(forces.input_torque, rel=1e-9, abs=1e-9 * size + 1e-9)
     assert all(np.isnan(rows[1]).all() for rows in curves.values())
+
+
+@pytest.mark.parametrize("backend", ["numpy", "llvm"])
+def test_curves_and_summaries_through_change_points(backend: Backend) -> None:
+    """A parallelogram that goes on as one: B keeps 2 m from A, the rocker turns with the crank."""
+    linkage = replace(lw.load("gallery:parallelogram"), cycle=None)
+    steps, masses = 25, [1.0, 2.0]
+    ((where, curves),) = sweep_curves(
+        linkage,
+        {"coupler.mass": masses},
+        outputs=["B.x", "rocker.angular_velocity"],
+        steps=steps,
+        backend=backend,
+    )
+    turn = np.pi / 2 + 2 * np.pi * np.arange(steps) / steps
+    assert where == slice(0, 2) and len(curves) == 2
+    for k in range(2):
+        assert curves["B.x"][k] == pytest.approx(2.0 + np.cos(turn), abs=1e-12)
+        assert curves["rocker.angular_velocity"][k] == pytest.approx(np.full(steps, 5.0), rel=1e-9)
+    found = sweep(linkage, {"coupler.mass": masses}, outputs="B.x max", steps=steps, backend=backend)
+    assert found["B.x max"] == pytest.approx([(2.0 + np.cos(turn)).max()] * 2)
