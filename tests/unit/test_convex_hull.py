@@ -39,7 +39,7 @@ def test_points_on_one_line_or_on_one_place_have_no_area(count: int) -> None:
 @pytest.mark.parametrize("turn", [0.0, 0.3, -1.1])
 @pytest.mark.parametrize("sense", [1, -1])
 def test_every_side_of_a_pentagram_is_crossed_twice_by_the_golden_section(turn: float, sense: int) -> None:
-    """Sides are named by the number of their first corner; neighbours, the last and the first among them, only meet."""
+    """Sides are numbered by their first corner; neighbours, the last and the first among them, only meet."""
     at = turn + sense * 4.0 * np.pi * np.arange(5) / 5.0
     star = np.stack([np.cos(at), np.sin(at)], axis=1) + 7.0
     short = 2.0 / (3.0 + np.sqrt(5.0))

@@ -162,6 +162,14 @@ def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> No
     assert len(notes) == 1 and "different speeds" in notes[0]
     assert "17.8024 rad/s" in notes[0] and "35.6047 rad/s" in notes[0]
     assert in_language(notes[0], "zh").startswith("! 各方案的驱动速度不同（a：17.8024 rad/s；b：")
+    tables = [
+        loads(PRESS.replace("NAME", label).replace("CRANK", "0.1 m").replace(MOVING, f"table: {{{rows}}}}}"))
+        for label, rows in (("flat", TABLE), ("steep", TABLE.replace("5 N", "6 N")))
+    ]
+    assert lw.compare(tables, metrics=["travel"], steps=72).notes == (
+        "! The alternatives carry different loads (flat: force {guide 0.1 m 1 m 5 N 1 N}; "
+        "steep: force {guide 0.1 m 1 m 6 N 1 N}): torque, power, reactions and flywheel compare unlike things.",
+    )
     shaper = lw.load("gallery:shaper_quick_return")
     assert any(
         "different kinds" in note
@@ -195,6 +203,11 @@ loads:
   work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 2 kN,
     phase: {moving: guide, direction: increasing}}
 """
+
+
+MOVING = """magnitude: 2 kN,
+    phase: {moving: guide, direction: increasing}}"""
+TABLE = "over: guide, x: [0.1 m, 1 m], y: [5 N, 1 N]"
 
 
 def test_the_evaluation_of_two_presses_is_what_the_closed_forms_say() -> None:

@@ -388,3 +388,37 @@ def test_curves_and_summaries_through_change_points(backend: Backend) -> None:
         assert curves["rocker.angular_velocity"][k] == pytest.approx(np.full(steps, 5.0), rel=1e-9)
     found = sweep(linkage, {"coupler.mass": masses}, outputs="B.x max", steps=steps, backend=backend)
     assert found["B.x max"] == pytest.approx([(2.0 + np.cos(turn)).max()] * 2)
+
+
+def test_designs_whose_table_is_too_short_are_named_in_every_number() -> None:
+    """A force on the piston from 2 to 4 m: a crank of 1.1 m goes further; the others' torque is F ds/dφ."""
+    machine = lw.loads(
+        """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  rod: {points: [A, B], length: 3 m}
+  piston: {points: [B]}
+joints: {cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+loads:
+  push:
+    {kind: force, on: piston, at: B, direction: 180 deg, table: {over: cylinder, x: [2 m, 4 m], y: [5 N, 1 N]}}
+"""
+    )
+    outputs = ["peak_input_torque", "driver.effort peak"]
+    found = sweep(machine, {"crank.length": [0.9, 1.1, 1.0]}, outputs=outputs, steps=360)
+    turn = np.linspace(0, 2 * np.pi, 36_001)
+    for k, crank in ((0, 0.9), (2, 1.0)):
+        place = crank * np.cos(turn) + np.sqrt(9 - (crank * np.sin(turn)) ** 2)
+        torque = np.abs((9 - 2 * place) * np.gradient(place, turn)).max()
+        assert found["peak_input_torque"][k] == pytest.approx(torque, rel=1e-6)
+        assert found["driver.effort peak"][k] == pytest.approx(torque, rel=1e-4)
+    assert all(np.isnan(found[name][1]) for name in outputs) and found.ok.tolist() == [True, False, True]
+    (failure,) = found.failures()
+    assert (failure.kind, failure.designs.tolist(), failure.example) == ("load", [1], found.unloaded[1])
+    assert failure.example == (
+        "loads.push: its table over cylinder goes from 2 m to 4 m and does not cover what the cycle needs: "
+        "1.9 m to 2 m and 4 m to 4.1 m is missing; add rows, or limit the load by a phase"
+    )
