@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import gc
 import weakref
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from tests.literature.test_metrics_published import crunodal
 
 import linkwright as lw
@@ -159,3 +161,82 @@ def test_a_motion_that_nobody_holds_is_gone_at_once() -> None:
         assert held() is None
     finally:
         gc.enable()
+
+
+PUSHED = """
+format: 1
+gravity: [0 m/s², 0 m/s²]
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  slide: {points: [B]}
+  rod: {points: [B, A], length: 0.5 m}
+  lever: {points: [O, A], length: 0.3 m}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: B}}
+drawing: {A: [0 m, 0.3 m], B: [0.4 m, 0 m]}
+driver: {slide: guide, DRIVE}
+cycle: {duration: 2 s}
+loads: {work: {kind: torque, on: lever, LOAD}}
+"""
+PHASE = "magnitude: 60 N·m, phase: {input: [0.35 m, 0.45 m]}"
+TABLE = "table: {over: input, x: [0.2 m, 0.4 m, 0.6 m], y: [0 N·m, 60 N·m, 0 N·m]}"
+
+
+@pytest.mark.parametrize("load", [PHASE, TABLE])
+@pytest.mark.parametrize(
+    "drive",
+    ["speed: 0.1 m/s, start: 0.3 m", "speed: -0.1 m/s, start: 0.5 m", 'position: "0.3 m + 0.1 m/s*t"'],
+)
+def test_loads_that_begin_and_bend_on_the_way_of_a_cylinder(load: str, drive: str) -> None:
+    """From 0.3 to 0.5 m: cos φ = (x² + r² - l²)/(2 x r), F = -M dφ/dx; integrals between the bends."""
+    found = metrics(lw.solve_forces(lw.loads(PUSHED.replace("DRIVE", drive).replace("LOAD", load)), steps=40))
+
+    def force(x: float) -> float:
+        cosine = (x**2 + 0.09 - 0.25) / (0.6 * x)
+        rate = -(1 / 0.3 - cosine / x) / np.sqrt(1 - cosine**2)
+        moment = 60.0 if load == PHASE else 60.0 * (1 - abs(x - 0.4) / 0.2)
+        return -moment * rate
+
+    pieces = [(0.35, 0.45)] if load == PHASE else [(0.3, 0.4), (0.4, 0.5)]
+    work, square = (
+        sum(quad(lambda x, p=power: force(x) ** p, *piece)[0] for piece in pieces) for power in (1, 2)
+    )
+    largest = max(abs(force(x)) for piece in pieces for x in np.linspace(*piece, 2001))
+    sense, within = -1.0 if "-0.1" in drive else 1.0, 1e-7 if "position" in drive else 1e-11
+    assert found.value("peak_input_torque") == pytest.approx(largest, rel=1e-6)
+    assert found.value("rms_input_torque") == pytest.approx(np.sqrt(square / 0.2), rel=within)
+    assert found.value("mean_power") == pytest.approx(sense * work / 2.0, rel=within)
+    assert all(row.exact for row in found["peak_input_torque"])
+
+
+@pytest.mark.parametrize("cycle", ["", "cycle: {from: 60 deg, to: 400 deg}"])
+@pytest.mark.parametrize("speed", [4.0, -4.0])
+@pytest.mark.parametrize("load", ["phase", "table"])
+def test_loads_that_begin_and_bend_on_the_way_of_a_crank(cycle: str, speed: float, load: str) -> None:
+    """A torque on the crank itself from 120° to 250°, or by a table that bends every 100°, whichever way it turns."""
+    given = "magnitude: 6 N·m, phase: {input: [120 deg, 250 deg]}"
+    if load == "table":
+        angles = ", ".join(f"{a} deg" for a in (0, 100, 200, 300, 360))
+        given = f"table: {{over: input, x: [{angles}], y: [0 N·m, 6 N·m, 2 N·m, 8 N·m, 0 N·m]}}"
+    if speed < 0:
+        cycle = cycle.replace("60 deg, to: 400", "400 deg, to: 60")
+    machine = lw.loads(
+        "format: 1\nframe: {points: {O: [0 m, 0 m]}}\nlinks: {crank: {points: [O, A], length: 1 m}}\n"
+        f"driver: {{turn: crank, about: O, speed: {speed} rad/s, start: 30 deg}}\n{cycle}\n"
+        f"loads: {{work: {{kind: torque, on: crank, {given}}}}}\n"
+    )
+    found = metrics(lw.solve_forces(machine, steps=50))
+    first, last = (60, 400) if cycle else (0, 360)
+
+    def moment(a: float) -> float:
+        if load == "phase":
+            return 6.0 if 120 <= a % 360 <= 250 else 0.0
+        return float(np.interp(a % 360, [0, 100, 200, 300, 360], [0, 6, 2, 8, 0]))
+
+    bends = sorted({first, last, *(a for a in (100, 120, 200, 250, 300, 360) if first < a < last)})
+    mean, square = (
+        sum(quad(lambda a, p=power: moment(a) ** p, *piece)[0] for piece in pairwise(bends)) / (last - first)
+        for power in (1, 2)
+    )
+    assert found.value("rms_input_torque") == pytest.approx(np.sqrt(square), rel=1e-11)
+    assert found.value("mean_power") == pytest.approx(-mean * speed, rel=1e-11)
+    assert found.value("peak_input_torque") == pytest.approx(6.0 if load == "phase" else 8.0, rel=1e-11)
