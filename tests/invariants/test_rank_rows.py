@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.invariants.test_quarter_turns import MODEL as WELDED
 from tests.reference.geared_mechanisms import geared_case
 from tests.reference.test_cam_joints import GUIDED, SWINGING, model
 
@@ -49,6 +50,7 @@ MODELS = {
     **{f"geared {seed}": geared_case(seed).text for seed in (2, 5, 8, 11)},
     **{f"on an arm, {sense}, {side}": on_an_arm(sense, side) for sense in ("clockwise", "counterclockwise")
        for side in ("left", "right", "")},
+    "welded": WELDED.replace("BED", "25").replace("OWN", "70").replace("WELD", "-40"),
     "guided": model(GUIDED, "clockwise", "roller", "18 mm", OFFSET="6 mm"),
     "swinging": model(SWINGING, "counterclockwise", "roller", "15 deg", SIDE="left", MOMENT="3 N·m"),
 }  # fmt: skip
