@@ -45,6 +45,65 @@ def test_a_cycle_by_a_coordinate_that_does_not_grow_evenly_is_refused(cycle: Cyc
         lw.solve_motion(replace(lw.loads(SWUNG), cycle=cycle), steps=5)
 
 
+TWO_BARS = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [3 m, 0 m]}}
+links: {left: {points: [O1, A], length: 1 m}, right: {points: [O2, A], length: 1 m}}
+assembly: {A: left}
+"""
+FIVE_BARS = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [1 m, 0 m], G: [0 m, 0 m]}}
+links:
+  left_crank: {points: [O1, A], length: 0.3 m}
+  left_bar: {points: [A, B], length: 0.5 m}
+  right_bar: {points: [C, B], length: 0.5 m}
+  right_slide: {points: [C]}
+joints: {bed: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: right_slide, at: C}}
+drivers:
+  left: {turn: left_crank, about: O1, speed: 1 rad/s}
+  right: {slide: bed, speed: 2 m/s}
+assembly: {B: left}
+"""
+
+
+def test_a_truss_that_does_not_close_is_refused_at_its_only_position() -> None:
+    with pytest.raises(
+        lw.LinkwrightError, match=r"at its only position: .* 3 m apart, .* reach 2 m: 1 m missing"
+    ):
+        lw.solve_motion(lw.loads(TWO_BARS))
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "said"),
+    [
+        (
+            [90, 180, 170],
+            [0.9, 1.3, 0.5],
+            "at input left = 180°, right = 1.3 m: group RRR (left_bar, right_bar)",
+        ),
+        (
+            [180, 90, 120],
+            [1.3, 0.9, 1.25],
+            "at input left = 180°, right = 1.3 m (2 of 3 positions fail): group",
+        ),
+    ],
+)
+def test_a_refusal_names_the_first_failing_position_by_all_its_drivers(
+    left: list[float], right: list[float], said: str
+) -> None:
+    with pytest.raises(lw.LinkwrightError) as refused:
+        lw.solve_motion(lw.loads(FIVE_BARS), at={"left": np.radians(left), "right": right})
+    assert said in str(refused.value) and "0.6 m missing" in str(refused.value)
+
+
+def test_a_refusal_of_a_crank_tells_its_range() -> None:
+    with pytest.raises(
+        lw.LinkwrightError, match=r"cannot be solved .*; the crank can turn from .*; change the"
+    ):
+        lw.solve_motion(fourbar(3, 2, 2.5, 4, start=0), steps=12)
+
+
 def test_a_table_without_pandas_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     motion = lw.solve_motion(lw.loads(SWUNG), steps=5)
     monkeypatch.setitem(sys.modules, "pandas", None)

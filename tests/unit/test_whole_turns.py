@@ -143,3 +143,22 @@ joints:
 driver: {turn: cam, about: O, speed: 1 rad/s}
 """
     assert whole_turns(lw.loads(text), 2 * np.pi) == 1
+
+
+def test_a_pinion_on_a_rack_that_a_driver_pushes_to_and_fro_is_back_with_it() -> None:
+    """Whatever else turns: a crank that the file names first goes on round."""
+    text = """
+format: 1
+frame: {points: {O: [0 m, 0 m], G: [0 m, 0 m], C: [0.9 m, 0.3 m]}}
+links:
+  crank: {points: [O, X], length: 0.2 m}
+  rack: {points: {A: [0 m, 0 m]}}
+  pinion: {points: {C: [0 m, 0 m], V: [0.1 m, 0 m]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: A}
+  mesh: {kind: rack, pinion: pinion, rack: rack, through: A, radius: 0.3 m}
+drivers:
+  spin: {turn: crank, about: O, speed: 1 rad/s}
+  push: {slide: guide, position: "0.2 m*sin(t/(1 s))"}
+"""
+    assert whole_turns(lw.loads(text), 2 * np.pi) == 1
