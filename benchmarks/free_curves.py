@@ -22,9 +22,10 @@ Curve = tuple[str, NDArray[np.complex128], bool]
 STROKES = {
     "A": "00 26 40 32 12", "B": "00 06 36o 33o 03 33o 40o 00", "C": "45 36o 06o 00o 30o 41", "D": "00 06 46o 40o 00",
     "E": "46 06 03 33 03 00 40", "F": "00 03 33 03 06 46", "G": "45 36o 06o 00o 40o 43 23", "H": "00 06 03 43 46 40",
-    "J": "46 40o 00o 02", "K": "00 06 03 46 03 40", "L": "06 00 40", "M": "00 06 23 46 40", "N": "00 06 40 46",
-    "P": "00 06 46o 43o 03", "R": "00 06 46o 43o 03 40", "S": "45 46o 06o 03o 43o 40o 00o 01", "T": "06 46 26 20",
-    "U": "06 00o 40o 46", "V": "06 20 46", "W": "06 10 24 30 46", "Z": "06 46 00 40", "O": "20 40o 46o 06o 00o 20",
+    "I": "06 46 26 20 00 40", "J": "46 40o 00o 02", "K": "00 06 03 46 03 40", "L": "06 00 40", "M": "00 06 23 46 40",
+    "N": "00 06 40 46", "O": "20 40o 46o 06o 00o 20", "P": "00 06 46o 43o 03", "Q": "22 40 20 00o 06o 46o 40o 20",
+    "R": "00 06 46o 43o 03 40", "S": "45 46o 06o 03o 43o 40o 00o 01", "T": "06 46 26 20", "U": "06 00o 40o 46",
+    "V": "06 20 46", "W": "06 10 24 30 46", "X": "00 46 23 06 40", "Y": "06 23 46 23 20", "Z": "06 46 00 40",
 }  # fmt: skip
 
 
@@ -91,10 +92,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Prints a row for each curve and the means."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.free_curves", description=__doc__)
     parser.add_argument(
-        "letters", nargs="*", default=list(STROKES), help="letters drawn in one stroke; none: all"
+        "letters", nargs="*", help="letters drawn in one stroke; all where no curves are named"
     )
     parser.add_argument("--outlines", default="", help="characters whose outlines are drawn")
     parser.add_argument("--linkages", type=int, default=0, help="number of curves of random linkages")
+    parser.add_argument("--joints", type=int, default=searching.JOINTS[-1], help="most joints")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[0], help="seeds, a row for each")
     parser.add_argument("--seconds", type=float, default=15.0, help="time for each curve")
     parser.add_argument("--angle", type=float, default=20.0, help="least transmission angle, deg")
     parser.add_argument("--size", type=float, default=6.0, help="farthest joint, rms radii")
@@ -105,22 +108,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for level in range(len(LEVELS)):
         atlas(level)
     table = []
-    for name, curve, closed in curves(options.letters, options.outlines, options.linkages):
-        row, text = measured(curve, closed, options)
-        table.append(row)
-        print(f"{name:8s}", text, flush=True)
+    letters = options.letters or ([] if options.outlines or options.linkages else list(STROKES))
+    for name, curve, closed in curves(letters, options.outlines, options.linkages):
+        for seed in options.seeds:
+            row, text = measured(curve, closed, seed, options)
+            table.append(row)
+            print(f"{name:8s}", text, flush=True)
     print("mean    ", *(f"{each:9.5f}" for each in np.mean(table, 0)))
     print("median  ", *(f"{each:9.5f}" for each in np.median(table, 0)))
     return 0
 
 
 def measured(
-    curve: NDArray[np.complex128], closed: bool, options: argparse.Namespace
+    curve: NDArray[np.complex128], closed: bool, seed: int, options: argparse.Namespace
 ) -> tuple[list[float], str]:
     """Least errors with up to 5, 8, 10 and 12 joints within the demands, and a line of text."""
     target = Target(curve, closed, math.radians(options.angle), options.size)
     begin = time.process_time()
-    search = searching.Search(target, 12, options.seconds, 0)
+    search = searching.Search(target, options.joints, options.seconds, seed)
     designs, best = search.run(), dict.fromkeys(searching.JOINTS, (math.nan, math.nan, math.nan))
     spent, turn = time.process_time() - begin, np.linspace(0, 2 * np.pi, 3601)
     for each in sorted(designs, key=target.deviation, reverse=True):
