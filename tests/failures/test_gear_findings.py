@@ -6,6 +6,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kinematics.analysed import analysed
+from linkwright.words.sentence import in_language
 
 HEAD = """format: 1
 frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm],
@@ -377,3 +378,48 @@ def test_a_missing_key_is_asked_for_by_its_name() -> None:
                 "pinion: pinion, rack: slide, through: U, radius: 30 mm", "radii: [1 m, 1 m]"
             ).replace("high: {kind: rack", "high: {kind: belt")
         )
+
+
+#: A cam and a pinion on one shaft, both of which move the follower: by the lift, and in proportion to the angle.
+CAM_AND_RACK = """
+format: 1
+name: cam against rack
+frame: {points: {O: [0 m, 0 m], G: [0 m, 60 mm]}}
+links:
+  shaft: {points: {O: [0 m, 0 m], P: [10 mm, 0 m]}}
+  follower: {points: {R: [0 m, 0 m], U: [0 m, 30 mm]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: follower, at: R}
+  cam: {kind: cam, cam: shaft, follower: follower, at: R, touch: knife, base_radius: 30 mm, program: [
+    {rise: 10 mm, over: 120 deg, law: cycloidal}, {dwell: 60 deg}, {fall: 10 mm, over: 180 deg, law: cycloidal}]}
+  rack: {kind: rack, pinion: shaft, rack: follower, through: U, radius: 30 mm}
+driver: {turn: shaft, about: O, speed: 60 rpm}
+"""
+
+
+def test_a_cam_against_a_rack_on_one_follower_is_named() -> None:
+    with pytest.raises(lw.LinkwrightError) as caught:
+        lw.structure(lw.loads(CAM_AND_RACK))
+    said = caught.value.sentence
+    for part in (
+        "mobility 0",
+        "'cam', 'rack' block each other",
+        "'cam' by the lift of a cam",
+        "take 'rack' away",
+    ):
+        assert part in str(said), str(said)
+    chinese = in_language(said, "zh")
+    assert "'cam'、'rack' 互相卡死" in chinese and "去掉“rack”" in chinese, chinese
+    for own in ("  cam", "  rack"):
+        lines = CAM_AND_RACK.splitlines()
+        first = next(k for k, line in enumerate(lines) if line.startswith(own + ":"))
+        alone = lines[:first] + lines[first + (2 if own == "  cam" else 1) :]
+        assert lw.structure(lw.loads("\n".join(alone))).mobility == 1
+
+
+def test_a_pinion_on_its_own_shaft_is_not_accused() -> None:
+    own = CAM_AND_RACK.replace("pinion: shaft", "pinion: wheel").replace(
+        "  follower: {points", "  wheel: {points: {W: [0 m, 0 m], V: [5 mm, 0 m]}}\n  follower: {points"
+    )
+    own = own.replace("O: [0 m, 0 m], G:", "O: [0 m, 0 m], W: [0 m, 10 mm], G:", 1)
+    assert lw.structure(lw.loads(own)).mobility == 1

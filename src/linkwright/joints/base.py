@@ -167,7 +167,8 @@ class Joint(ABC):
 
     ``freedoms`` it leaves of three; ``letter`` in signatures; ``coordinate``: what it is measured by as a joint of a
     chain, ``turn`` (rad), ``slide`` (m) or nothing; ``higher``: a pair of one row, which no link hangs on;
-    ``rotations_only``: whether that row touches rotations alone;
+    ``rotations_only``: whether that row touches rotations alone; ``uneven``: whether the ratio of the speeds that it
+    ties to each other varies;
     ``couples``: whether its reaction has a couple about the place that :meth:`acts_at` gives.
     """
 
@@ -177,6 +178,7 @@ class Joint(ABC):
     coordinate: ClassVar[str] = ""
     higher: ClassVar[bool] = False
     rotations_only: ClassVar[bool] = False
+    uneven: ClassVar[bool] = False
     couples: ClassVar[bool] = False
     name: str
 
@@ -309,6 +311,12 @@ class Joint(ABC):
         """The row of a higher pair as a sum that is zero: factors of links' rotations (rad, with turns), factors of
         guides' displacements (m), and a constant."""
         raise self.lacks("sums")
+
+    def tied(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float]]:
+        """Factors of the speeds, of links' rotations and of guides' displacements, that the row of a higher pair ties
+        to each other in a position of no special kind; by default those of :meth:`sums`."""
+        rotations, slides, _ = self.sums(mechanism)
+        return rotations, slides
 
     def contact(self, mechanism: Mechanism) -> Contact:
         """How the force of a higher pair acts, for worked solutions."""

@@ -55,6 +55,7 @@ class CamJoint(HigherPair):
     kind: ClassVar[str] = "cam"
     letter: ClassVar[str] = "C"
     couples: ClassVar[bool] = True
+    uneven: ClassVar[bool] = True
     cam: str
     follower: str
     at: str
@@ -271,6 +272,13 @@ class CamJoint(HigherPair):
 
     def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         raise LackingError(Sentence("joints.cam_sums"))
+
+    def tied(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float]]:
+        """With a slope of the lift that no sizes of wheels have: the golden section, m of the base circle or rad."""
+        slope = 0.5 * (math.sqrt(5.0) - 1.0) * (1.0 if self.side else self.base_radius)
+        if self.side:
+            return {self.follower: 1.0, self.cam: -slope, self.carrier: slope - 1.0}, {}
+        return {self.cam: -slope, self.carrier: slope}, {self.holder: 1.0}
 
     def work(self, wheels: Wheels) -> OwnForm:
         return wheels.cam(self)

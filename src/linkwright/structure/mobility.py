@@ -103,8 +103,10 @@ def explain_excess(
         )
     pairs = blocking_pairs(mechanism)
     if pairs:
-        named = tuple(map(repr, pairs))
-        return StructureError(Sentence("mobility.blocked_pairs", why=why, pairs=named, pair=pairs[-1]))
+        named, uneven = tuple(map(repr, pairs)), [each for each in pairs if mechanism.joints[each].uneven]
+        key = "mobility.blocked_by_lift" if uneven else "mobility.blocked_pairs"
+        pair = next((each for each in reversed(pairs) if each not in uneven), pairs[-1])
+        return StructureError(Sentence(key, why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven))))
     links, extra = tuple(map(repr, bodies)), tuple(_source(mechanism, each) for each in sources)
     return StructureError(Sentence("mobility.excess", why=why, links=links, extra=extra))
 

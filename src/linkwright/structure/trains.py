@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable
 
 from linkwright.core.dataclass import dataclass
-from linkwright.joints.base import LackingError
+from linkwright.joints.base import Joint, LackingError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.constraints import Classes
 
@@ -43,7 +42,7 @@ class GearTrain:
 
 def gear_trains(mechanism: Mechanism) -> tuple[GearTrain, ...]:
     """The trains of a mechanism's gears, belts, chains and rolling wheels, by carrier in the order of the file."""
-    pairs: list[Any] = [joint for joint in mechanism.joints.values() if joint.rotations_only]
+    pairs = [_Mesh.of(joint, mechanism) for joint in mechanism.joints.values() if joint.rotations_only]
     found: list[GearTrain] = []
     used: set[str] = set()
     for pair in pairs:
@@ -54,21 +53,36 @@ def gear_trains(mechanism: Mechanism) -> tuple[GearTrain, ...]:
     return tuple(found)
 
 
-def _from(start: Any, pairs: list[Any]) -> GearTrain:
+@dataclass(frozen=True)
+class _Mesh:
+    """Wheels a and b on a carrier c, and their ratio (ω_b - ω_c) / (ω_a - ω_c)."""
+
+    name: str
+    a: str
+    b: str
+    carrier: str
+    ratio: float
+
+    @classmethod
+    def of(cls, pair: Joint, mechanism: Mechanism) -> _Mesh:
+        """From the sum of rotations that is a pair's row."""
+        (a, b, carrier), factors = pair.turning, pair.sums(mechanism)[0]
+        return cls(pair.name, a, b, carrier, -factors[a] / factors[b])
+
+
+def _from(start: _Mesh, pairs: Iterable[_Mesh]) -> GearTrain:
     """The train that a pair belongs to."""
-    ratios, names, blocked = {start.links[0]: 1.0}, list[str](), list[str]()
+    ratios, names, blocked = {start.a: 1.0}, list[str](), list[str]()
     waiting = list(pairs)
-    while step := next((p for p in waiting if set(p.links) & ratios.keys()), None):
+    while step := next((p for p in waiting if p.a in ratios or p.b in ratios), None):
         waiting.remove(step)
         names.append(step.name)
-        a, b = step.links
-        if a in ratios and b in ratios:
-            if abs(ratios[b] - ratios[a] * step.transmission) > 1e-9 * abs(ratios[b]):
-                blocked.append(step.name)
-        elif a in ratios:
-            ratios[b] = ratios[a] * step.transmission
-        else:
-            ratios[a] = ratios[b] / step.transmission
+        if step.a not in ratios:
+            ratios[step.a] = ratios[step.b] / step.ratio
+            continue
+        follows = ratios[step.a] * step.ratio
+        if abs(ratios.setdefault(step.b, follows) - follows) > 1e-9 * abs(follows):
+            blocked.append(step.name)
     return GearTrain(start.carrier, ratios, tuple(names), tuple(blocked))
 
 
@@ -81,7 +95,7 @@ def blocking_pairs(mechanism: Mechanism) -> list[str]:
     rows: dict[str, dict[str, float]] = {}
     for name, joint in mechanism.joints.items():
         try:
-            rotations, slides, _ = joint.sums(mechanism) if joint.higher else ({}, {}, 0.0)
+            rotations, slides = joint.tied(mechanism) if joint.higher else ({}, {})
         except LackingError:
             continue
         row: dict[str, float] = {}

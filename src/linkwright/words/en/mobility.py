@@ -15,6 +15,9 @@ WORDS = {
     "none of them can turn; take {pair!r} away, or change the sizes",
     "blocked_pairs": "{why}; the pairs {pairs} block each other: what they demand of rotations and displacements "
     "holds at rest alone; take {pair!r} away, or change the sizes",
+    "blocked_by_lift": "{why}; the pairs {pairs} block each other: they move the same links, {cams} by the lift of a "
+    "cam, whose ratio changes over its turn, the others in another way; give the others a link of their own to move, "
+    "such as a pinion that turns alone on its shaft, or take {pair!r} away",
     "driver": "driver {name!r}",
     "the_driver": "the driver",
     "excess": "{why}; the links {links} are determined more than once (by {extra} among others); remove a "
