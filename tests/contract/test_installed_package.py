@@ -1,4 +1,4 @@
-"""An installed package with a joint kind, a load, a driver law and a design number of its own: the how-to's, run."""
+"""An installed package with joint kinds, a load, a driver law and a design number of its own: the how-to's, run."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.contract import drums_of_a_package as drums
 from tests.contract import triad_of_a_package as triad
 from tests.contract.settling import LAW
 
@@ -18,6 +19,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "en" / "how-to" / "own_elements.md"
 POINTS = """[linkwright.joints]
 pin_in_slot = slots:PinInSlot
+tape = drums:Tape
 [linkwright.loads]
 wind = slots:Wind
 [linkwright.drivers]
@@ -123,6 +125,7 @@ def test_an_installed_package_of_elements(tmp_path: Path, way: str) -> None:
     (code,) = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     (tmp_path / "slots.py").write_text(code + LAW, "utf-8")
     (tmp_path / "trammels.py").write_text(triad.PACKAGE, "utf-8")
+    (tmp_path / "drums.py").write_text(drums.PACKAGE, "utf-8")
     info = tmp_path / "slots-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: slots\nVersion: 1.0\n", "utf-8")
@@ -130,7 +133,7 @@ def test_an_installed_package_of_elements(tmp_path: Path, way: str) -> None:
     source = str(Path(linkwright.__file__).parents[1])
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([source, str(tmp_path), str(ROOT)])}
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM + (triad.PROGRAM if way == "closed" else ""), way],
+        [sys.executable, "-c", PROGRAM + (triad.PROGRAM + drums.PROGRAM if way == "closed" else ""), way],
         capture_output=True,
         text=True,
         cwd=tmp_path,
