@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, Severity
@@ -18,6 +18,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.files.reader import Reader
 
+T = TypeVar("T")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
@@ -160,6 +161,18 @@ class PlainReader:
             "unknown-word",
         )
         return None
+
+    def registered(
+        self, table: MappingNode, place: Place, kinds: Mapping[str, T], missing: str, remedy: str
+    ) -> T | None:
+        """What the key ``kind`` of a table names; ``missing``, ``remedy``: the sentences where there is none."""
+        node = table.get("kind")
+        if node is None:
+            told = Sentence(remedy, kinds=tuple(kinds))
+            self.error(table, place.child("kind"), Sentence(missing), told, "missing-key")
+            return None
+        word = self.word(node, place.child("kind"), kinds)
+        return None if word is None else kinds[word]
 
     def table(self, node: Node, place: Place, fields: Mapping[str, Field]) -> dict[str, Any] | None:
         """The values of a mapping by its fields; unknown and missing keys are findings."""

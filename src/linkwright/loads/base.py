@@ -16,13 +16,14 @@ load's dimensions (``loads.NAME.FIELD``) and the writing of files.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.fields.references import (
     LinkName,
+    LinkNames,
     LinkPoint,
     PointName,
     PointPair,
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from linkwright.loads.marks import Mark
     from linkwright.loads.signals import Array, Signals
     from linkwright.loads.site import Site, Wrench
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
     from linkwright.worked.terms import Pair, Term
@@ -130,6 +132,10 @@ class Load:
         """The link with which the direction of the load's force turns."""
         return None
 
+    def reverses(self, mechanism: Mechanism) -> Output | None:
+        """The output at whose limits the load changes its sign, because it goes by the sign of a velocity."""
+        return None
+
     def mark(self, motion: Motion, index: int) -> Mark | None:
         """What drawings show at a position; None: the symbol of the kind between or at the points it names."""
         return None
@@ -187,29 +193,14 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     mapping = reader.mapping(node, place)
     if mapping is None:
         return None
-    kind_node = mapping.get("kind")
-    if kind_node is None:
-        reader.error(
-            node,
-            place,
-            Sentence("loads.no_kind"),
-            Sentence("loads.write_kind", kinds=tuple(LOADS)),
-            "missing-key",
-        )
+    cls = reader.registered(mapping, place, LOADS, "loads.no_kind", "loads.write_kind")
+    if cls is None:
         return None
-    kind = reader.word(kind_node, place.child("kind"), LOADS)
-    if kind is None:
-        return None
-    cls = LOADS[kind]
     before = reader.error_count
     found = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
     if found is None:
         return None
-    given = {
-        attribute
-        for attribute, each in cls.fields().items()
-        if mapping.get(each.key or attribute) is not None
-    }
+    given = {name for name, each in cls.fields().items() if mapping.get(each.key or name) is not None}
     _check_choices(reader, node, place, cls, given)
     if reader.error_count == before:
         cls.check(
@@ -224,30 +215,17 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     return cls(name=name, **present)
 
 
-def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: Iterable[str]) -> None:
-    have = set(given)
+def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: set[str]) -> None:
     for least, groups in ((1, cls.exactly_one), (0, cls.at_most_one)):
         for group in groups:
-            chosen = [name for name in group if name in have]
+            chosen = [name for name in group if name in given]
             if least <= len(chosen) <= 1:
                 continue
-            words = tuple(group)
+            problem = Sentence("loads.none_given", words=group), Sentence("loads.give_one")
             if chosen:
-                reader.error(
-                    node,
-                    place,
-                    Sentence("loads.both_given", given=together(chosen)),
-                    Sentence("loads.keep_one_of", words=words),
-                    "choice",
-                )
-            else:
-                reader.error(
-                    node,
-                    place,
-                    Sentence("loads.none_given", words=words),
-                    Sentence("loads.give_one"),
-                    "choice",
-                )
+                keep = Sentence("loads.keep_one_of", words=group)
+                problem = Sentence("loads.both_given", given=together(chosen)), keep
+            reader.error(node, place, *problem, "choice")
 
 
 def _declare(kind: Field, default: Any) -> Any:
@@ -293,8 +271,6 @@ def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: 
 
 def links(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
     """The names of two different links ``[a, b]``."""
-    from linkwright.fields.references import LinkNames
-
     return _declare(LinkNames(doc=doc, key=key), default)
 
 
@@ -351,19 +327,12 @@ def phase(*, default: Any = None, doc: str = "when the load acts (default: alway
 def check_ramp(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
     """For ``Load.check``: a ramp needs a phase."""
     if values.get("ramp") is not None and values.get("phase") is None:
-        report(
-            "ramp",
-            Sentence("loads.ramp_without_phase"),
-            Sentence("loads.add_phase"),
-        )
+        report("ramp", Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase"))
 
 
 def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
     """For ``Load.check``: the two points of ``between`` are on different links."""
     ends = values.get("between")
     if ends is not None and ends[0].link == ends[1].link:
-        report(
-            "between",
-            Sentence("loads.same_link", link=ends[0].link),
-            Sentence("loads.name_two_links"),
-        )
+        problem = Sentence("loads.same_link", link=ends[0].link)
+        report("between", problem, Sentence("loads.name_two_links"))

@@ -12,13 +12,14 @@ from linkwright.engine.trace import select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
 from linkwright.loads import base
-from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
+from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
 from linkwright.loads.marks import Push, sign_of
 from linkwright.loads.site import Site, Wrench
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 @LOADS.register("force")
@@ -97,6 +98,16 @@ class Force(Load):
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / sqrt(ray.square))
         return unit.perp if self.normal_to else unit
+
+    def reverses(self, mechanism: Mechanism) -> Output | None:
+        """With the motion of its link on the frame; no point of a link that others carry stops in general."""
+        if self.opposes is None:
+            return None
+        for name, joint in mechanism.joints.items():
+            if {"frame", self.on} <= set(joint.joined) and joint.coordinate:
+                turns = joint.coordinate == "turn"
+                return Output("angle", self.on, self.on) if turns else Output("displacement", name, name)
+        return None
 
     @property
     def turns_with(self) -> str | None:

@@ -9,13 +9,14 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.engine.trace import select
 from linkwright.loads import base
-from linkwright.loads.base import AT_REST, LOADS, Load, Phase, Table
+from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
 from linkwright.loads.marks import Turn, sign_of
 from linkwright.loads.site import Site, Wrench
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 @LOADS.register("torque")
@@ -63,6 +64,12 @@ class Torque(Load):
             omega = site.omega(self.on) - site.omega(self.against)
             moment = moment * select(omega > AT_REST, -1.0, select(omega < -AT_REST, 1.0, 0.0))
         return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]
+
+    def reverses(self, mechanism: Mechanism) -> Output | None:
+        """With the rotation that it opposes, where that is one against the frame."""
+        if self.opposes is None or self.against != "frame":
+            return None
+        return Output("angle", self.on, self.on)
 
     def mark(self, motion: Motion, index: int) -> Turn:
         sense = sign_of(self)

@@ -30,7 +30,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import activity, switch_times
+from linkwright.loads.phases import NEAR, activity, switch_times
 from linkwright.metrics.resolve import Resolver
 
 #: Pieces of one cycle before the places where something jumps or bends are cut out.
@@ -162,7 +162,10 @@ class CycleGrid:
 
     # places where loads jump ------------------------------------------------------------------------
     def _switches(self) -> Floats:
-        """Times at which a load begins or ends to act, or its table bends."""
+        """Times at which a load begins or ends to act, its table bends, or a velocity that it opposes reverses.
+
+        A phase that holds a little more than its ends ends there all the same.
+        """
         if self._forces is None:
             return np.empty(0)
         signals = MotionSignals(self._motion)
@@ -172,7 +175,12 @@ class CycleGrid:
             known, complete = switch_times(load, signals)
             found.append(known)
             if phase is not None and not complete:
-                found.append(self._bisected(phase, signals))
+                switched = self._bisected(phase, signals)
+                apart = np.abs(switched[:, None] - known).min(axis=1, initial=np.inf)
+                found.append(switched[apart > 2.0 * NEAR * (self.end - self.start)])
+            reversing = load.reverses(self._motion.mechanism)
+            if reversing is not None:
+                found.append(np.array([each.time for each in signals.limits(reversing)]))
         return self._wrapped(found)
 
     def _wrapped(self, found: Iterable[Floats]) -> Floats:

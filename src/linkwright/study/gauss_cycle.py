@@ -23,6 +23,7 @@ from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
 from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
@@ -211,6 +212,17 @@ def _edges(load: str, phase: SwingPhase) -> dict[int, str]:
         return {1: edge_name(load, 1)} if part.word == "first" else {0: edge_name(load, 0)}
     ends = (part.amounts[0], part.amounts[-1])
     return {which: edge_name(load, which) for which, amount in enumerate(ends) if amount.value}
+
+
+def reversing(traced: Traced, program: Program) -> tuple[Output, ...]:
+    """Outputs that go to and fro, at whose limits loads on which a program depends change their signs."""
+    taken = {name.split(".")[1] for name in program.parameters if name.startswith("loads.")}
+    taken |= {name.removeprefix("load:") for name in program.fields if name.startswith("load:")}
+    found = (traced.mechanism.loads[name].reverses(traced.mechanism) for name in sorted(taken))
+    asked = dict.fromkeys(each for each in found if each is not None)
+    signals = MotionSignals(traced.nominal)
+    speeds = {each: signals.output(each)[1] for each in asked}
+    return tuple(each for each, speed in speeds.items() if speed.min() < 0.0 < speed.max())
 
 
 def _cuts(load: Load) -> Iterable[str]:

@@ -79,8 +79,8 @@ class AlongInput:
 
     ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``constants`` by
     name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
-    value for some designs; ``rubbing``: the friction of joints is traced as well, that of the ``swinging`` ones turns
-    round at two positions.
+    value for some designs; ``rubbing``: the friction of joints is traced as well; ``swinging``: what turns round at
+    two positions, where friction and loads against velocities change their signs.
     """
 
     names: frozenset[str]

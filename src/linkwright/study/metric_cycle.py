@@ -29,7 +29,7 @@ from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.summary import Summary, one
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
 from linkwright.study.limit_stages import STEP, limit_stages
 from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
 from linkwright.study.piece_summaries import SIDES, PieceSummaries, Reduced
@@ -90,9 +90,11 @@ def _metric_cycle(
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
     terms = [each for each in offered if each is not None]
     outputs = [part.output for part in map(one, all_parts(terms)) if part.kind not in _PLACES]
-    loads = along_input(plain, addresses, plain.program(plain.quantities(outputs)).fields)
+    program = plain.program(plain.quantities(outputs))
+    loads = along_input(plain, addresses, program.fields)
     if loads is None:
         return None
+    loads = replace(loads, swinging=tuple(dict.fromkeys((*loads.swinging, *reversing(plain, program)))))
     traced = loads.traced(plain)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     for pieces in PIECES:

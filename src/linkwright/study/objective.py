@@ -23,7 +23,9 @@ from linkwright.engine.table import Table
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
+from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.study.limit_stages import constants
@@ -220,12 +222,24 @@ def of_metrics(
     """The weighted sum of registered metrics; raises RequestError where it has no gradient."""
     cycle = metric_cycle(mechanism, names, weights, steps=steps)
     if cycle is None:
-        raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
+        raise RequestError(_refusal(mechanism, steps))
     missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
     if missing:
         raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
+
+
+def _refusal(mechanism: Mechanism, steps: int) -> Sentence:
+    """Why design numbers of a mechanism have no gradient."""
+    signals = MotionSignals(solve_motion(mechanism, steps=steps))
+    for name, load in mechanism.loads.items():
+        output = load.reverses(mechanism)
+        count = 0 if output is None else len(signals.limits(output))
+        if count > 2:
+            values = {"load": name, "output": output, "count": count}
+            return Sentence("study.objective_reverses", name=mechanism.name, **values)
+    return Sentence("study.objective_loads", name=mechanism.name)
 
 
 def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:

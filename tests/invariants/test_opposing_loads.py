@@ -1,0 +1,140 @@
+"""Loads against a velocity: gradients of design numbers pass the jumps where it changes its sign, by differences of
+machines solved alone."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.errors import RequestError
+
+SLIDER = """
+format: 1
+name: slider-crank against its velocity
+frame: {points: {O: [0 m, 0 m], G: [0 m, 0.05 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.7 m, mass: 2 kg, inertia: 0.1 kg·m²}
+  piston: {points: [B], mass: 3 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: piston, at: B}}
+driver: {turn: crank, about: O, speed: SPEED}
+loads: {work: {LOAD}}
+"""
+FOURBAR = """
+format: 1
+name: four-bar against its velocity
+frame: {points: {O: [0 m, 0 m], Q: [0.4 m, 0.05 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.35 m, also: {C: [0.2 m, 0.1 m]}, mass: 2 kg, inertia: 0.1 kg·m²}
+  rocker: {points: [Q, B], length: 0.3 m, mass: 3 kg, inertia: 0.1 kg·m²}
+driver: {turn: crank, about: O, speed: SPEED}
+loads: {work: {LOAD}}
+"""
+#: Name: model, load, dimension.
+CASES = {
+    "force on a slider": (
+        SLIDER,
+        "kind: force, on: piston, at: B, opposes: velocity, magnitude: 400 N",
+        "rod.length",
+    ),
+    "its size": (
+        SLIDER,
+        "kind: force, on: piston, at: B, opposes: velocity, magnitude: 400 N",
+        "loads.work.magnitude",
+    ),
+    "ramp in a phase": (
+        SLIDER,
+        "kind: force, on: piston, at: B, opposes: velocity, ramp: [100 N, 400 N], "
+        "phase: {of: guide, from: max, to: min, last: 0.4}",
+        "rod.length",
+    ),
+    "torque on a rocker": (
+        FOURBAR,
+        "kind: torque, on: rocker, opposes: velocity, magnitude: 30 N·m",
+        "rod.length",
+    ),
+    "force on a rocker": (
+        FOURBAR,
+        "kind: force, on: rocker, at: B, opposes: velocity, magnitude: 80 N",
+        "rocker.length",
+    ),
+    "force on a coupler": (
+        FOURBAR,
+        "kind: force, on: rod, at: C, opposes: velocity, magnitude: 80 N",
+        "crank.length",
+    ),
+    "torque on a crank": (
+        FOURBAR,
+        "kind: torque, on: crank, opposes: velocity, magnitude: 5 N·m",
+        "rod.length",
+    ),
+}
+NUMBERS = ("rms_input_torque", "peak_input_torque", "peak_reaction A")
+METRICS = [each.split()[0] for each in NUMBERS]
+
+
+def differences(mechanism: lw.Mechanism, address: str) -> dict[str, float]:
+    """Central differences of fourth order of the design numbers of machines solved one by one."""
+    value = mechanism.dimension(address)
+    step = 1e-4 * value
+    rows = []
+    for k in (-2, -1, 1, 2):
+        forces = lw.solve_forces(mechanism.with_dimensions({address: value + k * step}))
+        table = lw.metrics(forces, METRICS)
+        rows.append([table.value(*each.split()) for each in NUMBERS])
+    slopes = (np.array([1.0, -8.0, 8.0, -1.0]) @ np.array(rows)) / (12 * step)
+    return dict(zip(NUMBERS, slopes.tolist(), strict=True))
+
+
+@pytest.mark.parametrize("speed", ["120 rpm", "-120 rpm"])
+@pytest.mark.parametrize("name", CASES)
+def test_gradients_are_those_of_machines_solved_alone(name: str, speed: str) -> None:
+    text, load, address = CASES[name]
+    mechanism = lw.loads(text.replace("LOAD", load).replace("SPEED", speed))
+    expected = differences(mechanism, address)
+    table = lw.metrics(lw.solve_forces(mechanism), METRICS)
+    for each in NUMBERS:
+        objective = lw.objective(mechanism, each, vary=[address], backend="numpy")
+        value, gradient = objective(objective.start)
+        assert value == pytest.approx(table.value(*each.split()), rel=1e-11)
+        assert gradient[0] == pytest.approx(expected[each], rel=1e-6, abs=1e-8 * value), each
+
+
+def test_sensitivity_takes_the_same_way() -> None:
+    text, load, address = CASES["torque on a rocker"]
+    mechanism = lw.loads(text.replace("LOAD", load).replace("SPEED", "120 rpm"))
+    found = lw.sensitivity(mechanism, of=["rms_input_torque"], by=[address])
+    expected = differences(mechanism, address)["rms_input_torque"]
+    assert found.gradient("rms_input_torque")[0] == pytest.approx(expected, rel=1e-6)
+
+
+TWICE = """
+format: 1
+name: slide twice as fast as its driver
+frame: {points: {O: [0 m, 0 m], Q: [0.3 m, 0 m]}}
+links:
+  wheel: {points: {O: [0 m, 0 m], P: [0.1 m, 0 m]}, inertia: 0.1 kg·m²}
+  crank: {points: [Q, A], length: 0.05 m, mass: 1 kg, inertia: 0.01 kg·m²}
+  rod: {points: [A, B], length: 0.3 m}
+  piston: {points: [B], mass: 3 kg}
+joints:
+  mesh: {kind: gear, links: [wheel, crank], teeth: [40, 20]}
+  guide: {kind: prismatic, guide: frame, through: Q, direction: 0 deg, block: piston, at: B}
+driver: {turn: wheel, about: O, speed: 60 rpm}
+loads: {work: {kind: force, on: piston, at: B, opposes: velocity, magnitude: 100 N}}
+"""
+
+
+def test_a_velocity_that_changes_its_sign_more_often_is_refused() -> None:
+    mechanism = lw.loads(TWICE)
+    with pytest.raises(RequestError, match=r"load 'work' .* rate of guide, which changes it 4 times"):
+        lw.objective(mechanism, "rms_input_torque", vary=["rod.length"])
+    without = lw.loads(TWICE.replace("opposes: velocity", "direction: 0 deg"))
+    assert lw.objective(without, "rms_input_torque", vary=["rod.length"]) is not None
+
+
+def test_a_torque_between_moving_links_is_refused() -> None:
+    load = "kind: torque, on: rod, against: rocker, opposes: velocity, magnitude: 5 N·m"
+    mechanism = lw.loads(FOURBAR.replace("LOAD", load).replace("SPEED", "120 rpm"))
+    with pytest.raises(RequestError, match="against the rotation of two moving links"):
+        lw.objective(mechanism, "rms_input_torque", vary=["rod.length"])
