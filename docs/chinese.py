@@ -112,7 +112,10 @@ MEANINGS = {
     "the prismatic joint that is driven": "被驱动的移动副",
     "several drivers by name": "几个原动件，按名称",
     "what one cycle is (default: one turn of the driver)": "一个循环是什么（默认：原动件转一周）",
-    "coordinate of the first driver": "第一个原动件的坐标",
+    "time of one cycle": "一个循环的时间",
+    "first coordinate of the first driver": "第一个原动件的初始坐标",
+    "last coordinate of the first driver": "第一个原动件的终了坐标",
+    "turns of the first driver": "第一个原动件的转数",
     "loads by name": "载荷，按名称",
     "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.":
         "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",

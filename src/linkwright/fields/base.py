@@ -69,6 +69,11 @@ def quantity_schema(dimension: str) -> Schema:
     }
 
 
+def pair_schema(one: Schema) -> Schema:
+    """JSON Schema of a list of two."""
+    return {"type": "array", "items": one, "minItems": 2, "maxItems": 2}
+
+
 def written_quantity(value: Any, dimension: str) -> Any:
     """A quantity as it stands in a file: text with the SI unit, an expression's text, a bare number."""
     if isinstance(value, Expression):

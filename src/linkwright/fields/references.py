@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Schema, quantity_schema, written_quantity
+from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
 
@@ -76,12 +76,7 @@ class PointPair(Field):
         return reader.ray(node, place, given.get(self.of))
 
     def shape(self) -> Schema:
-        return {
-            "type": "array",
-            "items": {"type": "string", "x-reference": "point", "x-of": self.of},
-            "minItems": 2,
-            "maxItems": 2,
-        }
+        return pair_schema(PointName(self.of).shape())
 
     def written(self, value: Any) -> Any:
         return list(value)
@@ -112,26 +107,10 @@ class PointReferences(Field):
             return None
         one = PointReference()
         found = [one.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)]
-        if any(point is None for point in found):
-            return None
-        if found[0] == found[1]:
-            reader.error(
-                node,
-                place,
-                Sentence("model.both_points", first=found[0]),
-                Sentence("model.two_points"),
-                "reference",
-            )
-            return None
-        return tuple(found)
+        return reader.two(node, place, found, "point")
 
     def shape(self) -> Schema:
-        return {
-            "type": "array",
-            "items": {"type": "string", "x-reference": "link.point"},
-            "minItems": 2,
-            "maxItems": 2,
-        }
+        return pair_schema(PointReference().shape())
 
     def written(self, value: Any) -> Any:
         return [str(point) for point in value]
@@ -149,7 +128,7 @@ class Direction(Field):
         return reader.quantity(node, place, "angle")
 
     def shape(self) -> Schema:
-        pair = {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
+        pair = pair_schema({"type": "string"})
         return {"anyOf": [*quantity_schema("angle")["anyOf"], pair], "x-dimension": "angle"}
 
     def written(self, value: Any) -> Any:
@@ -166,25 +145,9 @@ class LinkNames(Field):
         items = reader.items(node, place, 2, "[a, b]")
         if items is None:
             return None
-        names = [LinkName().read(reader, item, place, given) for item in items]
-        first, second = names
-        if first is None or second is None:
-            return None
-        if first == second:
-            reader.error(
-                node,
-                place,
-                Sentence("model.both_links", first=first),
-                Sentence("model.two_links"),
-                "reference",
-            )
-            return None
-        return first, second
+        return reader.two(
+            node, place, [LinkName().read(reader, item, place, given) for item in items], "link"
+        )
 
     def shape(self) -> Schema:
-        return {
-            "type": "array",
-            "items": {"type": "string", "x-reference": "link"},
-            "minItems": 2,
-            "maxItems": 2,
-        }
+        return pair_schema(LinkName().shape())

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Schema, quantity_schema, written_quantity
+from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.words.sentence import Sentence
 
@@ -103,7 +103,7 @@ class StrokePartField(Field):
         }
         if self.word != "free":
             return one
-        return {"anyOf": [*one["anyOf"], {"type": "array", "items": one, "minItems": 2, "maxItems": 2}]}
+        return {"anyOf": [*one["anyOf"], pair_schema(one)]}
 
     def written(self, value: Any) -> Any:
         raise AssertionError("a phase writes its part")

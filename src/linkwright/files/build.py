@@ -61,22 +61,15 @@ class Model:
         mass_centre: Pair | None = None,
     ) -> None:
         """A moving link; the keys are those of a file: m, rad, kg, kg·m²."""
-        given = {
-            "length": length,
-            "lengths": lengths,
-            "angle": angle,
-            "also": also,
-            "mass": mass,
-            "inertia": inertia,
-            "mass_centre": mass_centre,
-        }
         listed = points if isinstance(points, Mapping) else list(points)
-        self._section("links", name, {"points": listed, **_present(given)})
+        sizes = _present(length=length, lengths=lengths, angle=angle, also=also)
+        masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre)
+        self._section("links", name, {"points": listed, **sizes, **masses})
 
     def joint(self, name: str, kind: str, **fields: Any) -> None:
         """A joint of a registered kind, by the keys of a file: m, rad, kg. The pins at shared points are implied; one
         of them is named for its radius or its friction."""
-        self._section("joints", name, {"kind": kind, **_present(fields)})
+        self._section("joints", name, {"kind": kind, **_present(**fields)})
 
     def drive(
         self,
@@ -92,14 +85,8 @@ class Model:
     ) -> None:
         """Turn a link about a pin: by constant ``speed`` (rad/s), an expression ``position``, or a
         ``table``."""
-        law = {
-            "relative_to": relative_to,
-            "speed": speed,
-            "start": start,
-            "position": position,
-            "table": table,
-        }
-        self._section("drivers", name, {"turn": link, "about": about, **_present(law)})
+        law = _present(relative_to=relative_to, speed=speed, start=start, position=position, table=table)
+        self._section("drivers", name, {"turn": link, "about": about, **law})
 
     def slide(
         self,
@@ -113,8 +100,8 @@ class Model:
     ) -> None:
         """Drive a prismatic joint: by constant ``speed`` (m/s), an expression ``position``, or a
         ``table``."""
-        law = {"speed": speed, "start": start, "position": position, "table": table}
-        self._section("drivers", name, {"slide": joint, **_present(law)})
+        law = _present(speed=speed, start=start, position=position, table=table)
+        self._section("drivers", name, {"slide": joint, **law})
 
     def assemble(self, **modes: str) -> None:
         """Assembly modes: joint name = left, right, forward or backward."""
@@ -137,9 +124,8 @@ class Model:
 
     def load(self, name: str, kind: str, **fields: Any) -> None:
         """A load of a registered kind, by the keys of a file (``from_`` stands for ``from``)."""
-        self._section(
-            "loads", name, {"kind": kind, **{key.rstrip("_"): value for key, value in fields.items()}}
-        )
+        given = {key.rstrip("_"): value for key, value in fields.items()}
+        self._section("loads", name, {"kind": kind, **given})
 
     def build(self) -> Mechanism:
         """The checked mechanism. Raises ModelError with all findings."""
@@ -149,7 +135,7 @@ class Model:
         return mechanism
 
 
-def _present(values: Mapping[str, Any]) -> dict[str, Any]:
+def _present(**values: Any) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
 
 

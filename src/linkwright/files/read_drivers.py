@@ -186,31 +186,33 @@ def _revolute(
     return pin, link, other
 
 
-def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver]) -> Cycle | None:
-    """What one cycle is, if the file says so."""
-    if node is None:
-        return None
-    across = reader.input_dimension()
-    fields: dict[str, Field] = {
+#: The keys of which one set says what a cycle is.
+CYCLE_FORMS = (("duration",), ("from", "to"), ("turns",))
+
+
+def cycle_fields(across: str) -> dict[str, Field]:
+    """The keys of the section ``cycle``; ``across``: dimension of the first driver's coordinate."""
+    return {
         "duration": Quantity("time", above=0, doc="time of one cycle"),
         "from": Quantity(across, doc="first coordinate of the first driver"),
         "to": Quantity(across, doc="last coordinate of the first driver"),
         "turns": Quantity("dimensionless", above=0, doc="turns of the first driver"),
     }
+
+
+def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver]) -> Cycle | None:
+    """What one cycle is, if the file says so."""
+    if node is None:
+        return None
     before = reader.error_count
-    given = reader.table(node, Place("cycle", "cycle"), fields)
+    given = reader.table(node, Place("cycle", "cycle"), cycle_fields(reader.input_dimension()))
     if given is None or reader.error_count > before:
         return None
-    if set(given) not in ({"duration"}, {"from", "to"}, {"turns"}):
-        reader.error(
-            node,
-            "cycle",
-            Sentence("model.is_given", given=together(list(given)))
-            if given
-            else Sentence("model.nothing_given"),
-            Sentence("model.write_cycle"),
-            "choice",
-        )
+    if set(given) not in map(set, CYCLE_FORMS):
+        problem = Sentence("model.nothing_given")
+        if given:
+            problem = Sentence("model.is_given", given=together(list(given)))
+        reader.error(node, "cycle", problem, Sentence("model.write_cycle"), "choice")
         return None
     law = next((driver.law for driver in drivers.values()), None)
     if "duration" not in given and law is not None:
@@ -220,30 +222,17 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
 
 def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
     word = "turns" if "turns" in given else Sentence("model.from_and_to")
+    problem, remedy, code = None, "give_duration", "choice"
     if law.constant_speed is None:
-        reader.error(
-            node,
-            "cycle",
-            Sentence("model.needs_constant", word=word),
-            Sentence("model.give_duration"),
-            "choice",
-        )
+        problem = Sentence("model.needs_constant", word=word)
     elif law.constant_speed == 0:
-        reader.error(
-            node, "cycle", Sentence("model.needs_speed", word=word), Sentence("model.give_duration"), "choice"
-        )
+        problem = Sentence("model.needs_speed", word=word)
     elif "turns" in given and not law.rotary:
-        reader.error(
-            node, "cycle", Sentence("model.does_not_turn"), Sentence("model.give_duration_or"), "choice"
-        )
+        problem, remedy = Sentence("model.does_not_turn"), "give_duration_or"
     elif "from" in given and (given["to"] - given["from"]) * law.constant_speed <= 0:
-        reader.error(
-            node,
-            "cycle",
-            Sentence("model.wrong_way"),
-            Sentence("model.exchange_or_turn"),
-            "range",
-        )
+        problem, remedy, code = Sentence("model.wrong_way"), "exchange_or_turn", "range"
+    if problem is not None:
+        reader.error(node, "cycle", problem, Sentence(f"model.{remedy}"), code)
 
 
 def complete(drivers: Mapping[str, Driver], ends: Mapping[str, tuple[str, str]]) -> dict[str, Driver]:

@@ -94,21 +94,10 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
     mapping = reader.mapping(node, place)
     if mapping is None:
         return None
-    kind_node = mapping.get("kind")
-    if kind_node is None:
-        reader.error(
-            node,
-            place.child("kind"),
-            Sentence("model.joint_no_kind"),
-            Sentence("model.add_kind", kinds=tuple(JOINTS)),
-            "missing-key",
-        )
-        return None
-    kind = reader.word(kind_node, place.child("kind"), tuple(JOINTS))
-    if kind is None:
+    cls = reader.registered(mapping, place, JOINTS, "model.joint_no_kind", "model.add_kind")
+    if cls is None:
         return None
     before = reader.error_count
-    cls = JOINTS[kind]
     given = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
     if given is None or reader.error_count > before:
         return None

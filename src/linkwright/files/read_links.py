@@ -8,7 +8,7 @@ from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantities, Quantity, Schema, quantity_schema
+from linkwright.fields.base import Field, Quantities, Quantity, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import NAME, Place
@@ -43,8 +43,7 @@ class Coordinates(Field):
         return found
 
     def shape(self) -> Schema:
-        pair = {"type": "array", "items": quantity_schema("length"), "minItems": 2, "maxItems": 2}
-        return {"type": "object", "additionalProperties": pair}
+        return {"type": "object", "additionalProperties": _PAIR.shape()}
 
 
 @dataclass(frozen=True)

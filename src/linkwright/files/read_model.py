@@ -27,28 +27,6 @@ from linkwright.mechanism.mechanism import Mechanism, Vec
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
-SECTIONS = (
-    "format",
-    "name",
-    "purpose",
-    "source",
-    "expected",
-    "synthesis",
-    "report",
-    "course",
-    "optimize",
-    "parameters",
-    "frame",
-    "links",
-    "joints",
-    "assembly",
-    "drawing",
-    "driver",
-    "drivers",
-    "cycle",
-    "gravity",
-    "loads",
-)
 #: Keys of a file that holds a task of synthesis and no model.
 TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
 WORDS = ("left", "right", "forward", "backward")
@@ -64,6 +42,11 @@ HEADER: Mapping[str, Field] = {
     "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
     "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
 }
+SECTIONS = (
+    *HEADER, "parameters", "frame", "links", "joints", "assembly", "drawing", "driver", "drivers", "cycle", "loads",
+)  # fmt: skip
+#: Sections that are kept and not interpreted by what solves.
+KEPT = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
 
 
 def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism | None, list[Finding]]:
@@ -122,11 +105,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},
         expressions=reader.expressions,
-        expected=header.get("expected") or {},
-        synthesis=header.get("synthesis") or {},
-        report=header.get("report") or {},
-        course=header.get("course") or {},
-        optimize=header.get("optimize") or {},
+        **{name: header.get(name) or {} for name in KEPT},
     )
     unread = reader.error_count
     check_whole(reader, root, mechanism)

@@ -7,7 +7,7 @@ from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
 from dataclasses import field
-from typing import Literal
+from typing import Literal, TypeVar
 
 from linkwright import units
 from linkwright.core import expressions
@@ -23,6 +23,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence
 
+T = TypeVar("T")
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
 
@@ -133,25 +134,15 @@ class Reader(PlainReader):
 
     def quantity_text(self, node: Node, place: Place, example: str) -> str | None:
         """The text of a quantity or expression."""
-        if isinstance(node, Scalar) and not node.empty and node.text.strip():
-            text = node.text.strip()
-            if len(text) <= expressions.MAX_LENGTH:
-                return text
-            self.error(
-                node,
-                place,
-                Sentence("model.text_long", text=text[:40], count=len(text)),
-                Sentence("units.as_in", example=example),
-                "type",
-            )
-            return None
-        self.error(
-            node,
-            place,
-            Sentence("model.where_quantity", node=noun(node)),
-            Sentence("units.as_in", example=example),
-            "type",
+        text = node.text.strip() if isinstance(node, Scalar) and not node.empty else ""
+        if text and len(text) <= expressions.MAX_LENGTH:
+            return text
+        problem = (
+            Sentence("model.text_long", text=text[:40], count=len(text))
+            if text
+            else Sentence("model.where_quantity", node=noun(node))
         )
+        self.error(node, place, problem, Sentence("units.as_in", example=example), "type")
         return None
 
     def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None:
@@ -307,17 +298,16 @@ class Reader(PlainReader):
             for item, name in zip(items, names, strict=True):
                 if name is not None and not self.point_of(item, place, name, link):
                     return None
-        first, second = names
+        return self.two(node, place, names, "point")
+
+    def two(self, node: Node, place: Place, found: list[T | None], what: str) -> tuple[T, T] | None:
+        """Two different ones of a kind, ``point`` or ``link``; None after a finding."""
+        first, second = found
         if first is None or second is None:
             return None
         if first == second:
-            self.error(
-                node,
-                place,
-                Sentence("model.both_points", first=first),
-                Sentence("model.two_points"),
-                "reference",
-            )
+            problem, remedy = Sentence(f"model.both_{what}s", first=first), Sentence(f"model.two_{what}s")
+            self.error(node, place, problem, remedy, "reference")
             return None
         return first, second
 
@@ -349,10 +339,7 @@ class Reader(PlainReader):
         found = resolve_output(text, self.names.links, self.names.sliding)
         if found is not None:
             return found
-        names = [
-            *self.names.links,
-            *self.names.sliding,
-        ]
+        names = [*self.names.links, *self.names.sliding]
         points = dict.fromkeys(f"{point}.x" for points in self.names.links.values() for point in points)
         offer = nearest(text, [*(name for name in names if name != "frame"), *points])
         self.error(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from linkwright.drivers.base import LAWS
-from linkwright.fields.base import Field, Schema, Word, quantity_schema, table_schema
-from linkwright.files.read_drivers import SLIDE_FIELDS, TURN_FIELDS
+from linkwright.fields.base import Field, Schema, Word, table_schema
+from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS, cycle_fields
 from linkwright.files.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
 from linkwright.files.read_model import HEADER, WORDS
 from linkwright.joints.base import JOINTS
@@ -79,24 +80,10 @@ def _drivers() -> list[Schema]:
 
 
 def _cycle() -> Schema:
-    quantity = quantity_schema("angle") | {"description": "coordinate of the first driver"}
-    forms: list[tuple[str, ...]] = [("duration",), ("from", "to"), ("turns",)]
-    shapes: Schema = {
-        "duration": quantity_schema("time"),
-        "from": quantity,
-        "to": quantity,
-        "turns": quantity_schema("dimensionless"),
-    }
-    options = [
-        {
-            "properties": {key: shapes[key] for key in form},
-            "required": list(form),
-            "additionalProperties": False,
-        }
-        for form in forms
-    ]
+    fields = cycle_fields("angle")
+    forms = [{key: replace(fields[key], required=True) for key in form} for form in CYCLE_FORMS]
     return {
         "type": "object",
-        "oneOf": options,
+        "oneOf": [table_schema(form) for form in forms],
         "description": "what one cycle is (default: one turn of the driver)",
     }

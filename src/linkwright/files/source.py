@@ -81,8 +81,8 @@ def _given(path: Path) -> bytes:
     return b"".join(parts)
 
 
-def _refuse(path: Path, message: str, remedy: str, code: str) -> ModelError:
-    return ModelError([Finding("error", str(path), "", message, remedy, code)])
+def _refuse(where: Path | str, message: str, remedy: str, code: str) -> ModelError:
+    return ModelError([Finding("error", str(where), "", message, remedy, code)])
 
 
 def _near_file(path: Path) -> str:
@@ -108,18 +108,8 @@ def _read_gallery(name: str) -> tuple[str, str]:
             if near
             else Sentence("names.one_of", names=tuple(names))
         )
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    GALLERY + name,
-                    "",
-                    Sentence("model.no_gallery_model", name=name),
-                    remedy,
-                    "no-file",
-                )
-            ]
-        )
+        problem = Sentence("model.no_gallery_model", name=name)
+        raise _refuse(GALLERY + name, problem, remedy, "no-file")
     content = path.read_bytes()
     return decode(content, f"{name}.yaml"), f"{name}.yaml"
 
@@ -127,37 +117,15 @@ def _read_gallery(name: str) -> tuple[str, str]:
 def decode(content: bytes, name: str) -> str:
     """Text of a file's bytes; raises ModelError with the place of the first byte that is not UTF-8."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise ModelError(
-            [Finding("error", name, "", Sentence("model.utf16"), Sentence("model.save_utf8"), "encoding")]
-        )
+        raise _refuse(name, Sentence("model.utf16"), Sentence("model.save_utf8"), "encoding")
     if b"\x00" in content:
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    name,
-                    "",
-                    Sentence("model.not_text", offset=content.index(0)),
-                    Sentence("model.name_text_file"),
-                    "encoding",
-                )
-            ]
-        )
+        problem = Sentence("model.not_text", offset=content.index(0))
+        raise _refuse(name, problem, Sentence("model.name_text_file"), "encoding")
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
         before = content[: error.start]
         line, column = before.count(b"\n") + 1, len(before) - before.rfind(b"\n")
-        byte = content[error.start]
-        raise ModelError(
-            [
-                Finding(
-                    "error",
-                    f"{name}:{line}:{column}",
-                    "",
-                    Sentence("model.not_utf8", byte=byte, start=error.start),
-                    Sentence("model.save_utf8"),
-                    "encoding",
-                )
-            ]
-        ) from None
+        problem = Sentence("model.not_utf8", byte=content[error.start], start=error.start)
+        place = f"{name}:{line}:{column}"
+        raise _refuse(place, problem, Sentence("model.save_utf8"), "encoding") from None

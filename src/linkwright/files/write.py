@@ -10,6 +10,7 @@ from typing import Any
 from linkwright.drivers.base import Driver
 from linkwright.fields.base import written_quantity
 from linkwright.files.read_links import LINK_FIELDS
+from linkwright.files.read_model import KEPT
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
@@ -57,11 +58,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["loads"] = {
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
-    data["expected"] = dict(mechanism.expected)
-    data["synthesis"] = dict(mechanism.synthesis)
-    data["report"] = dict(mechanism.report)
-    data["course"] = dict(mechanism.course)
-    data["optimize"] = dict(mechanism.optimize)
+    data |= {name: dict(getattr(mechanism, name)) for name in KEPT}
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 

@@ -71,7 +71,7 @@ class Geometry:
         centre: complex,
     ) -> Geometry:
         outward = guide.block == joint.follower
-        on_guide, on_block = guide.angle_of_guide(mechanism), guide.block_angle
+        on_guide, on_block = guide.direction, guide.block_angle
         along, own = (on_guide, on_block) if outward else (on_block + math.pi, on_guide + math.pi)
         ends = (guide.through, guide.at) if outward else (guide.at, guide.through)
         held = complex(*mechanism.link(joint.carrier).points[ends[0]]) - centre
@@ -92,7 +92,7 @@ def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:
     radius = joint.radius(dimensions)
     guide = dimensions.mechanism.guides.get(joint.holder)
     if guide is not None:
-        on_guide, on_block = dimensions.guide_direction(guide), dimensions.block_direction(guide)
+        on_guide, on_block = guide.slide_direction(dimensions), dimensions.unit(f"{guide.name}.block_angle")
         own, there = (on_block, on_guide) if guide.block == joint.follower else (-on_guide, -on_block)
         return GuidedCut(connection, turned, centre, at, own, own.turn(there.conjugate), radius, joint.touch)
     pivot = dimensions.point(joint.follower, joint.holder)

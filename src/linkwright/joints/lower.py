@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -44,7 +43,7 @@ class SlidingJoint(Joint):
     """A guide line fixed in link ``guide`` and a block, link ``block``, that slides along it without turning.
 
     The line goes through the point ``through`` of the guide link; its direction is the angle ``direction``
-    (rad, in that link's axes) or, with ``direction_points`` (P, Q), the direction from P to Q of that link.
+    (rad, in that link's axes), with ``direction_points`` (P, Q) that from P to Q of that link.
     The point ``at`` of the block stays at the normal distance ``offset`` (m, left of the direction positive)
     from the line. ``block_angle`` (rad) is the direction of the line in the block's axes.
     Coordinate: displacement s of ``at`` from ``through`` along the direction, in m.
@@ -82,12 +81,8 @@ class SlidingJoint(Joint):
     def friction_arm(self) -> float:
         return self.friction
 
-    @abstractmethod
-    def angle_of_guide(self, mechanism: Mechanism) -> float:
-        """Direction of the guide in the axes of its link, rad."""
-
     def turn_of(self, child: str, mechanism: Mechanism) -> float:
-        turn = self.angle_of_guide(mechanism) - self.block_angle
+        turn = self.direction - self.block_angle
         return turn if child == self.block else -turn
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar, angle
+from linkwright.engine.trace import Scalar, angle, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.rank import ConstraintSystem, Place, Row
-    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint
@@ -129,15 +128,8 @@ class PrismaticJoint(SlidingJoint):
             yield grouping.connection(self, self.guide, self.block, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
-    def angle_of_guide(self, mechanism: Mechanism) -> float:
-        if self.direction_points is None:
-            return self.direction
-        points = mechanism.link(self.guide).points
-        (x0, y0), (x1, y1) = (points[name] for name in self.direction_points)
-        return math.atan2(y1 - y0, x1 - x0)
-
     def hang(self, step: TreeJoint, dimensions: Dimensions) -> Guide:
-        on_guide, on_block = dimensions.guide_direction(self), dimensions.block_direction(self)
+        on_guide, on_block = self.slide_direction(dimensions), dimensions.unit(f"{self.name}.block_angle")
         through = dimensions.point(self.guide, self.through)
         at = dimensions.point(self.block, self.at)
         offset = dimensions(f"{self.name}.offset")
@@ -150,44 +142,52 @@ class PrismaticJoint(SlidingJoint):
             connection,
             dimensions.point(self.guide, self.through),
             dimensions.point(self.block, self.at),
-            dimensions.guide_direction(self),
+            self.slide_direction(dimensions),
             dimensions(f"{self.name}.offset"),
         )
 
     def slide_direction(self, dimensions: Dimensions) -> Vec:
-        return dimensions.guide_direction(self)
+        if self.direction_points is None:
+            return dimensions.unit(f"{self.name}.direction")
+        start, end = (dimensions.point(self.guide, name) for name in self.direction_points)
+        d = end - start
+        if isinstance(d.y, float) and d.y == 0.0 and not isinstance(d.x, float):
+            (x0, _), (x1, _) = (dimensions.link(self.guide).points[each] for each in self.direction_points)
+            if f"{self.guide}.length" not in dimensions.free and x1 > x0:
+                return Vec(1.0, 0.0)
+        return d * reciprocal(sqrt(d.square))
 
     def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
-        along: Scalar = (
-            dimensions(f"{self.name}.direction")
-            if self.direction_points is None
-            else angle((way := dimensions.guide_direction(self)).y, way.x)
-        )
+        along: Scalar
+        if self.direction_points is None:
+            along = dimensions(f"{self.name}.direction")
+        else:
+            along = angle((way := self.slide_direction(dimensions)).y, way.x)
         turn = along - dimensions(f"{self.name}.block_angle")
         return turn if step.child == self.block else -turn
 
     def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
-        parent, on_guide = build.bodies[step.parent], self.angle_of_guide(build.mechanism)
+        parent = build.bodies[step.parent]
         key = ("drive", step.driver) if step.driver else build.unknown("slide", self.name, group)
         outward = step.child == self.block
         on_parent, on_child = (self.through, self.at) if outward else (self.at, self.through)
         sign = 1.0 if outward else -1.0
         place = dict(build.place(step.parent, on_parent))
-        along = parent.offset + (on_guide if outward else self.block_angle)
+        along = parent.offset + (self.direction if outward else self.block_angle)
         build.slide(place, key, parent.rotation, sign * cmath.exp(1j * along), self.offset)
-        turn = parent.offset + sign * (on_guide - self.block_angle)
+        turn = parent.offset + sign * (self.direction - self.block_angle)
         return build.body(parent.rotation, turn, build.local(step.child, on_child), place)
 
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
         start, guide = dict(build.place(self.guide, self.through)), build.bodies[self.guide]
-        along = cmath.exp(1j * (guide.offset + self.angle_of_guide(build.mechanism)))
+        along = cmath.exp(1j * (guide.offset + self.direction))
         build.slide(start, build.unknown("slide", self.name, group), guide.rotation, along, self.offset)
         build.loop(group, start, build.place(self.block, self.at))
 
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
     ) -> Iterable[Row]:
-        turn = self.angle_of_guide(system.mechanism) - self.block_angle
+        turn = self.direction - self.block_angle
         yield system.rotation(self.name, self.guide, self.block, turn, places)
         yield system.along(self, places, across=True)
 

@@ -372,7 +372,10 @@ class _Search:
         here, gap, askew = dimensions.point(link, self.pair.through), Vec(0.0, 0.0), []
         for joint in route:
             outward = joint.guide == link
-            on_guide, on_block = joint.slide_direction(dimensions), dimensions.block_direction(joint)
+            on_guide, on_block = (
+                joint.slide_direction(dimensions),
+                dimensions.unit(f"{joint.name}.block_angle"),
+            )
             start, end = (joint.through, joint.at) if outward else (joint.at, joint.through)
             n = axes.turn(on_guide if outward else on_block)
             offset = dimensions(f"{joint.name}.offset")
@@ -399,20 +402,20 @@ class _Search:
         """The route in axes whose x axis is the pitch line."""
         pair, link = self.pair, self.pair.rack
         first = route[0]
-        on_rack = first.angle_of_guide(self.mechanism) if first.guide == link else first.block_angle
+        on_rack = first.direction if first.guide == link else first.block_angle
         direction = on_rack if pair.direction is None else pair.direction
         axes, here, parallel = -direction, self._local(link, pair.through), True
         gap, guides = 0j, []
         for joint in route:
             outward = joint.guide == link
-            along = joint.angle_of_guide(self.mechanism) if outward else joint.block_angle
+            along = joint.direction if outward else joint.block_angle
             start, end = (joint.through, joint.at) if outward else (joint.at, joint.through)
             sign = 1.0 if outward else -1.0
             n = cmath.exp(1j * (axes + along))
             gap += cmath.exp(1j * axes) * (self._local(link, start) - here) + sign * 1j * n * joint.offset
             guides.append((joint.name, sign * n.real))
             parallel &= abs(n.imag) < FITS
-            turn = joint.angle_of_guide(self.mechanism) - joint.block_angle
+            turn = joint.direction - joint.block_angle
             axes += turn if outward else -turn
             link = joint.block if outward else joint.guide
             here = self._local(link, end)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
 from linkwright.joints.base import Angles, Cut, Entry, HigherPair, Joint, Poses, States
 from linkwright.joints.marks import Amount, Wheel, Wheels, WheelSizes
@@ -300,8 +300,7 @@ class Numbers(Field):
         return None if a is None or b is None else (a, b)
 
     def shape(self) -> dict[str, Any]:
-        one = {"type": ["integer", "string"], "minimum": 1}
-        return {"type": "array", "items": one, "minItems": 2, "maxItems": 2}
+        return pair_schema({"type": ["integer", "string"], "minimum": 1})
 
     def written(self, value: Any) -> Any:
         return [int(each) if each == round(each) else each for each in value]

@@ -72,7 +72,7 @@ class WeldJoint(RigidJoint):
 
     # motion -----------------------------------------------------------------------------------
     def hang(self, step: TreeJoint, dimensions: Dimensions) -> Fixed:
-        turn = dimensions.weld_direction(self)
+        turn = dimensions.unit(f"{self.name}.angle")
         turned = turn.conjugate if step.child == self.links[1] else turn
         return Fixed(dimensions.point(step.parent, self.at), dimensions.point(step.child, self.at), turned)
 

@@ -8,9 +8,8 @@ from math import sin as sine
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
-from linkwright.engine.trace import Scalar, Trace, cos, reciprocal, sin, sqrt
+from linkwright.engine.trace import Scalar, Trace, cos, sin
 from linkwright.engine.vector import Vec
-from linkwright.joints.lower import RigidJoint, SlidingJoint
 from linkwright.mechanism.geometry import centre, local_points
 from linkwright.mechanism.mechanism import Link, Mechanism
 
@@ -82,28 +81,8 @@ class Dimensions:
         x, y = centre(self.link(link), {n: (v.x, v.y) for n, v in self._points[link].items()}, self)
         return Vec(x, y)
 
-    def guide_direction(self, joint: SlidingJoint) -> Vec:
-        """Unit vector along a guide, in the axes of the link that carries it."""
-        if joint.direction_points is None:
-            return self.unit(f"{joint.name}.direction")
-        start, end = (self.point(joint.guide, name) for name in joint.direction_points)
-        d = end - start
-        if isinstance(d.y, float) and d.y == 0.0 and not isinstance(d.x, float):
-            nominal = self.link(joint.guide).points
-            ahead = nominal[joint.direction_points[1]][0] > nominal[joint.direction_points[0]][0]
-            if f"{joint.guide}.length" not in self.free and ahead:
-                return Vec(1.0, 0.0)
-        return d * reciprocal(sqrt(d.square))
-
-    def block_direction(self, joint: SlidingJoint) -> Vec:
-        """Unit vector along the guide, in the axes of the block."""
-        return self.unit(f"{joint.name}.block_angle")
-
-    def weld_direction(self, joint: RigidJoint) -> Vec:
-        """Unit vector of the second link's x axis in the first link's axes."""
-        return self.unit(f"{joint.name}.angle")
-
     def unit(self, address: str) -> Vec:
+        """Unit vector at an angle that is a dimension; exact where that is fixed at a quarter of a turn."""
         angle = self(address)
         if not isinstance(angle, float) and not self._follows(address):
             turns = round(self.nominal[address] / (0.5 * _PI))

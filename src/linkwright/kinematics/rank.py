@@ -219,7 +219,7 @@ class ConstraintSystem:
     def along(self, joint: SlidingJoint, poses: Mapping[str, Place], *, across: bool) -> Row:
         """The block's place along the guide, or its distance across it."""
         guide, block = poses[joint.guide], poses[joint.block]
-        direction = joint.angle_of_guide(self.mechanism) + (0.5 * math.pi if across else 0.0)
+        direction = joint.direction + (0.5 * math.pi if across else 0.0)
         nx, ny = guide.arm((math.cos(direction), math.sin(direction)))
         tx, ty = guide.arm(self.local(joint.guide, joint.through))
         bx, by = block.arm(self.local(joint.block, joint.at))

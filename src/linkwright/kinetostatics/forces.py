@@ -203,7 +203,7 @@ class Forces:
     def guide_direction(self, joint: str) -> Floats:
         """Unit vector along a guide, (n, 2)."""
         guide = self.mechanism.guides[joint]
-        angle = guide.angle_of_guide(self.mechanism)
+        angle = guide.direction
         e = self.motion.link(guide.guide).direction
         c, s = np.cos(angle), np.sin(angle)
         return np.stack([c * e[:, 0] - s * e[:, 1], s * e[:, 0] + c * e[:, 1]], axis=1)

@@ -50,7 +50,7 @@ class Drawing:
         angle = self.angle(joint.guide)
         if through is None or at is None or angle is None:
             return None
-        direction = angle + joint.angle_of_guide(self.mechanism)
+        direction = angle + joint.direction
         return (at[0] - through[0]) * math.cos(direction) + (at[1] - through[1]) * math.sin(direction)
 
     def _from_points(self, link: str) -> float | None:
@@ -100,7 +100,7 @@ class Drawing:
         guides = self.mechanism.guides.values()
         for _ in guides:
             for joint in guides:
-                turn = joint.angle_of_guide(self.mechanism) - joint.block_angle
+                turn = joint.direction - joint.block_angle
                 guide, block = angles[joint.guide], angles[joint.block]
                 if block is None and guide is not None:
                     angles[joint.block] = guide + turn

@@ -224,18 +224,18 @@ class Mechanism(Frozen):
         )
         return made
 
+    @property
+    def _elements(self) -> dict[str, Mapping[str, Any]]:
+        """All that has dimensions of its own, by sort and name."""
+        links = {"frame": self.frame, **self.links}
+        return dict(zip(_SORTS, (links, self.joints, self.drivers, self.loads), strict=True))
+
     @cached_property
     def _owners(self) -> dict[str, tuple[str, str]]:
         """The element whose dimension an address is, as its sort and name."""
-        elements: dict[str, Mapping[str, Any]] = {
-            "link": {"frame": self.frame, **self.links},
-            "joint": self.joints,
-            "driver": self.drivers,
-            "load": self.loads,
-        }
         return {
             address: (sort, name)
-            for sort, named in elements.items()
+            for sort, named in self._elements.items()
             for name, each in named.items()
             for address in each.dimensions()
         }
@@ -245,27 +245,24 @@ class Mechanism(Frozen):
         """The joints about which links turn."""
         from linkwright.joints.lower import TurningJoint
 
-        return FrozenDict(
-            {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
-        )
+        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
+        return FrozenDict(found)
 
     @cached_property
     def guides(self) -> Mapping[str, SlidingJoint]:
         """The joints along which blocks slide."""
         from linkwright.joints.lower import SlidingJoint
 
-        return FrozenDict(
-            {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
-        )
+        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
+        return FrozenDict(found)
 
     @cached_property
     def welds(self) -> Mapping[str, RigidJoint]:
         """The joints that make one of two links."""
         from linkwright.joints.lower import RigidJoint
 
-        return FrozenDict(
-            {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
-        )
+        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
+        return FrozenDict(found)
 
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
@@ -300,14 +297,9 @@ class Mechanism(Frozen):
     @cached_property
     def _dimensions(self) -> dict[str, float]:
         found = dict(self.parameters)
-        for link in (self.frame, *self.links.values()):
-            found.update(link.dimensions())
-        for joint in self.joints.values():
-            found.update(joint.dimensions())
-        for driver in self.drivers.values():
-            found.update(driver.dimensions())
-        for load in self.loads.values():
-            found.update(load.dimensions())
+        for named in self._elements.values():
+            for each in named.values():
+                found.update(each.dimensions())
         found["gravity.x"], found["gravity.y"] = self.gravity
         if self.cycle is not None:
             found.update(self.cycle.dimensions())

@@ -92,7 +92,7 @@ class Places:
     def _guide_turn(self, joint: str) -> Term:
         """Angle of a guide's direction."""
         prismatic = self.book.mechanism.guides[joint]
-        own = self.book.degrees(prismatic.angle_of_guide(self.book.mechanism))
+        own = self.book.degrees(prismatic.direction)
         return self.book.turn(prismatic.guide) + own
 
     def displacement(self, step: Step, slide: Slide, formula: Term) -> None:

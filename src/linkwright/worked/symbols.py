@@ -195,7 +195,7 @@ class Book:
         """A guide in this position."""
         prismatic = self.mechanism.guides[joint]
         at = self.motion.joint(joint)
-        direction = math.radians(self.angle_of(prismatic.guide)) + prismatic.angle_of_guide(self.mechanism)
+        direction = math.radians(self.angle_of(prismatic.guide)) + prismatic.direction
         along = complex(np.cos(direction), np.sin(direction))
         terms = []
         for c, value in (("x", along.real), ("y", along.imag)):
@@ -215,7 +215,7 @@ class Book:
     def guide_angle(self, step: TreeJoint) -> Term:
         """Direction of a guide in the axes of the link that carries it."""
         prismatic = self.mechanism.guides[step.joint]
-        return self.degrees(prismatic.angle_of_guide(self.mechanism))
+        return self.degrees(prismatic.direction)
 
     def drive(self, name: str) -> tuple[Term, Term, Term]:
         """Coordinate of a driver with its rates."""

@@ -147,7 +147,7 @@ class Bodies:
         joint = self.mechanism.guides[step.joint]
         if step.child == joint.block:
             return math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0
-        angle = joint.angle_of_guide(self.mechanism)
+        angle = joint.direction
         return -math.cos(angle), -math.sin(angle), 0.0
 
     def _coordinate(self, step: TreeJoint) -> Coordinate:

@@ -139,9 +139,7 @@ class Equations:
             f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}"
         )
         self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
-        turn = self.parameter(
-            f"{me}_direction", "rad", joint.angle_of_guide(self.mechanism), f"direction of {joint.name}"
-        )
+        turn = self.parameter(f"{me}_direction", "rad", joint.direction, f"direction of {joint.name}")
         offset = self.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
         block = self.parameter(
             f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block"
@@ -154,7 +152,7 @@ class Equations:
         ]
         if joint.name not in self.results.structure.redundant:
             angles = [self.motion.link(link).angle[self.index] for link in (joint.block, joint.guide)]
-            gap = angles[0] + joint.block_angle - angles[1] - joint.angle_of_guide(self.mechanism)
+            gap = angles[0] + joint.block_angle - angles[1] - joint.direction
             self.text.equations.append(f"{self.angle(joint.block)} + {block} = {along}{turns(gap)};")
 
     def rolled(self, joint: Joint) -> str:

@@ -83,7 +83,7 @@ class Rates:
 
     def _guide(self, joint: SlidingJoint) -> None:
         me = self.model.names.of("guide", joint.name)
-        angle = joint.angle_of_guide(self.mechanism)
+        angle = joint.direction
         turn = self.model.parameter(f"{me}_direction", "rad", angle, f"direction of {joint.name}")
         offset = self.model.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
         slide = self.motion.joint(joint.name)

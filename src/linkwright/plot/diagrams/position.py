@@ -102,7 +102,7 @@ def _guides(axes: Axes, motion: Motion, index: int, factor: float) -> list[Float
     for joint in motion.mechanism.guides.values():
         at = place_of(motion, joint.block, joint.at, index) * factor
         turned = 0.0 if joint.guide == "frame" else float(motion.link(joint.guide).angle[index])
-        angle = joint.angle_of_guide(motion.mechanism) + turned
+        angle = joint.direction + turned
         along = np.array([np.cos(angle), np.sin(angle)]) * 0.12 * reach(motion) * factor
         line = np.array([at - along, at + along])
         axes.plot(*line.T, color=INK, linewidth=0.9, linestyle=(0, (6, 2, 1, 2)), zorder=1.5)

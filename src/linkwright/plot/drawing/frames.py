@@ -66,7 +66,7 @@ def _beside_guide(machine: Machine, joint: SlidingJoint, run: list[int]) -> floa
     link = machine.motion.mechanism.link
     block = _half_way(machine, joint.block, link(joint.block).points[joint.at], run)
     base = _half_way(machine, joint.guide, link(joint.guide).points[joint.through], run)
-    angle = joint.angle_of_guide(machine.motion.mechanism) - _half_turn(machine, joint.guide, run)
+    angle = joint.direction - _half_turn(machine, joint.guide, run)
     across = np.stack([-np.sin(angle), -np.cos(angle)], axis=1)
     aside = ((block - base) * across).sum(axis=1) - joint.offset * machine.view.scale
     return float(np.abs(aside).max(initial=0.0))

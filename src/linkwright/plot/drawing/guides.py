@@ -28,7 +28,7 @@ def guides(machine: Machine) -> Iterator[Part]:
 
 def direction(machine: Machine, joint: SlidingJoint) -> Vec:
     """Direction of a guide on its link's piece of paper."""
-    angle = joint.angle_of_guide(machine.motion.mechanism)
+    angle = joint.direction
     return math.cos(angle), -math.sin(angle)
 
 
@@ -44,7 +44,7 @@ def travel(machine: Machine, name: str) -> tuple[float, float]:
     way = block.world(link(joint.block).points[joint.at]) - guide.world(
         link(joint.guide).points[joint.through]
     )
-    angle = joint.angle_of_guide(machine.motion.mechanism)
+    angle = joint.direction
     axis = Placement(np.zeros_like(guide.origin), guide.direction).world((math.cos(angle), math.sin(angle)))
     s = (way * axis).sum(axis=1) * machine.view.scale
     return float(np.nanmin(s)), float(np.nanmax(s))

@@ -133,7 +133,7 @@ def _pressed(machine: Machine, press: Press, index: int) -> Shape:
     """Arrows on the face of the block on which a pressure pushes; one arrow at the end of a cylinder's rod."""
     joint = machine.guides[press.joint]
     c, s = machine.placed[joint.guide].direction[index]
-    angle = math.atan2(s, c) + joint.angle_of_guide(machine.motion.mechanism)
+    angle = math.atan2(s, c) + joint.direction
     along = (math.cos(angle), -math.sin(angle))
     sign = press.sense
     way = (sign * along[0], sign * along[1])
