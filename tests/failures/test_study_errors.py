@@ -380,3 +380,15 @@ def test_compiled_derivatives_are_refused_where_nothing_can_be_compiled(
     monkeypatch.setattr("linkwright.engine.llvm_backend.compile_program", lambda *given: None)
     text = said(lambda: sensitivity(machine(), of="B.velocity max", by=["coupler.length"], backend="llvm"))
     assert text == "llvmlite cannot be loaded: install it, or use the numpy back end"
+
+
+def test_a_triad_has_no_closed_form_and_no_transmission_angle() -> None:
+    triad, mass = lw.load("gallery:triad"), {"bar_1.mass": [1.0]}
+    assert said(lambda: sweep(triad, mass, outputs=["closeness min"], steps=12)).startswith(
+        "'closeness': there is no group with a closed form"
+    )
+    for pin in "PQR":
+        assert said(lambda p=pin: sweep(triad, mass, outputs=[f"transmission_angle {p} min"], steps=12)) == (
+            f"'transmission_angle {pin}': a transmission angle is that of a dyad cut at a pin; RRR-RRR "
+            "(bar_1, bar_2, bar_3, plate) is none; use conditioning"
+        )

@@ -58,3 +58,42 @@ def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_
 def test_other_mechanisms_are_refused_with_a_sentence() -> None:
     with pytest.raises(lw.LinkwrightError, match="neither a four-bar nor a slider-crank"):
         lw.balance(lw.load("gallery:jaw_crusher_sixbar"), radius=0.1)
+    whitworth = FOURBAR.replace("coupler: {points: [A, B], length: 0.35 m,", "coupler: {points: [A],").replace(
+        "rocker: {points: [O2, B], length: 0.25 m,", "rocker: {points: [O2],"
+    )
+    slot = "joints: {slot: {kind: prismatic, guide: rocker, through: O2, direction: 0 deg, block: coupler, at: A}}"
+    with pytest.raises(lw.LinkwrightError, match="'rocker' and 'coupler' share no pin"):
+        lw.balance(lw.loads(whitworth + slot), radius=0.1)
+    for share in (-0.1, 1.1):
+        with pytest.raises(lw.LinkwrightError, match=f"{share}"):
+            lw.balance(lw.loads(FOURBAR), radius=0.1, share=share)
+    with pytest.raises(lw.LinkwrightError, match="rocker"):
+        lw.balance(lw.loads(FOURBAR), radius={"crank": 0.1})
+    for radius in (0.0, -0.1):
+        with pytest.raises(lw.LinkwrightError, match=f"is {radius:g} m; give a positive one"):
+            lw.balance(lw.loads(FOURBAR), radius=radius)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4])
+def test_a_part_of_a_four_bar_s_balance_leaves_the_rest(share: float) -> None:
+    """Counterweights move the centre of mass in proportion: what shakes is (1 - share) of what shook, everywhere."""
+    found = lw.balance(lw.loads(FOURBAR), radius={"crank": 0.05, "rocker": 0.12}, share=share, steps=24)
+    before, after = found.before.shaking_force, found.after.shaking_force
+    assert len(before) == 24
+    assert after == pytest.approx((1 - share) * before, abs=1e-9 * np.abs(before).max())
+    assert len(found.counterweights) == (2 if share else 0)
+    for weight, radius in zip(found.counterweights, (0.05, 0.12), strict=False):
+        assert np.hypot(*weight.place) == pytest.approx(radius)
+
+
+def test_a_counterweight_adds_its_own_inertia_about_its_pin() -> None:
+    """J + m d² of a link about its pin on the frame grows by m r² of the weight; so does the kinetic energy."""
+    plain = lw.loads(FOURBAR)
+    found = lw.balance(plain, radius=0.08)
+    for weight in found.counterweights:
+        old, new = (machine.links[weight.link] for machine in (plain, found.mechanism))
+        assert new.mass == pytest.approx(old.mass + weight.mass)
+        about = [each.inertia + each.mass * (each.centre[0] ** 2 + each.centre[1] ** 2) for each in (old, new)]
+        assert about[1] - about[0] == pytest.approx(weight.mass * 0.08**2)
+        moments = [each.mass * np.array(each.centre) for each in (old, new)]
+        assert moments[1] - moments[0] == pytest.approx(weight.mass * np.array(weight.place))
