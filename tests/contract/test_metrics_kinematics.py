@@ -85,6 +85,27 @@ def test_kennedy(name: str) -> None:
     assert checked > 5
 
 
+def test_links_that_do_not_turn_against_each_other_have_their_centre_at_infinity() -> None:
+    """A parallelogram at 10°: crank and rocker turn as one, the coupler not at all; the others meet in their pins."""
+    linkage = lw.load("gallery:parallelogram")
+    rows = metrics(lw.solve_motion(linkage, steps=8), "instant_centre")
+    assert all(row.at == pytest.approx(np.radians(10.0)) for row in rows)
+    x, y = np.cos(np.radians(10.0)), np.sin(np.radians(10.0))
+    places = {
+        "frame, crank": (0.0, 0.0), "frame, rocker": (2.0, 0.0), "crank, coupler": (x, y),
+        "coupler, rocker": (2.0 + x, y), "frame, coupler": None, "crank, rocker": None,
+    }  # fmt: skip
+    assert {row.subject for row in rows} == set(places)
+    for row in rows:
+        place = places[row.subject]
+        if place is None:
+            assert np.isinf(row.value) and row.place is None
+            assert row.sentence == "at infinity: the two links do not turn against each other"
+        else:
+            assert row.place == pytest.approx(place, abs=1e-12)
+            assert row.value == pytest.approx(np.hypot(*place), abs=1e-12)
+
+
 def test_centrodes_roll_on_each_other() -> None:
     """The pole runs as far on the moving centrode as on the fixed one."""
     motion = lw.solve_motion(four_bar(), at=np.linspace(0.2, 0.6, 4001))

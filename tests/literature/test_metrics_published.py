@@ -176,3 +176,24 @@ def test_a_point_of_the_moving_centrode_draws_a_cusp() -> None:
     curve = coupler_curve(lw.solve_motion(crunodal(apex)), "coupler.P")
     inputs = [at for _, at in curve.cusps]
     assert inputs == [pytest.approx(angle, abs=1e-5)]
+
+
+def test_four_bars_of_larger_linkages() -> None:
+    """The loops with the frame of Jansen's leg and of the six-bar crusher."""
+    leg = {loop.name: loop for loop in four_bars(lw.load("gallery:theo_jansen_leg"))}
+    assert set(leg) == {"crank–upper_rod–upper_plate", "crank–lower_rod–lower_rocker"}
+    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    first, second = four_bars(crusher)
+    assert (first.name, second.name) == ("crank–pitman–rocker", "rocker–toggle–jaw")
+    for loop in (first, second):
+        for link in (loop.first, loop.coupler, loop.second):
+            length = f"{link}.length"
+            if link != "jaw":
+                assert loop.lengths[link] == pytest.approx(crusher.dimension(length))
+        at = {joint: np.array(crusher.frame.points[joint]) for joint in ("O1", "O3", "O5")}
+        ends = ("O1", "O3") if loop is first else ("O3", "O5")
+        assert loop.lengths["frame"] == pytest.approx(np.hypot(*(at[ends[0]] - at[ends[1]])))
+        s, p, q, longest = sorted(loop.lengths.values())
+        assert loop.margin == pytest.approx(p + q - s - longest)
+    assert (first.type, second.type) == ("crank_rocker", "triple_rocker")
+    assert (first.shortest, second.shortest) == ("crank", "rocker")

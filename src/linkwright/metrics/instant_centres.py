@@ -13,7 +13,7 @@ from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
 from linkwright.metrics.quantities import shown
 
-#: A relative angular velocity below this share of the input's has its centre at infinity.
+#: A relative angular velocity below this share of the largest one of all links has its centre at infinity.
 PARALLEL = 1e-12
 
 
@@ -26,7 +26,8 @@ def instant_centre(motion: Motion, a: str, b: str = "frame") -> Floats:
     va, wa = _at_origin(motion, a)
     vb, wb = _at_origin(motion, b)
     v, w = va - vb, wa - wb
-    scale = np.nanmax(np.abs(np.stack([wa, wb])), initial=0.0)
+    rates = [motion.link(name).angular_velocity for name in motion.mechanism.links]
+    scale = np.nanmax(np.abs(rates), initial=0.0)
     with np.errstate(all="ignore"):
         w = np.where(np.abs(w) <= PARALLEL * scale, np.nan, w)
         return np.stack([-v[:, 1] / w, v[:, 0] / w], axis=1)
