@@ -106,8 +106,9 @@ def test_areas(areas: list[float], words: str) -> None:
 
 
 def test_area_scales() -> None:
-    with pytest.raises(LinkwrightError, match="scales"):
-        fluctuation_from_areas([1, -1], torque_scale=0.0, angle_scale=0.01)
+    for torque, angle in ((0.0, 0.01), (5.0, 0.0), (-5.0, -0.01)):
+        with pytest.raises(LinkwrightError, match="scales"):
+            fluctuation_from_areas([1, -1], torque_scale=torque, angle_scale=angle)
 
 
 def test_torque_curves() -> None:

@@ -8,6 +8,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from scipy.special import ellipk
 
 import linkwright as lw
 from linkwright.machine import (
@@ -233,3 +234,19 @@ def test_a_machine_that_its_loads_drive_says_how_much() -> None:
         assert str(refused.value).endswith(
             "N·m: the loads drive the machine instead of resisting; check the direction of the loads"
         )
+
+
+@pytest.mark.parametrize("inertia", [0.0825, 0.2, 5.0])
+def test_a_machine_that_hardly_gets_over_its_load_like_a_pendulum(inertia: float) -> None:
+    """ω² = 2 (E + 90 cos θ - 90)/J: one turn takes 4 √(J/2E) K(180/E), the complete elliptic integral."""
+    found = true_speed(TorqueCurve.from_function("100 + 90*sin(theta)"), inertia, 10.0)
+    energy = 0.5 * inertia * found.fastest[1] ** 2
+    assert 4 * np.sqrt(inertia / (2 * energy)) * ellipk(180 / energy) == pytest.approx(2 * pi / 10, rel=1e-6)
+    assert found.slowest == pytest.approx((pi, np.sqrt(2 * (energy - 180) / inertia)), rel=1e-4)
+    assert found.motor_torque == pytest.approx(100.0)
+
+
+def test_a_table_with_short_steps_is_a_straight_line_in_each() -> None:
+    curve = TorqueCurve.from_table([0.0, 0.25, 0.75], [1.0, 3.0, 2.0], period=1.0)
+    assert curve(np.array([0.125, 0.5, 0.875])) == pytest.approx([2.0, 2.5, 1.5])
+    assert curve.mean == pytest.approx(0.25 * 2.0 + 0.5 * 2.5 + 0.25 * 1.5, rel=1e-13)
