@@ -204,11 +204,6 @@ class Integral:
         gained = 0.5 * self.of.width[:, None] * (self.of.values @ _UP_TO_NODES)
         return np.asarray(self._before[:-1, None] + gained)
 
-    @property
-    def weights(self) -> Floats:
-        """Weights of these points in the integral of what is smooth where W is, (m, POINTS)."""
-        return np.asarray(0.5 * self.of.width[:, None] * WEIGHTS)
-
 
 def tails(values: Floats) -> Floats:
     """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""

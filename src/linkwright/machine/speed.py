@@ -9,7 +9,17 @@ from functools import cached_property, partial
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Extreme, Floats, Function, Integral, Piecewise, at_nodes
+from linkwright.core.piecewise import (
+    POINTS,
+    WEIGHTS,
+    Extreme,
+    Floats,
+    Function,
+    Integral,
+    Piecewise,
+    at_nodes,
+    nodes,
+)
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
@@ -18,6 +28,8 @@ from linkwright.words.sentence import Sentence
 STOPPED = 1e-9
 #: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
 LAST = 1e-9
+#: How often pieces are halved where the speed that was found is not smooth, and it is found again.
+ROUNDS = 8
 
 
 @dataclass(frozen=True)
@@ -94,7 +106,7 @@ class SteadyCycle:
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
         self._done, self._inertia = work.at_nodes.ravel(), at_nodes(own, work.edges).ravel()
-        self._shares = work.weights.ravel() / (work.edges[-1] - work.edges[0])
+        self._shares = _shares(work.edges)
         self._least = Piecewise(work.edges, work.at_nodes).extreme("min").value
         self._known: dict[float, tuple[float, Extreme, Extreme]] = {}
 
@@ -118,16 +130,29 @@ class SteadyCycle:
         return self._known[flywheel]
 
     def _found(self, flywheel: float) -> tuple[float, Extreme, Extreme]:
-        edges, inertia = self.work.edges, flywheel + self._inertia
-        energy = _initial_energy(self._done, inertia, self._shares, self.speed, self._least)
-        speed = np.sqrt(2.0 * (energy + self._done) / inertia).reshape(-1, POINTS)
-        curve = Piecewise(edges, speed)
-        if not curve.smooth.all():
+        edges, done, inertia, shares = self.work.edges, self._done, flywheel + self._inertia, self._shares
+        for _ in range(ROUNDS):
+            energy = _initial_energy(done, inertia, shares, self.speed, self._least)
+            speed = np.sqrt(2.0 * (energy + done) / inertia).reshape(-1, POINTS)
+            curve = Piecewise(edges, speed)
+            if curve.smooth.all():
+                break
             curve = Piecewise(edges, speed, partial(self._at, flywheel, energy), edges)
+            if len(curve.edges) == len(edges):
+                break
+            edges = curve.edges
+            at, shares = nodes(edges).ravel(), _shares(edges)
+            done, inertia = self.work(at), flywheel + self.own(at)
         return energy, *curve.extremes()
 
     def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + self.work(angle)) / (flywheel + self.own(angle))))
+
+
+def _shares(edges: Floats) -> Floats:
+    """Shares of all Gauss points in the way between the outer edges."""
+    widths = np.diff(edges)[:, None]
+    return np.asarray((0.5 * widths * WEIGHTS).ravel() / (edges[-1] - edges[0]))
 
 
 def _constant(inertia: float) -> Function:
