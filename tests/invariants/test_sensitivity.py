@@ -250,3 +250,32 @@ def test_what_moves_without_a_closed_form_or_rubs_beside_wheels_has_no_derivativ
     mass = next(name for name, value in wheels.dimensions().items() if name.endswith(".mass") and value)
     with pytest.raises(lw.LinkwrightError, match="friction has a derivative"):
         sensitivity(replace(wheels, joints=joints), of=["input_torque"], by=[mass], steps=24)
+
+
+def test_relative_derivatives_are_percent_per_percent_and_none_of_zero() -> None:
+    """In line: the stroke is twice the crank, and B stays on the x axis."""
+    found = sensitivity(
+        lw.load("gallery:slider_crank_inline"),
+        of=[
+            "cylinder.displacement range",
+            "B.y max",
+            "cylinder.displacement min",
+            "cylinder.displacement max",
+        ],
+        by=["crank.length", "rod.length"],
+        steps=24,
+    )
+    assert found.relative("cylinder.displacement range") == pytest.approx([1.0, 0.0], abs=1e-12)
+    assert np.isnan(found.relative("B.y max")).all()
+    for kind, sense in (("min", -1.0), ("max", 1.0)):
+        place = 0.2 + sense * 0.05
+        assert found.value("cylinder.displacement", kind) == pytest.approx(place)
+        assert found.gradient("cylinder.displacement", kind) == pytest.approx([sense, 1.0])
+        assert found.relative("cylinder.displacement", kind) == pytest.approx(
+            [sense * 0.05 / place, 0.2 / place]
+        )
+    assert found.by_name("cylinder.displacement range") == pytest.approx(
+        {"crank.length": 2.0, "rod.length": 0.0}
+    )
+    rows = found._repr_html_().split("<tr>")[2:]
+    assert len(rows) == 4 and rows[0].count("<td") == 4 and ">0.1<" in rows[0] and ">2<" in rows[0]

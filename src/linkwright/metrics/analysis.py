@@ -334,10 +334,8 @@ class Analysis:
         wanted: Sequence[tuple[Callable[[Any], Floats], tuple[float, float]]],
         of: str = "motion",
     ) -> list[Extreme | None]:
-        """The same of signals, each between a pair of times, s, both among the candidates; None where nothing can be
-        solved between the positions."""
-        if not self.resolver.possible:
-            return [None] * len(wanted)
+        """The same of signals, each between a pair of times, s, both among the candidates, where positions can be
+        solved between; None where none of them is reached."""
         grid = self.grid
         if wanted and grid is not None and all(grid.start <= start < end for _, (start, end) in wanted):
             found = grid.extremes_between(kind, [(grid.curve(signal, of), span) for signal, span in wanted])
