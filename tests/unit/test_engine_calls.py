@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -13,7 +15,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.sweep import sweep
-from linkwright.engine.threads import cores
+from linkwright.engine.threads import cores, spread_over
 from linkwright.engine.trace import Trace
 from linkwright.engine.wasm import wasm_module
 
@@ -197,3 +199,20 @@ def test_machines_without_the_compiler_or_the_count_of_cores(monkeypatch: pytest
     assert cores() == 3
     monkeypatch.setattr("os.cpu_count", lambda: None)
     assert cores() == 1
+
+
+def test_nobody_writes_any_more_when_an_exception_is_raised() -> None:
+    """A thread that is still at work when another fails is waited for; what nobody has begun is left out."""
+    both, done = threading.Barrier(2, timeout=10), []
+
+    def work(begin: int, end: int) -> None:
+        if begin < 2:
+            both.wait()
+        if threading.current_thread() is threading.main_thread():
+            raise ZeroDivisionError
+        time.sleep(0.2)
+        done.append((begin, end))
+
+    with pytest.raises(ZeroDivisionError):
+        spread_over(8, 1, 2, work)
+    assert done in ([(0, 1)], [(1, 2)])
