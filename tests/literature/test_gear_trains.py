@@ -226,3 +226,41 @@ def test_a_rack_of_a_module_may_be_off_its_distance_and_one_of_a_radius_may_not(
     off = pinion.with_dimensions({address: pinion.dimensions()[address] + 1e-4})
     with pytest.raises(lw.LinkwrightError, match="from the pitch line, but its radius"):
         lw.solve_motion(off, steps=4)
+
+
+@pytest.mark.parametrize(
+    ("name", "joint", "teeth", "radii", "distance", "ratio", "module"),
+    [
+        ("external_gear_pair", "mesh", (20, 40), (0.02, 0.04), 0.06, -1 / 2, 0.002),
+        ("internal_gear_pair", "mesh", (20, 60), (0.02, 0.06), 0.04, 1 / 3, 0.002),
+        ("planetary_two_inputs", "sun_2", (24, 24), (0.024, 0.024), 0.048, -1.0, 0.002),
+        ("geared_fivebar", "mesh", None, (0.1, 0.1), 0.2, -1.0, None),
+        ("chain_drive", "chain", (17, 51), (17 * 0.0127 / (2 * np.pi), 51 * 0.0127 / (2 * np.pi)), None, 1 / 3, None),
+        ("rack_and_rocker", "mesh", (50,), (0.1,), None, None, 0.004),
+        ("pinion_between_racks", "above", None, (0.04,), None, None, None),
+    ],
+)  # fmt: skip
+def test_sizes_of_wheels(
+    name: str,
+    joint: str,
+    teeth: tuple[int, ...] | None,
+    radii: tuple[float, ...],
+    distance: float | None,
+    ratio: float | None,
+    module: float | None,
+) -> None:
+    """r = m z / 2, of a chain z p / 2π; a = r_b ± r_a; i = ∓ z_a / z_b."""
+    mechanism = lw.load(f"gallery:{name}")
+    found = mechanism.joints[joint].wheel_sizes(mechanism)
+    assert found is not None
+    assert (found.teeth, found.module) == (teeth, module)
+    assert found.radii == pytest.approx(radii, rel=1e-12)
+    assert found.ratio == (None if ratio is None else pytest.approx(ratio))
+    if distance is not None:
+        assert found.distance == pytest.approx(distance)
+    assert all(
+        other.wheel_sizes(mechanism) is None for other in mechanism.joints.values() if not other.higher
+    )
+    chain = name == "chain_drive"
+    assert found.pressure_angle == (None if chain else pytest.approx(ALPHA))
+    assert found.involute == (module is not None and len(found.links) == len(radii))
