@@ -152,7 +152,7 @@ cycle: {duration: 1 s}
 """
 
 
-@pytest.mark.parametrize("steps", [1, 2, 4, 20])
+@pytest.mark.parametrize("steps", [1, 2, 3, 4, 20])
 @pytest.mark.parametrize(
     ("law", "pace"),
     [("speed: 0.3 m/s, start: 1.7320508 m", 0.3), ("speed: -0.3 m/s, start: 1.7320508 m", 0.3),
