@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import importlib.util
-import pkgutil
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Generic, TypeVar, cast
 
-from linkwright.core.installed import loaded, offered_by_packages
+from linkwright.core.installed import loaded, modules_within, offered_by_packages
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning
@@ -82,8 +81,8 @@ class Registry(Mapping[str, T], Generic[T]):
             self._discovering = True
             try:
                 package = importlib.import_module(self._package)
-                for module in pkgutil.iter_modules(package.__path__):
-                    importlib.import_module(f"{self._package}.{module.name}")
+                for name in modules_within(package.__path__):
+                    importlib.import_module(f"{self._package}.{name}")
                 self._load_installed()
                 self._discovered = True
             finally:

@@ -7,10 +7,10 @@ them, ``study --vary a b FILE`` and ``compare --metrics a b FILE FILE``.
 from __future__ import annotations
 
 import argparse
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import field
-from pathlib import Path
 
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
@@ -104,7 +104,7 @@ def _leave_files(given: list[_Given], free: list[str], positionals: list[argpars
 
 
 def _is_model(word: str) -> bool:
-    return word.startswith("gallery:") or Path(word).suffix.lower() in _MODELS
+    return word.startswith("gallery:") or os.path.splitext(word)[1].lower() in _MODELS
 
 
 def _value(each: _Given, parser: argparse.ArgumentParser) -> object:

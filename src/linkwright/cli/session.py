@@ -53,9 +53,12 @@ class Session:
     @property
     def width(self) -> int:
         """Columns that a table may take."""
-        import shutil
-
-        return shutil.get_terminal_size((PIPE_WIDTH, 24)).columns
+        with suppress(KeyError, ValueError):
+            if (told := int(os.environ["COLUMNS"])) > 0:
+                return told
+        with suppress(AttributeError, ValueError, OSError):  # no terminal, or none that tells
+            return os.get_terminal_size(sys.__stdout__.fileno()).columns or PIPE_WIDTH  # type: ignore[union-attr]
+        return PIPE_WIDTH
 
     def strong(self, text: str) -> str:
         """Bold text where the standard output is a terminal that wants it."""

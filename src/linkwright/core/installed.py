@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 import os
 import sys
+from collections.abc import Iterable
 from functools import cache, reduce
 from typing import Any
 
@@ -17,6 +18,14 @@ _PREFIX = "[linkwright."
 def offered_by_packages(group: str) -> dict[str, str]:
     """Names and targets (``module:attribute`` or ``module``) of the entry points of a group."""
     return dict(_scan(tuple(sys.path)).get(group, ()))
+
+
+def modules_within(folders: Iterable[str]) -> list[str]:
+    """Names of the modules in the folders of a package, in alphabetical order."""
+    files = {name for folder in folders for name in os.listdir(folder)}
+    return sorted(
+        name.removesuffix(".py") for name in files if name.endswith(".py") and name != "__init__.py"
+    )
 
 
 def loaded(target: str) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.errors import Finding, ModelError
@@ -14,6 +13,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from linkwright.files.document import Document
 
 __all__ = ["check", "gallery_names", "load", "loads", "read_document"]

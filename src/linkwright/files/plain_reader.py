@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_WHOLE = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
 #: Findings about one file, at most.
@@ -256,8 +257,9 @@ class PlainReader:
             return node.text
         if node.empty:
             return None
-        if node.text in ("true", "false"):
-            return node.text == "true"
-        if re.fullmatch(r"[+-]?\d{1,18}", node.text):
-            return int(node.text)
-        return float(node.text) if NUMBER.fullmatch(node.text) else node.text
+        text = node.text
+        if not (text[0].isdigit() or text[0] in "+-."):
+            return text == "true" if text in ("true", "false") else text
+        if _WHOLE.fullmatch(text):
+            return int(text)
+        return float(text) if NUMBER.fullmatch(text) else text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
@@ -89,7 +90,7 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
         return None
     rotary = not slides
     way = TURN_FIELDS if rotary else SLIDE_FIELDS
-    laws = {key: law.fields(rotary) for key, law in LAWS.items()}
+    laws = _law_fields(rotary, tuple(LAWS.items()))
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
     if not turns and not slides:
         reader.unknown_keys(mapping, place, [*every, *SLIDE_FIELDS])
@@ -107,6 +108,12 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
+
+
+@lru_cache
+def _law_fields(rotary: bool, laws: tuple[tuple[str, type[Law]], ...]) -> Mapping[str, Mapping[str, Field]]:
+    """What files may say about every law of turning or sliding drivers."""
+    return {key: law.fields(rotary) for key, law in laws}
 
 
 def _read_law(

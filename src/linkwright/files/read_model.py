@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from linkwright import units
@@ -90,7 +90,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     }
     drivers = complete(read_drivers(reader, root), ends)
     mechanism = Mechanism(
-        name=header.get("name") or Path(source).stem,
+        name=header.get("name") or os.path.splitext(os.path.basename(source))[0],
         frame=frame,
         links=links,
         joints=joints,

@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 import os
-import re
-import select
 import stat
-from pathlib import Path
+from typing import TYPE_CHECKING
 
+from linkwright import gallery
 from linkwright.errors import Finding, ModelError
 from linkwright.registry import nearest
 from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
 MAX_BYTES = 5_000_000
 GALLERY = "gallery:"
 #: Seconds that a pipe or a device may give nothing.
 PATIENCE = 3.0
-_FOLDER = Path(__file__).parents[1] / "gallery"
 
 
 def gallery_names() -> list[str]:
     """Names of the models in the gallery."""
-    return sorted(entry.name.removesuffix(".yaml") for entry in _FOLDER.iterdir() if entry.suffix == ".yaml")
+    return list(gallery.names())
 
 
 def read_source(source: str | Path) -> tuple[str, str]:
     """Text of a source, and the name of the file for findings."""
     if isinstance(source, str) and source.startswith(GALLERY):
         return _read_gallery(source.removeprefix(GALLERY))
+    from pathlib import Path
+
     path = Path(source)
     try:
         if path.is_dir():
@@ -63,6 +66,8 @@ def _given(path: Path) -> bytes:
         raise _refuse(
             path, Sentence("model.no_regular_file"), Sentence("model.name_model_file"), "not-a-file"
         )
+    import select
+
     parts, total = list[bytes](), 0
     handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     try:
@@ -97,11 +102,10 @@ def _near_file(path: Path) -> str:
 
 
 def _read_gallery(name: str) -> tuple[str, str]:
-    path = _FOLDER / f"{name}.yaml"
-    if not path.is_file() and re.fullmatch(r"\w+", name) and (_FOLDER / "tasks" / path.name).is_file():
-        path = _FOLDER / "tasks" / path.name
-    names = [] if re.fullmatch(r"\w+", name) and path.is_file() else gallery_names()
-    if names and name not in names:
+    try:
+        content = gallery.content(name)
+    except KeyError:
+        names = gallery_names()
         near = nearest(name, names)
         remedy = (
             Sentence("names.did_you_mean", offer=f"{GALLERY}{near}")
@@ -109,8 +113,7 @@ def _read_gallery(name: str) -> tuple[str, str]:
             else Sentence("names.one_of", names=tuple(names))
         )
         problem = Sentence("model.no_gallery_model", name=name)
-        raise _refuse(GALLERY + name, problem, remedy, "no-file")
-    content = path.read_bytes()
+        raise _refuse(GALLERY + name, problem, remedy, "no-file") from None
     return decode(content, f"{name}.yaml"), f"{name}.yaml"
 
 

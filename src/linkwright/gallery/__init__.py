@@ -1,26 +1,32 @@
 """Files that ship with the package, each with purpose and source: models, calculations, tasks."""
 
-from pathlib import Path
+from __future__ import annotations
 
-__all__ = ["calculations", "file", "names", "tasks"]
+import os
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["calculations", "content", "file", "names", "tasks"]
 
 _SUFFIX = ".yaml"
-_FOLDER = Path(__file__).parent
+_FOLDER = os.path.dirname(__file__)
 
 
 def names() -> tuple[str, ...]:
     """Names of all models of mechanisms in alphabetical order, without the file suffix."""
-    return _within(_FOLDER)
+    return _within()
 
 
 def calculations() -> tuple[str, ...]:
     """Names of all calculations of machine parts in alphabetical order, without the file suffix."""
-    return _within(_FOLDER / "parts")
+    return _within("parts")
 
 
 def tasks() -> tuple[str, ...]:
     """Names of all tasks of synthesis in alphabetical order, without the file suffix."""
-    return _within(_FOLDER / "tasks")
+    return _within("tasks")
 
 
 def file(name: str) -> Path:
@@ -29,15 +35,26 @@ def file(name: str) -> Path:
     Raises:
         KeyError: there is no file of that name; ``names()``, ``calculations()`` and ``tasks()`` list them.
     """
-    if name in names():
-        return _FOLDER / f"{name}{_SUFFIX}"
-    if name in calculations():
-        return _FOLDER / "parts" / f"{name}{_SUFFIX}"
-    if name in tasks():
-        return _FOLDER / "tasks" / f"{name}{_SUFFIX}"
+    from pathlib import Path
+
+    for folder in ("", "parts", "tasks"):
+        if name in _within(folder):
+            return Path(_FOLDER, folder, f"{name}{_SUFFIX}")
     raise KeyError(name)
 
 
-def _within(folder: Path) -> tuple[str, ...]:
-    entries = (entry.name for entry in folder.iterdir())
-    return tuple(sorted(entry.removesuffix(_SUFFIX) for entry in entries if entry.endswith(_SUFFIX)))
+def content(name: str) -> bytes:
+    """What the file of a model, else of a task called ``name`` holds; raises KeyError where there is none."""
+    if name.replace("_", "").isalnum():
+        for folder in ("", "tasks"):
+            try:
+                with open(os.path.join(_FOLDER, folder, f"{name}{_SUFFIX}"), "rb") as file:
+                    return file.read()
+            except FileNotFoundError:
+                continue
+    raise KeyError(name)
+
+
+def _within(folder: str = "") -> tuple[str, ...]:
+    files = os.listdir(os.path.join(_FOLDER, folder))
+    return tuple(sorted(name.removesuffix(_SUFFIX) for name in files if name.endswith(_SUFFIX)))

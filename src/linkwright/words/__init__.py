@@ -8,9 +8,10 @@ languages have the same keys and the same ``{names}`` in their texts.
 from __future__ import annotations
 
 import importlib
-import pkgutil
 from collections.abc import Callable, Mapping
 from functools import cache, partial
+
+from linkwright.core.installed import modules_within
 
 LANGUAGES = ("en", "zh")
 Say = Callable[..., str]
@@ -58,4 +59,4 @@ def catalogue(area: str, language: str) -> Mapping[str, str]:
 def areas(language: str) -> tuple[str, ...]:
     """Names of all areas of a language."""
     package = importlib.import_module(f"{__name__}.{language}")
-    return tuple(sorted(module.name for module in pkgutil.iter_modules(package.__path__)))
+    return tuple(modules_within(package.__path__))

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import pkgutil
 from typing import Protocol, cast
 
 from linkwright.cli.session import Session
+from linkwright.core.installed import modules_within
 from linkwright.words import Say
 
 
@@ -28,7 +28,7 @@ class Command(Protocol):
 
 def names() -> tuple[str, ...]:
     """Names of all commands, without importing any."""
-    return tuple(sorted(module.name for module in pkgutil.iter_modules(__path__)))
+    return tuple(modules_within(__path__))
 
 
 def command(name: str) -> Command:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
@@ -86,6 +85,8 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
         raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
     if options.output is None:
         return
+    from pathlib import Path
+
     from linkwright.cli.files import refuse_existing
 
     path = Path(options.output)
@@ -95,6 +96,8 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
 
 
 def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
+    from pathlib import Path
+
     from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
     from linkwright.cli.solve_data import csv_text, data
