@@ -91,8 +91,11 @@ def _front(found: Optimum) -> list[str]:
     texts = [goal.text for goal in found.problem.goals]
     addresses = [variable.address for variable in found.problem.variables]
     rows = [["", *texts, *addresses]]
-    step = max(1, math.ceil(len(found) / LISTED))
-    for number, choice in list(enumerate(found.choices, 1))[::step]:
+    count = len(found)
+    listed = {round(k * (count - 1) / max(1, LISTED - 1)) for k in range(LISTED)} if count > LISTED else None
+    for number, choice in enumerate(found.choices, 1):
+        if listed is not None and number - 1 not in listed:
+            continue
         cells = []
         for text in texts:
             symbol, factor = shown_unit(found.kinds[text])

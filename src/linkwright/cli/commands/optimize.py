@@ -93,7 +93,7 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
     from linkwright.cli.files import write_whole
     from linkwright.cli.tables import write_diagram
 
-    written = []
+    written: list[str] = []
     if options.output is not None:
         path = Path(options.output)
         targets = [path]
@@ -101,7 +101,7 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
             targets += [path.with_name(f"{path.stem}_{k}{path.suffix}") for k in range(2, len(found) + 1)]
         for index, target in enumerate(targets):
             write_whole(target, found.model_text(index), force=options.force)
-        written += targets[:1] if len(targets) == 1 else [targets[0], targets[-1]]
+        written.append(str(path) if len(targets) == 1 else f"{path} … {targets[-1]}")
     write_diagram(options.plot, found, session, force=options.force)
     if session.json:
         session.show(json_text({"ok": True, **found.data()}))

@@ -70,15 +70,20 @@ class OptimumDiagram(ResultKind):
         symbol, factor = shown_unit(result.kinds[goal.text])
         history = goal.sign * np.array([np.nan if np.isinf(v) else v for v in result.history]) / factor
         generations = np.arange(1, len(history) + 1)
+        met = all(low <= result.start[text] <= high for text, (low, high) in result.limits.items())
+        if met and np.isfinite(result.start[goal.text]):
+            generations = np.arange(len(history) + 1)
+            history = np.append(result.start[goal.text] / factor, history)
         label = say("optimize.legend.search", language)
         axes.step(generations, history, where="post", color=COLOURS[0], label=label)
         best = result.best.numbers[goal.text] / factor
         axes.plot(
-            [len(history)], [best], "o", color=COLOURS[1], label=say("optimize.legend.polished", language)
+            [len(result.history)], [best], "o", color=COLOURS[1], label=say("optimize.legend.polished", language)
         )
         if np.isfinite(result.start[goal.text]):
             start = result.start[goal.text] / factor
             axes.axhline(start, ls="--", lw=1, color=INK, label=say("optimize.legend.start", language))
+        axes.margins(0.03)
         axes.set_xlabel(say("optimize.axis.generation", language))
         axes.set_ylabel(f"{goal.text}, {symbol}" if symbol else goal.text)
         axes.legend()
