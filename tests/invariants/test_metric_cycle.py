@@ -179,6 +179,31 @@ def test_sweeps_and_sensitivities_take_design_numbers() -> None:
     assert slopes.gradient("peak_reaction O5") == pytest.approx(gradient, rel=1e-11)
 
 
+def test_gradients_of_several_numbers_from_one_evaluation_are_those_of_each() -> None:
+    crusher, by = lw.load("gallery:jaw_crusher_sixbar"), ["toggle.length", "jaw.mass", "crank.length"]
+    names = ["peak_reaction O5", "peak_input_torque", "transmission_angle"]
+    cycle = metric_cycle(crusher, by, names)
+    assert cycle is not None
+    draw = np.random.default_rng(0)
+    columns = {each: crusher.dimension(each) * draw.uniform(0.99, 1.01, 5) for each in by}
+    sums = [*({name: 1.0} for name in names), {names[0]: 2.0, names[1]: -3.0}]
+    values, slopes = cycle.gradients(sums, columns, by)
+    for k, name in enumerate(names):
+        value, slope = cycle.gradient({name: 1.0}, columns, by)
+        assert values[k] == pytest.approx(value, rel=1e-13) and slopes[k] == pytest.approx(slope, rel=1e-11)
+    assert values[3] == pytest.approx(2 * values[0] - 3 * values[1], rel=1e-12)
+    assert slopes[3] == pytest.approx(2 * slopes[0] - 3 * slopes[1], rel=1e-9)
+    # against differences of the values alone
+    step = 1e-6 * crusher.dimension("toggle.length")
+    ends = [
+        cycle.evaluate({**columns, "toggle.length": columns["toggle.length"] + sign * step}).values
+        for sign in (1, -1)
+    ]
+    for k, name in enumerate(names):
+        rate = (ends[0][name] - ends[1][name]) / (2 * step)
+        assert slopes[k, :, 0] == pytest.approx(rate, rel=1e-5)
+
+
 def test_designs_that_go_one_by_one_have_the_same_numbers() -> None:
     rubbing = lw.loads(
         """

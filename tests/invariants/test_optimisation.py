@@ -92,12 +92,21 @@ def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_p
 
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
     start = lw.load("gallery:jaw_crusher_sixbar")
-    vary = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
-    keep = {"jaw.angle range": "same within 1 %", "transmission_angle": "at least 30 deg"}
+    vary = {
+        "pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "rocker.length": "0.9..1.1 m",
+        "crank.length": "0.08..0.12 m", "frame.O3.x": "0.85..1.05 m", "frame.O3.y": "-1.1..-0.9 m",
+    }  # fmt: skip
+    keep = {
+        "jaw.angle range": "same within 1 %",
+        "jaw.angle max": "same within 0.2 deg",
+        "transmission_angle": "at least 30 deg",
+    }
     goals = ["peak_input_torque", "flywheel"]
     found = lw.optimize(start, vary=vary, minimize=goals, keep=keep, evaluations=1000)
     rows = np.array([[each.numbers[goal] for goal in goals] for each in found])
     assert (np.diff(rows[:, 0]) > 0).all() and (np.diff(rows[:, 1]) < 0).all()
+    steps = np.linalg.norm(np.diff(rows, axis=0) / np.ptp(rows, axis=0), axis=1)
+    assert len(rows) >= 40 and steps.max() < 2.5 * steps.mean()  # evenly filled
     for each in (found.choices[0], found.choices[-1]):
         machine = start.with_dimensions(dict(each.values))
         forces = lw.solve_forces(lw.solve_motion(machine))
@@ -108,6 +117,19 @@ def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
         running = lw.steady_running(forces, fluctuation=0.02)
         assert running.flywheel == pytest.approx(each.numbers["flywheel"], rel=1e-4)
     assert found.best.numbers["peak_input_torque"] < 0.95 * found.start["peak_input_torque"]
+
+
+def test_a_front_against_closed_form(press: Path) -> None:
+    """The stroke is 2 r and l at least 5 r, so the front is the line l = 5 stroke / 2."""
+    keep = {"r/l": "at most 0.2"}
+    found = lw.optimize(press, minimize="l", maximize="stroke guide", keep=keep, evaluations=1200)
+    rows = np.array([[each.numbers["l"], each.numbers["stroke guide"]] for each in found])
+    assert rows[:, 0] == pytest.approx(2.5 * rows[:, 1], rel=5e-4)
+    assert rows[0] == pytest.approx([0.12, 0.048], rel=5e-4) and rows[-1] == pytest.approx(
+        [0.4, 0.16], rel=1e-4
+    )
+    gaps = np.diff(rows[:, 0])
+    assert len(rows) >= 40 and gaps.min() > 0.5 * gaps.mean() and gaps.max() < 2 * gaps.mean()
 
 
 def test_tolerances_worst_case_and_yield(press: Path) -> None:

@@ -45,10 +45,12 @@ SLOW, SAVED = 400, 2.0
 #: Share of the evaluations that the first designs take, how many of them the local search starts from, its steps, and
 #: how far apart they lie in the cube.
 SAMPLED, STARTS, FEW, APART = 0.5, 16, 15, 0.1
-#: Designs that are polished in the end for each objective; places along a front, and where designs go one by one.
-POLISHED, FRONT, FRONT_ALONE = 3, 48, 6
+#: Designs that are polished in the end for each objective; places along a front.
+POLISHED, FRONT = 3, 48
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
 LAST, NEAR = 90, 0.03
+#: The same where designs go one by one: designs for each objective, places along a front, steps.
+POLISHED_ALONE, FRONT_ALONE, LAST_ALONE = 1, 6, 12
 _NO_ROWS = np.array([], dtype=np.intp)
 Floats = NDArray[np.float64]
 #: Designs of a front are alike whose objectives differ by less than this share.
@@ -151,6 +153,9 @@ class _Run:
         self.progress, self.digest, self.stopped = progress, digest, False
         self.document, self.leading = document, leading
         self.polish = Polish(task)
+        alone = not task.measures.side_by_side
+        self.best, self.places = (POLISHED_ALONE, FRONT_ALONE) if alone else (POLISHED, FRONT)
+        self.last = LAST_ALONE if alone else LAST
 
     def optimum(self) -> Optimum:
         state, judged = self._searched()
@@ -259,23 +264,24 @@ class _Run:
         """The population with its best designs polished; of several objectives the front, evenly filled."""
         count = judged.goals.shape[1]
         if count == 1 or not (judged.total == 0).any():
-            better = self._descended(judged, np.zeros((1, count)), POLISHED, NEAR, LAST)
+            better = self._descended(judged, np.zeros((1, count)), self.best, NEAR, self.last)
             return self._bettered(judged, better)
         for goal in range(count):
             judged = self._bettered(judged, self._end(judged, goal))
-        points = spread(count, FRONT if self.task.measures.side_by_side else FRONT_ALONE)
-        judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, LAST))
+        points = spread(count, self.places)
+        judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, self.last))
+        points = spread(count, FRONT)
         rows = picked(judged, nearest(judged, Scale.of(judged), points), len(points), 0.0)
         return taken(judged, np.array(rows, dtype=np.intp))
 
     def _end(self, judged: Judged, goal: int) -> Judged:
         """Designs with one objective least."""
         alone = np.where(judged.total == 0, judged.goals[:, goal], np.inf)
-        rows = np.array(picked(judged, alone[None], POLISHED, NEAR), dtype=np.intp)
+        rows = np.array(picked(judged, alone[None], self.best, NEAR), dtype=np.intp)
         weights = np.zeros((len(rows), judged.goals.shape[1]))
         before = taken(judged, rows)
         weights[:, goal] = 1.0 / self._sizes(before, goal)
-        return self.polish.polished(before, weights, np.zeros_like(weights), LAST)
+        return self.polish.polished(before, weights, np.zeros_like(weights), self.last)
 
     @staticmethod
     def _bettered(judged: Judged, better: Judged) -> Judged:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
@@ -31,6 +32,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     parser.add_argument("--state", metavar="FILE", help=say("optimize.state_help"))
     parser.add_argument("--output", metavar="FILE", help=say("optimize.output_help"))
     parser.add_argument("--plot", metavar="FILE", help=say("optimize.plot_help"))
+    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
 
 
@@ -40,6 +42,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.optimisation.optimize import optimize
     from linkwright.optimisation.optimum import OptimizeError
+    from linkwright.study.cluster import on_cluster
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
@@ -53,8 +56,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
         "evaluations": options.evaluations,
         "seed": options.seed,
     }
+    cluster: AbstractContextManager[Any] = (
+        nullcontext() if options.cluster is None else on_cluster(options.cluster)
+    )
     try:
-        with progress(session.say("optimize.searching")) as report:
+        with cluster, progress(session.say("optimize.searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)

@@ -78,7 +78,11 @@ class OptimumDiagram(ResultKind):
         axes.step(generations, history, where="post", color=COLOURS[0], label=label)
         best = result.best.numbers[goal.text] / factor
         axes.plot(
-            [len(result.history)], [best], "o", color=COLOURS[1], label=say("optimize.legend.polished", language)
+            [len(result.history)],
+            [best],
+            "o",
+            color=COLOURS[1],
+            label=say("optimize.legend.polished", language),
         )
         if np.isfinite(result.start[goal.text]):
             start = result.start[goal.text] / factor
