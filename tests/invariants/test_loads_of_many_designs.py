@@ -7,6 +7,7 @@ import linkwright as lw
 from linkwright.engine.cycle import CycleProgram
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.run import forces_at_once
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
 from linkwright.study.limit_stages import constants, limit_stages
@@ -73,6 +74,33 @@ def test_sweeps_equal_single_designs(load: str) -> None:
         alone = [np.sqrt((torque**2).mean()), torque.max(), force.mean()]
         for summary, value in zip(wanted(OUTPUTS), alone, strict=True):
             assert found[summary][index] == pytest.approx(value, rel=1e-12), summary.name
+
+
+@pytest.mark.parametrize("load", LOADS)
+def test_loads_traced_with_the_motion_are_those_found_from_it(load: str) -> None:
+    """One evaluation of motion, limits, loads and forces, beside magnitudes found from the motion on arrays."""
+    mechanism = machine(load)
+    together, apart = forces_at_once(mechanism, 360, False), lw.solve_forces(lw.solve_motion(mechanism))
+    assert together is not None
+    for name, expected in apart.fields.items():
+        assert together.fields[name] == pytest.approx(expected, rel=1e-13, abs=1e-13 * np.abs(expected).max())
+    torque = apart.input_torque
+    assert np.abs(together.input_torque - torque).max() <= 1e-13 * np.abs(torque).max()
+
+
+def test_an_expression_without_a_value_is_refused_alone_prepared_and_in_a_sweep() -> None:
+    """The rod's steepest angle has the sine 0.25 m over its length: 3/2 of it is above 0.6 from 0.625 m down."""
+    mechanism = lw.loads(MODEL.replace("LOAD", f"{AT}, magnitude: F0*sqrt(0.6 - 1.5*sin(rod))"))
+    prepared = lw.prepare(mechanism, vary=[BY])
+    lengths = np.array([0.7, 0.63, 0.6])
+    swept = lw.sweep(mechanism, {BY: lengths}, outputs=[("driver.effort", "max")])
+    assert swept.ok.tolist() == [True, True, False]
+    for length in lengths[:2]:
+        alone = lw.solve_forces(mechanism.with_dimensions({BY: length})).input_torque
+        assert prepared.solve({BY: length}).input_torque == pytest.approx(alone, rel=1e-9, abs=1e-9)
+    for solve in (prepared.solve, lambda changes: lw.solve_forces(mechanism.with_dimensions(changes))):
+        with pytest.raises(lw.LinkwrightError, match="has no finite real value at input = "):
+            solve({BY: 0.6})
 
 
 @pytest.mark.parametrize("load", LOADS)

@@ -36,10 +36,13 @@ class BoundPlan:
     Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the boundary through
     :meth:`set_design`; ``numbers``: the parameters that these are for) and ``tables`` in the program's order, call
     :meth:`run`,
-    read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions).
+    read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions). ``late``: the line at which the
+    second part of a run begins.
     """
 
-    def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
+    def __init__(
+        self, lines: Lines, registers: Registers, designs: int | None, positions: int, late: int = 0
+    ) -> None:
         self._lines = lines
         self._single = designs is None
         self._full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
@@ -61,9 +64,8 @@ class BoundPlan:
             i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
         }
         self._arrays = self._lay_out(registers)
-        first_field = next((i for i, x in enumerate(lines.lines) if x.op == "field"), len(lines.lines))
-        self._before = self._span(registers, range(first_field))
-        self._after = self._span(registers, range(first_field, len(lines.lines)))
+        self._early = self._span(registers, range(late))
+        self._late = self._span(registers, range(late, len(lines.lines)))
         self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
 
     def _lay_out(self, registers: Registers) -> list[NDArray[Any]]:
@@ -131,17 +133,17 @@ class BoundPlan:
 
     def run(self) -> None:
         """Evaluate the lines per position and fill the outputs."""
-        self.run_before_fields()
-        self.run_after_fields()
+        self.run_early()
+        self.run_late()
 
-    def run_before_fields(self) -> None:
-        """Those that stand before the first field."""
-        for function, args in self._before:
+    def run_early(self) -> None:
+        """The first part."""
+        for function, args in self._early:
             function(*args)
 
-    def run_after_fields(self) -> None:
-        """The others."""
-        for function, args in self._after:
+    def run_late(self) -> None:
+        """The second part."""
+        for function, args in self._late:
             function(*args)
 
     def carry(self) -> None:

@@ -51,34 +51,49 @@ class Shape:
 
 
 def kernel(
-    lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False
+    lines: Lines,
+    width: int,
+    accumulation: Accumulation | None,
+    *,
+    library: bool = False,
+    exact: bool = False,
 ) -> tuple[str, int]:
     """The module, and how much it is to be optimised. Lanes are positions, or designs where states are carried.
 
-    ``library``: all functions are called from outside, lane by lane.
+    ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself
+    (of programs without states).
     """
-    text = kernel_text(lines, width, accumulation, library=library)
+    text = kernel_text(lines, width, accumulation, library=library, exact=exact)
     return text, 0 if text.count("\n") > LARGE else 3
 
 
-def kernel_text(lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False) -> str:
+def kernel_text(
+    lines: Lines,
+    width: int,
+    accumulation: Accumulation | None,
+    *,
+    library: bool = False,
+    exact: bool = False,
+) -> str:
     """The module's text."""
     if lines.carried:
         from linkwright.engine.ir_states import StateKernel
 
         return StateKernel(lines, width, accumulation, library).text()
-    return PositionKernel(lines, width, accumulation, library).text()
+    return PositionKernel(lines, width, accumulation, library, exact).text()
 
 
 class PositionKernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
-    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool) -> None:
+    def __init__(
+        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool = False
+    ) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
-        self.writer = LineWriter(lines, width, wide=False, library=library)
+        self.writer = LineWriter(lines, width, wide=False, library=library, exact=exact)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, "%fresh")
 
     def text(self) -> str:

@@ -9,7 +9,7 @@ from linkwright.engine.ir_functions import IN_LANES, VECTOR, number
 from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.lines import Line, Lines
 
-#: What the compiler may assume: signs of zero, reciprocals, fused and regrouped operations.
+#: What the compiler may assume of code that is not exact: signs of zero, reciprocals, fused and regrouped operations.
 #: Never that there is no NaN and no infinity.
 FAST = "nsz arcp contract reassoc"
 _ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
@@ -21,12 +21,15 @@ class LineWriter:
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
     ``wide``: whether the lines per design are vectors too (the lanes are designs). ``library``: functions
-    are called from outside, lane by lane. ``names`` and
+    are called from outside, lane by lane. ``exact``: every operation is rounded by itself. ``names`` and
     ``tables`` may be changed where lines are written beside others: the names of values, and where
     the tables stand.
     """
 
-    def __init__(self, lines: Lines, width: int, wide: bool, library: bool = False) -> None:
+    def __init__(
+        self, lines: Lines, width: int, wide: bool, library: bool = False, exact: bool = False
+    ) -> None:
+        self.may = "" if exact else f"{FAST} "
         self.lines = lines.lines
         self.outputs = lines.outputs
         self.width = width
@@ -104,7 +107,7 @@ class LineWriter:
         value = self.name(index)
         args = [self.operand(a, vector) for a in line.args]
         if line.op in _ARITHMETIC:
-            return [f"{value} = {_ARITHMETIC[line.op]} {FAST} {kind} {args[0]}, {args[1]}"]
+            return [f"{value} = {_ARITHMETIC[line.op]} {self.may}{kind} {args[0]}, {args[1]}"]
         if line.op in _COMPARISON:
             operands = self.type_of(line.args[0], vector)
             return [f"{value} = fcmp {_COMPARISON[line.op]} {operands} {args[0]}, {args[1]}"]
@@ -122,7 +125,7 @@ class LineWriter:
         """An intrinsic, a function in all lanes, or a call of the C library, lane by lane."""
         if function.exact:
             suffix = f"v{self.width}f64" if vector else "f64"
-            return [f"{value} = call {FAST} {kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
+            return [f"{value} = call {self.may}{kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
         name = f"@linkwright_{function.library}"
         if not vector:
             return [f"{value} = call double {name}({', '.join(f'double {a}' for a in args)})"]
@@ -157,7 +160,7 @@ _Writer = Callable[[LineWriter, Line, str, str, list[str], bool], list[str]]
 
 
 def _negation(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
-    return [f"{value} = fneg {FAST} {kind} {args[0]}"]
+    return [f"{value} = fneg {w.may}{kind} {args[0]}"]
 
 
 def _inverse(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:

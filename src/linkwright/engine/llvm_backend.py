@@ -32,27 +32,30 @@ _LONGEST_CALL = 1 << 20
 _CALLS_PER_THREAD = 4
 
 
-def compile_program(program: Program, accumulation: Accumulation | None = None) -> CompiledProgram | None:
+def compile_program(
+    program: Program, accumulation: Accumulation | None = None, *, exact: bool = False
+) -> CompiledProgram | None:
     """The program as machine code, or None where llvmlite is missing.
 
     Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
     one, of this program, its reductions are found inside the loop (:meth:`CompiledProgram.sweep`).
-    Machine code is kept in memory and on disk. Raises ValueError for unknown outputs.
+    ``exact``: every operation is rounded by itself, as NumPy does. Machine code is kept in memory and on disk. Raises
+    ValueError for unknown outputs.
     """
     if not available():
         return None
     owner = program if accumulation is None else accumulation
-    return _compiled.get(owner, None, lambda: _compile(program, accumulation))
+    return _compiled.get(owner, exact, lambda: _compile(program, accumulation, exact))
 
 
-def _compile(program: Program, accumulation: Accumulation | None) -> CompiledProgram:
+def _compile(program: Program, accumulation: Accumulation | None, exact: bool) -> CompiledProgram:
     needed = program if accumulation is None else accumulation.needed
     if needed.states and not needed.next_states:
         names = ", ".join(needed.states)
         raise ValueError(f"no next values of the states {names} are given: take the states as fields")
     width = machine_code.host().width
-    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
-    code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation), ENTRY)
+    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}{' exact' if exact else ''}"
+    code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation, exact=exact), ENTRY)
     return CompiledProgram(needed, accumulation, code, width)
 
 

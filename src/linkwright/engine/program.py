@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -64,11 +64,11 @@ class Program:
             tuple((name, number[i]) for name, i in self.next_states),
         )
 
-    def fields_last(self) -> Program:
-        """The same program with all lines that need no field before those that do."""
+    def last(self, inputs: Container[str]) -> Program:
+        """The same program with all lines that need some of its parameters or fields behind those that do not."""
         late: set[int] = set()
-        for index, (op, args, *_) in enumerate(self.entries):
-            if op == "field" or not late.isdisjoint(args):
+        for index, (_, args, _, name, _) in enumerate(self.entries):
+            if (not args and name in inputs) or not late.isdisjoint(args):
                 late.add(index)
         order = [i for i in range(len(self.entries)) if i not in late] + sorted(late)
         number = {old: new for new, old in enumerate(order)}

@@ -167,7 +167,10 @@ class ScalarProgram:
 
     def of_design(self, parameters: Sequence[float]) -> Callable[[Sequence[float]], list[float]]:
         """Outputs of one design from the inputs per position, of programs without states and fields."""
-        known, places, outputs = self._design_values(parameters), self._inputs["position"], self.lines.outputs
+        known, places, outputs = list(self._start), self._inputs["position"], self.lines.outputs
+        for index, value in zip(self._inputs["parameter"], parameters, strict=True):
+            known[index] = value
+        self._design.run(known)
 
         def at(positions: Sequence[float]) -> list[float]:
             values = known.copy()

@@ -50,11 +50,16 @@ def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
         AssemblyError: a word that the group does not know, a name that is no inner joint, or a group without
             closed form whose points are not drawn.
     """
-    modes = _from_words(mechanism, structure)
+    words = tuple(mechanism.assembly.items())
+    modes = dict(_worded.get(structure, words, lambda: _from_words(mechanism, structure)))
     drawing = Drawing(mechanism)
     found = Assembly(modes, _drawn_states(mechanism, structure, drawing), drawing)
     _from_drawing(mechanism, structure, found)
     return found
+
+
+#: Modes by the words of a file.
+_worded: Recent[Structure, dict[str, float]] = Recent(64)
 
 
 def modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str]]]:
@@ -144,7 +149,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
 
 
 def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:
-    if not any(joint.higher for joint in mechanism.joints.values()):
+    if not mechanism.higher:
         return []
     from linkwright.kinematics.closed_loops import counted
 

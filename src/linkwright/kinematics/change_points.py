@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
+from math import ceil
 from typing import Literal
 
 import numpy as np
@@ -146,10 +147,10 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
         span = step * (positions.count if positions.closed else positions.count - 1)
         ways = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1))
     farthest = max(
-        pace * abs(step) / (1.0 if positions.rotary[name] else mechanism_size(mechanism))
+        pace * abs(step) / (1.0 if positions.rotary[name] else mechanism.size)
         for name, pace in ways.paces.items()
     )
-    return min(int(np.ceil(farthest / FINE - 1e-9)) or 1, max(MOST // positions.count, 1))
+    return min(ceil(farthest / FINE - 1e-9) or 1, max(MOST // positions.count, 1))
 
 
 def _step(positions: Positions) -> float:

@@ -167,7 +167,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
         raise CycleError(Sentence("motion.bad_steps", steps=steps))
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
-    if any(joint.higher for joint in mechanism.joints.values()):
+    if mechanism.higher:
         return _over_cycle(mechanism, steps, endpoint)
     turning = tuple(_rotary(mechanism).values())
     key = (steps, endpoint, mechanism.cycle, turning)

@@ -49,8 +49,7 @@ def _solved(motion: Motion) -> list[Outcome]:
 def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
     positions, mechanism = motion.positions, motion.mechanism
-    wheels = any(joint.higher for joint in mechanism.joints.values())
-    if not wheels or not positions.cycle or mechanism.cycle is not None:
+    if not mechanism.higher or not positions.cycle or mechanism.cycle is not None:
         return ()
     if positions.period is None:
         said = Sentence("cycle.never_back") if not_back(mechanism) else None

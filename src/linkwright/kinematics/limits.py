@@ -81,6 +81,23 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     return motion.kept(("limits", found), lambda: _Search(motion, found).limits())
 
 
+def limit_inputs(motion: Motion, output: Output) -> list[tuple[float, str]]:
+    """The first driver's coordinates at which an output reverses, with the kinds of limits, in no order.
+
+    As :func:`limit_positions`, but with every way there and back, however short.
+    """
+    return _Search(motion, output).inputs()
+
+
+@dataclass(frozen=True)
+class _Reversals:
+    """Brackets, shares of their spans where the rate is zero (NaN at a pole), and rows that give the output there."""
+
+    brackets: list[Bracket]
+    shares: list[float]
+    rows: list[list[float]]
+
+
 def output_of(mechanism: Mechanism, text: str) -> Output:
     """The output that a text means. Raises LinkwrightError, with the nearest one, where it means none."""
     links = {name: link.points for name, link in mechanism.links.items()}
@@ -222,6 +239,11 @@ class Bracket(NamedTuple):
     rate_high: float
     start: float
 
+    @property
+    def kind(self) -> Literal["max", "min"]:
+        """Of the limit in it."""
+        return "max" if self.rate_low * self.span > 0.0 else "min"
+
 
 class _Columns:
     """Brackets side by side."""
@@ -252,7 +274,6 @@ class _Search:
         positions = motion.positions
         self.period = positions.period if self.between.closes else None
         self.count = positions.count
-        self.singular = motion.outcome_codes < 0
         if (
             positions.closed
             and positions.period
@@ -261,22 +282,44 @@ class _Search:
             self.count -= 1
 
     def limits(self) -> tuple[LimitPosition, ...]:
+        return self._positions(self.found)
+
+    def inputs(self) -> list[tuple[float, str]]:
+        """Coordinates of the first driver, and kinds."""
+        law, found = next(iter(self.motion.mechanism.drivers.values())).law, self.found
+        zeros = zip(found.brackets, found.shares, strict=True)
+        return [(law.at(self._time(each, share)), each.kind) for each, share in zeros if math.isfinite(share)]
+
+    @cached_property
+    def found(self) -> _Reversals:
+        """Where the rate is zero."""
+        return self.motion.kept(("reversals", self.output), self._reversals)
+
+    def _reversals(self) -> _Reversals:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
         rate, second = (row[: self.count] for row in rows)
         if self._moves(rate):
-            brackets = self._brackets(rate, second, np.arange(self.count))
+            brackets = self._brackets(rate, second)
         elif (still := self._still(rate)) is None:
-            return ()
+            brackets = []
         else:
-            moving = np.flatnonzero(np.abs(rate) > still)
-            brackets = self._brackets(rate, second, moving)
-        return self._positions(brackets, *self._refined(brackets)) if brackets else ()
+            brackets = self._brackets(rate, second, np.flatnonzero(np.abs(rate) > still))
+        return self._refined(brackets) if brackets else _Reversals([], [], [])
+
+    def _time(self, bracket: Bracket, share: float) -> float:
+        """The time at a share of a bracket, within the cycle."""
+        time, start = bracket.begin + share * bracket.span, float(self.motion.time[0])
+        if self.period is not None and time - start >= self.period * (1.0 - 1e-15):
+            return max(time - self.period, start)
+        return time
 
     def _moves(self, rate: Floats) -> bool:
         """Whether no rate counts as zero, whatever the fastest point of the mechanism."""
-        size, values = self.motion.mechanism.size, self.motion.rows.values
+        size, motion = self.motion.mechanism.size, self.motion
+        values = motion.rows.values[: len(motion.solver.outputs.standard) - 1]
         fastest = math.sqrt(np.vdot(values, values)) * max(size, 1.0 / size)
-        least, largest = np.abs(rate).min(), _largest(rate)
+        sizes = np.abs(rate)
+        least, largest = sizes.item(sizes.argmin()), sizes.item(sizes.argmax())  # NaN where one is
         return bool(largest > CONSTANT * fastest and least > STILL * max(largest, 1e-3 * fastest))
 
     def _still(self, rate: Floats) -> float | None:
@@ -290,28 +333,27 @@ class _Search:
         return None if largest <= CONSTANT * speed else max(STILL * largest, STILL_BESIDE * speed)
 
     # where the rate changes its sign --------------------------------------------------------------
-    def _brackets(self, rate: Floats, second: Floats, moving: Indices) -> list[Bracket]:
-        """Stretches between neighbours among the positions that are ``moving``, with one zero of the rate in each."""
-        if not len(moving):
-            return []
+    def _brackets(self, rate: Floats, second: Floats, moving: Indices | None = None) -> list[Bracket]:
+        """Stretches with one zero of the rate in each, between neighbours among the positions that are ``moving``, by
+        default all."""
         sense = 1.0 if self.motion.time[self.count - 1] >= self.motion.time[0] else -1.0
-        turn = sense * rate * second
-        grows, nears = ((each[moving]).tobytes() for each in (rate > 0.0, turn < 0.0))
+        turn = rate * second if sense > 0.0 else -rate * second
+        places: Sequence[int] = range(self.count + 1) if moving is None else moving.tolist()
+        grows, nears = (
+            (each if moving is None else each[moving]).tobytes() for each in (rate > 0.0, turn < 0.0)
+        )
         if self.period is not None:
-            grows, nears, moving = (
-                grows + grows[:1],
-                nears + nears[:1],
-                np.append(moving, moving[0] + self.count),
-            )
-        together = self._together(rate, moving)
+            grows, nears = grows + grows[:1], nears + nears[:1]
+            places = places if moving is None else [*places, *(each + self.count for each in places[:1])]
+        together = self._together(rate, places) if moving is not None else lambda _: True
         changes = sorted(_places(grows, b"\0\1") + _places(grows, b"\1\0"))
-        found = [self._bracket(rate, second, *moving[k : k + 2].tolist()) for k in changes if together(k)]
-        ends = [
-            moving[k : k + 2].tolist()
+        found = [self._bracket(rate, second, *places[k : k + 2]) for k in changes if together(k)]
+        dips = [
+            (places[k], places[k + 1])
             for k in _places(nears, b"\1\0")
-            if grows[k] == grows[k + 1] and turn[moving[k + 1] % self.count] > 0.0 and together(k)
+            if grows[k] == grows[k + 1] and turn[places[k + 1] % self.count] > 0.0 and together(k)
         ]
-        return found + self._split(rate, second, ends) if ends else found
+        return found + self._split(rate, second, dips) if dips else found
 
     def _bracket(self, rate: Floats, second: Floats, first: int, last: int) -> Bracket:
         """The stretch between two positions, of which the second may be counted past the last one."""
@@ -324,15 +366,13 @@ class _Search:
         start = 0.5 if same else _zero(a, b, float(second[first]) * span, float(second[after]) * span)
         return Bracket(first, begin, span, 0.0, 1.0, a, b, start)
 
-    def _together(self, rate: Floats, moving: Indices) -> Callable[[int], bool]:
+    def _together(self, rate: Floats, places: Sequence[int]) -> Callable[[int], bool]:
         """Whether no position out of reach lies between one of these positions and the next, by its number."""
-        there = np.isfinite(rate) | self.singular[: self.count]
-        if there.all():
-            return lambda _: True
+        there = np.isfinite(rate) | (self.motion.outcome_codes < 0)[: self.count]
         gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
-        return lambda k: bool(gaps[moving[k + 1] + 1] == gaps[moving[k]])
+        return lambda k: bool(gaps[places[k + 1] + 1] == gaps[places[k]])
 
-    def _split(self, rate: Floats, second: Floats, ends_of: list[list[int]]) -> list[Bracket]:
+    def _split(self, rate: Floats, second: Floats, ends_of: list[tuple[int, int]]) -> list[Bracket]:
         """Stretches in which the rate dips below zero and comes back, between two positions: both halves of each."""
         dips = [self._bracket(rate, second, *each) for each in ends_of]
         slopes = [[float(second[each[k] % self.count]) for each in ends_of] for k in (0, 1)]
@@ -361,15 +401,14 @@ class _Search:
         time = brackets.begin + share * brackets.span
         return self.between.evaluate((*self.rate_names, *self.value_names), brackets.before, time)
 
-    def _refined(self, brackets: list[Bracket]) -> tuple[list[float], list[float]]:
-        """Shares where the rate is zero, by Newton's steps inside the brackets, and the output there; NaN where the
-        rate is not zero (a pole).
+    def _refined(self, brackets: list[Bracket]) -> _Reversals:
+        """Where the rate is zero, by Newton's steps inside the brackets.
 
         The output is that of the last step's beginning: as its rate is zero, it differs by the step's square.
         """
         outputs = self.between.on_plain_numbers((*self.rate_names, *self.value_names))
         if outputs is None:
-            return self._refined_together(_Columns(brackets))
+            return self._refined_together(brackets)
         row: list[float] = []
         here, rows = [], []
         for each in brackets:
@@ -383,10 +422,11 @@ class _Search:
             lost = not abs(row[0]) <= 10.0 * max(abs(each.rate_low), abs(each.rate_high))
             here.append(math.nan if lost else share)
             rows.append(row[2:])
-        return here, self._output(rows, [each.before for each in brackets])
+        return _Reversals(brackets, here, rows)
 
-    def _refined_together(self, brackets: _Columns) -> tuple[list[float], list[float]]:
+    def _refined_together(self, found: list[Bracket]) -> _Reversals:
         """The same side by side, where change points may be passed and groups are followed."""
+        brackets = _Columns(found)
         a, b = brackets.rate_low, brackets.rate_high
         rows = np.empty(0)
 
@@ -403,7 +443,7 @@ class _Search:
             here[k] = self._at_touch(brackets, int(k))
         if len(touches):
             rows = self._rates(brackets, here)
-        return here.tolist(), self._output(rows[2:].T.tolist(), brackets.before.tolist())
+        return _Reversals(found, here.tolist(), rows[2:].T.tolist())
 
     def _at_touch(self, brackets: _Columns, k: int) -> float:
         """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""
@@ -411,28 +451,23 @@ class _Search:
         touch = self.between.touch(start + span * brackets.low[k], start + span * brackets.high[k])
         return np.nan if touch is None else (touch - start) / span
 
-    def _positions(
-        self, brackets: list[Bracket], shares: list[float], values: list[float]
-    ) -> tuple[LimitPosition, ...]:
+    def _positions(self, found: _Reversals) -> tuple[LimitPosition, ...]:
         known = self.motion.time
-        start, last = float(known[0]), float(known[self.count - 1])
-        direction = 1.0 if last >= start else -1.0
+        direction = 1.0 if known[self.count - 1] >= known[0] else -1.0
         law = next(iter(self.motion.mechanism.drivers.values())).law
+        values = self._output(found.rows, [each.before for each in found.brackets]) if found.rows else []
         limits = []
-        for each, share, value in zip(brackets, shares, values, strict=True):
+        for each, share, value in zip(found.brackets, found.shares, values, strict=True):
             if not math.isfinite(share):
                 continue
-            before = each.before
-            time = each.begin + share * each.span
+            before, time = each.before, self._time(each, share)
             if not math.isfinite(value):
-                value = self._beside(each.before, time, BESIDE * each.span)
-            if self.period is not None and time - start >= self.period * (1.0 - 1e-15):
-                time = max(time - self.period, start)
+                value = self._beside(before, each.begin + share * each.span, BESIDE * each.span)
+            if direction * time < direction * known[before]:
                 before = 0
             while before + 1 < self.count and direction * known[before + 1] <= direction * time:
                 before += 1
-            kind: Literal["max", "min"] = "max" if each.rate_low * each.span > 0.0 else "min"
-            limits.append(LimitPosition(law.at(time), time, value, kind, before))
+            limits.append(LimitPosition(law.at(time), time, value, each.kind, before))
         limits.sort(key=lambda each: direction * each.time)
         return self._without_ripple(limits) if len(limits) > 2 else tuple(limits)
 

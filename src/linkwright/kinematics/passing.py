@@ -79,7 +79,7 @@ def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bo
     ((name, driver),) = mechanism.drivers.items()
     if not driver.law.constant_speed or mechanism.joints[driver.joint].coordinate != "turn":
         return False
-    if any(joint.higher for joint in mechanism.joints.values()):
+    if mechanism.higher:
         return False
     motion = trace_motion(mechanism, structure, rates=False)
     if motion.next_states or any("sine" in placed.facts for placed in motion.placed.values()):

@@ -249,7 +249,7 @@ def coordinates(motion: Motion, index: int) -> Floats:
     mechanism, found = motion.mechanism, []
     size, places = mechanism_size(mechanism), _first_points(mechanism)
     motion.rows.fetch(_pose_outputs(mechanism), motion.evaluate)  # all in one program
-    wheels = any(joint.higher for joint in mechanism.joints.values())
+    wheels = mechanism.higher
     for name, link in mechanism.links.items():
         c, s = motion.link(name).direction[index]
         px, py = next(iter(link.points.values()))

@@ -23,23 +23,33 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
     its arguments. Loads, joints and laws take part with their fields, numbers left out.
     """
     numbers = mechanism.dimensions()
-    joints, links = mechanism.joints, (mechanism.frame, *mechanism.links.values())
+    form, guides = _forms.get(mechanism.family, None, lambda: _form(mechanism, numbers))
     return (
-        tuple(numbers),
-        tuple(map(_QUARTERS.get, numbers.values())) if not free else _known(numbers, free),
+        form,
         free,
-        tuple(_link(link) for link in links),
-        _forms.get(joints, None, lambda: Form(tuple(map(_plain, joints.values())))),
-        tuple(_ahead(mechanism, joint) for joint in joints.values()),
-        _forms.get(mechanism.drivers, None, lambda: Form(tuple(map(_driver, mechanism.drivers.values())))),
-        _forms.get(mechanism.loads, None, lambda: Form(tuple(map(_plain, mechanism.loads.values())))),
-        tuple((address, each.text) for address, each in mechanism.expressions.items()),
+        tuple(map(_QUARTERS.get, numbers.values())) if not free else _known(numbers, free),
+        tuple([_coinciding(link) for link in (mechanism.frame, *mechanism.links.values())]),
+        tuple([_ahead(mechanism, mechanism.joints[name]) for name in guides]),
         mechanism.size,
     )
 
 
+def _form(mechanism: Mechanism, numbers: Mapping[str, float]) -> tuple[Form, tuple[str, ...]]:
+    """What numbers leave as it is, and the names of the guides along two points."""
+    elements = (mechanism.joints, mechanism.loads)
+    parts = (
+        tuple(numbers),
+        tuple(_link(link) for link in (mechanism.frame, *mechanism.links.values())),
+        *(tuple(map(_plain, each.values())) for each in elements),
+        tuple(map(_driver, mechanism.drivers.values())),
+        tuple((address, each.text) for address, each in mechanism.expressions.items()),
+    )
+    along = [name for name, joint in mechanism.joints.items() if getattr(joint, "direction_points", None)]
+    return Form(parts), tuple(along)
+
+
 class Form:
-    """What of elements decides programs, hashed once."""
+    """A part of a key, hashed once."""
 
     __slots__ = ("_hash", "_parts")
 
@@ -53,8 +63,8 @@ class Form:
         return self is other or (isinstance(other, Form) and self._parts == other._parts)
 
 
-#: Of joints, drivers and loads, by the mapping that holds them.
-_forms: Recent[Mapping[str, Any], Form] = Recent(256)
+#: By the family of a mechanism.
+_forms: Recent[object, tuple[Form, tuple[str, ...]]] = Recent(256)
 
 
 def _driver(driver: Driver) -> Hashable:
@@ -70,18 +80,20 @@ def _known(numbers: Mapping[str, float], free: frozenset[str]) -> tuple[int | No
 
 
 def _link(link: Link) -> Hashable:
+    return link.name, link.geometry, tuple(link.points), link.mass_centre is None
+
+
+def _coinciding(link: Link) -> tuple[int, ...]:
+    """Of points at one place the number of the first, none where all lie apart."""
     first, places = dict[Hashable, int](), link.points.values()
     apart = len(set(places)) == len(places)
-    same = () if apart else tuple(first.setdefault(place, i) for i, place in enumerate(places))
-    return link.name, link.geometry, tuple(link.points), same, link.mass_centre is None
+    return () if apart else tuple([first.setdefault(place, i) for i, place in enumerate(places)])
 
 
-def _ahead(mechanism: Mechanism, joint: Any) -> bool | None:
+def _ahead(mechanism: Mechanism, joint: Any) -> bool:
     """Of a guide along two points: whether the second has the larger abscissa on its link."""
-    if getattr(joint, "direction_points", None) is None:
-        return None
     start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
-    return end > start
+    return bool(end > start)
 
 
 def _plain(value: Any) -> Hashable:

@@ -25,7 +25,7 @@ WHOLE = 1e-9
 def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
     """After how many times ``duration`` (s), after which the drivers are back, all links are; None: never, or not
     within 1000 times."""
-    if not any(joint.higher for joint in mechanism.joints.values()):
+    if not mechanism.higher:
         return 1
     structure = analysed(mechanism)
     first = _gained(mechanism, structure, duration, driven_only=True)

@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
@@ -37,6 +38,10 @@ class FrictionTerm:
 
     def __str__(self) -> str:
         return self.field
+
+
+#: What comes and goes: an output, or the angle between the links of a pin with friction.
+Swinging = Output | FrictionTerm
 
 
 class FrictionTerms:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from linkwright.engine.in_turn import InTurn
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
@@ -14,7 +15,9 @@ from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.named import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
+from linkwright.kinetostatics.site import of_cycle
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
+from linkwright.kinetostatics.traced_loads import traced_magnitude
 from linkwright.loads.along_input import followed_by
 
 if TYPE_CHECKING:
@@ -87,12 +90,12 @@ class ForcePrograms:
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
-    def at_once(self, measures: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
-        """What motions store and some measures, what the loads follow, and what forces store, with the one program
-        for them, whose fields stand last."""
-        return _at_once.get(self, measures, lambda: self._at_once(measures))
+    def at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
+        """What motions store, some measures of it, what the loads follow, what forces store, what else is asked and
+        traced magnitudes, with one program for all, which takes in turn what the first three tell of the cycle."""
+        return _at_once.get(self, (measures, asked), lambda: self._at_once(measures, asked))
 
-    def _at_once(self, measures: tuple[str, ...]) -> tuple[tuple[str, ...], NumpyProgram]:
+    def _at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
         mechanism = self.motion.mechanism
         followed = [each for load in mechanism.loads.values() for each in followed_by(load, mechanism)]
         turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
@@ -101,13 +104,13 @@ class ForcePrograms:
         ]
         more = [name for link in turned for name in vector_names("e", link)]
         more += [f"{kind}:{guide}" for guide in moved for kind in ("s", "sv", "sa")]
-        names = tuple(
-            dict.fromkeys((*self.motion.outputs.standard, *measures, *more, *self.outputs.standard))
-        )
+        early = tuple(dict.fromkeys((*self.motion.outputs.standard, *measures, *more)))
+        sizes = (f"load:{name}" for name in sorted(self.along_input))
+        names = tuple(dict.fromkeys((*early, *self.outputs.standard, *asked, *sizes)))
         with self.motion.lock:
-            values = {name: self._value(name) for name in names}
-            program = Program.of(self.motion.motion.trace, values).fields_last()
-        return names, NumpyProgram(program)
+            program = Program.of(self.motion.motion.trace, {name: self._value(name) for name in names})
+        late = {*program.fields, *filter(of_cycle, program.parameters)}
+        return names, InTurn(program, len(early), late)
 
     @cached_property
     def named(self) -> Named:
@@ -117,6 +120,8 @@ class ForcePrograms:
     def _value(self, name: str) -> Scalar:
         if name.startswith(_WORDS):
             return self.named.quantity(name.removeprefix(_WORDS)).value
+        if name.startswith("load:"):
+            return traced_magnitude(self.motion.motion, name.removeprefix("load:"))
         of_motion = name.split(":", maxsplit=1)[0] in _OF_MOTION
         return (self.motion.outputs if of_motion else self.outputs).value(name)
 
@@ -135,4 +140,4 @@ def force_programs(
 
 
 _kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)
-_at_once: Recent[ForcePrograms, tuple[tuple[str, ...], NumpyProgram]] = Recent(48)
+_at_once: Recent[ForcePrograms, tuple[tuple[str, ...], InTurn]] = Recent(48)

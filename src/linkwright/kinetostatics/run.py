@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinetostatics.traced_loads import traced_loads
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.units import LARGEST
 from linkwright.units import format as spelled
 from linkwright.words.sentence import Sentence, together
 
@@ -65,27 +68,40 @@ def solved_at_once(
     positions: Positions,
     motion_of: Callable[[Rows], Motion | None],
     measures: tuple[str, ...] = (),
+    asked: tuple[str, ...] = (),
     signals_of: Callable[[Motion], MotionSignals] = MotionSignals,
 ) -> Forces | None:
     """Forces, without notes, of the motion that ``motion_of`` makes of rows with what it stores and the ``measures``.
+
+    The rows hold what is ``asked`` as well.
 
     None where that gives none, and for groups that are followed, and for friction.
     """
     if solver.motion.motion.next_states or solver.friction.terms:
         return None
-    names, program = solver.programs.at_once(measures)
+    known = traced_loads(design.mechanism, solver.motion.programs)
+    whole = ForceSolver(solver.motion, inertia=solver.inertia, along_input=known.names)
+    names, program = whole.programs.at_once(measures, asked)
     index, motions, fields = solver.motion.programs.places(names), list[Motion](), dict[str, Floats]()
 
-    def loads(values: Floats) -> dict[str, Floats] | None:
+    def late(values: Floats) -> dict[str, Any] | None:
         motion = motion_of(Rows(values, index))
         if motion is None:
             return None
+        signals = signals_of(motion)
+        limits, middles = known.limits(signals), known.middles(signals)
+        if limits is None or middles is None:
+            return None
         motions.append(motion)
-        fields.update(_load_fields(motion, program.program.fields, signals_of(motion)))
-        return fields
+        fields.update(_load_fields(motion, program.program.fields, signals))
+        return {**limits, **middles, **fields}
 
-    numbers = [design.parameters[name] for name in program.program.parameters]
-    if program.run_in_turn(numbers, positions.arrays, loads, length=positions.count) is None:
+    numbers = {**design.parameters, **known.constants}
+    values = program.run(numbers, positions.arrays, late, positions.count, known.tables)
+    if values is None:
+        return None
+    fields |= {name: values[index[name]] for name in names[-len(known.names) or len(names) :]}
+    if not all((np.abs(fields[f"load:{name}"]) <= LARGEST["torque"]).all() for name in known.fallible):
         return None
     (motion,) = motions
     return Forces(motion, solver, fields, not solver.inertia, motion.rows)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, over_cycle
+from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import MotionRun
 from linkwright.loads.signals import Limit, Whole
@@ -117,14 +118,16 @@ class MotionSignals:
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""
         if output not in self._limits:
-            from linkwright.kinematics.limits import limit_positions
-
             found = [
                 Limit(self._input_at(each.time), float(each.time), float(each.value), each.kind)
                 for each in limit_positions(self._turned, output)
             ]
             self._limits[output] = sorted(found, key=lambda each: each.time)
         return self._limits[output]
+
+    def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
+        """The inputs at which an output reverses, with the kinds of limits."""
+        return limit_inputs(self._turned, output)
 
     def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, (n,) rad, within half a turn of ``near`` where the cycle begins."""

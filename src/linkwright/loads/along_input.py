@@ -100,6 +100,16 @@ def outputs_of(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def angles_of(load: Load, mechanism: Mechanism) -> dict[tuple[str, str], float | None]:
+    """The links a, b of which it takes the angle of b against a, with the angle (rad) near which that begins; None:
+    as the motion has it."""
+    found: dict[tuple[str, str], float | None] = {}
+    for output in outputs_of(load, mechanism):
+        if output.kind == "angle":
+            found["frame", output.owner] = None
+    return found | ({} if load.twist is None else {load.twist[0]: load.twist[1]})
+
+
 def followed_by(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
     """The same, and the output by which its phase goes."""
     phase = getattr(load, "phase", None)

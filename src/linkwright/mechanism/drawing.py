@@ -16,7 +16,11 @@ class Drawing:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.points: dict[str, Vec] = {**dict(mechanism.drawing), **dict(mechanism.frame.points)}
+
+    @cached_property
+    def points(self) -> dict[str, Vec]:
+        """Coordinates by the names of the points, m."""
+        return {**self.mechanism.drawing, **self.mechanism.frame.points}
 
     def __bool__(self) -> bool:
         return bool(self.mechanism.drawing)

@@ -196,7 +196,10 @@ class Mechanism(Frozen):
                 new_joint = joints.get(name, joint)
                 joints[name] = new_joint.aligned(links[joint.joined[0]].points)
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
+        same = len(kept) == len(self.expressions)
+        found = {"_dimensions": new, "_owners": self._owners, "higher": self.higher}
         return self._changed(
+            found | ({"family": self.family} if same else {}),
             frame=links.pop("frame"),
             links=_with(self.links, links),
             joints=_with(self.joints, joints),
@@ -210,18 +213,15 @@ class Mechanism(Frozen):
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
-            expressions=self.expressions if len(kept) == len(self.expressions) else kept,
-            _dimensions=new,
-            _owners=self._owners,
+            expressions=self.expressions if same else kept,
         )
 
-    def _changed(self, **changes: Any) -> Mechanism:
-        """The same mechanism with other fields, and with what is known of them; all others are frozen already."""
+    def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
+        """The same mechanism with other fields, the others are frozen already, and what is ``found`` of it."""
         own, made = vars(self), object.__new__(type(self))
-        kept = {name: own[name] for name in self.__dataclass_fields__}
-        vars(made).update(
-            kept | {name: each if name[0] == "_" else frozen(each) for name, each in changes.items()}
-        )
+        vars(made).update({name: own[name] for name in self.__dataclass_fields__})
+        vars(made).update({name: frozen(each) for name, each in changes.items()})
+        vars(made).update(found)
         return made
 
     @property
@@ -293,6 +293,16 @@ class Mechanism(Frozen):
     def size(self) -> float:
         """A power of two in metres, not below the largest coordinate, offset or stroke."""
         return mechanism_size(self)
+
+    @cached_property
+    def higher(self) -> bool:
+        """Whether it has higher pairs: wheels, racks, cams."""
+        return any(joint.higher for joint in self.joints.values())
+
+    @cached_property
+    def family(self) -> object:
+        """The same for mechanisms that differ in numbers only, where one was made from another."""
+        return object()
 
     @cached_property
     def _dimensions(self) -> dict[str, float]:

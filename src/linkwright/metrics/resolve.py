@@ -38,6 +38,9 @@ class _SameCycle(MotionSignals):
     def limits(self, output: Output) -> Sequence[Limit]:
         return self._known.limits(output)
 
+    def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
+        return self._known.limit_inputs(output)
+
 
 class Resolver:
     """Solves the design of a motion at further times, with the programs that are there already."""
@@ -77,8 +80,8 @@ class Resolver:
             known.design,
             positions,
             motion,
-            asked,
-            lambda each: _SameCycle(each, self._signals),
+            asked=asked,
+            signals_of=lambda each: _SameCycle(each, self._signals),
         )
 
     def motion(self, time: Floats) -> Motion:

@@ -22,6 +22,7 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.site import TracedSite, guide_state
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.along_input import magnitude
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Mechanism
@@ -30,8 +31,8 @@ from linkwright.page.loads import angles, fields, found_again, phases, traced_na
 from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group
 from linkwright.study.iterated_groups import ITERATIONS
-from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import SIZES, AlongInput, along_input, numbers_of_loads
+from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.loaded_cycle import SIZES, along_input
 from linkwright.study.traced import Traced
 
 Floats = NDArray[np.float64]
@@ -66,7 +67,7 @@ class PagePrograms:
     def positional(self) -> AlongInput:
         """Loads that are traced but for what the page finds at every position, and the numbers that they take."""
         left = [self.mechanism.loads[name] for name in self._varying if name not in self.followed.names]
-        return numbers_of_loads([each for each in left if found_again(each, self.motion)])
+        return numbers_of_loads([each for each in left if found_again(each, self.motion)], self.mechanism)
 
     @property
     def tables(self) -> Tables:
@@ -140,7 +141,7 @@ class PagePrograms:
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
         """What is found before the main program: limit positions between which loads act."""
-        return tuple(self.followed.stages(self.traced)) if self.followed.outputs else ()
+        return tuple(limit_stages(self.traced, self.followed.outputs, valued=self.followed.valued))
 
     @cached_property
     def cycle(self) -> CycleProgram:
@@ -220,7 +221,7 @@ class PagePrograms:
         """Sum of the magnitudes that may not exist; None where there are none."""
         if not (self.followed.fallible or self.positional.fallible):
             return None
-        total, motion = self.followed.sizes(self.traced), self.traced.solver.motion
+        total, motion = self.followed.sizes(self.traced.solver.motion), self.traced.solver.motion
         partly = traced_names(self._positional_loads, self.motion)
         for name in self.positional.fallible:
             load = self.mechanism.loads[name]

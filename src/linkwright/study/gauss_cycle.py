@@ -25,10 +25,11 @@ from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhas
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name
+from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
 from linkwright.study.limit_stages import edge_name, part_edge
-from linkwright.study.loaded_cycle import AlongInput, friction_doubt
+from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]

@@ -18,17 +18,18 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import InputPhase
+from linkwright.fields.signals import InputPhase, Output
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
-from linkwright.loads.along_input import outputs_of
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.loads.along_input import angles_of
 from linkwright.loads.base import Load
 from linkwright.loads.phases import activity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import AlongInput, numbers_of_loads, one_turn, still_rates
+from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.loaded_cycle import one_turn, still_rates
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
@@ -74,7 +75,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
             raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
     signals = MotionSignals(plain.nominal)
     known = _middles(plain.mechanism, loads, signals)
-    along = numbers_of_loads(loads)
+    along = numbers_of_loads(loads, plain.mechanism)
     moving = _moving(plain, loads, along, by)
     names = set(along.names)
     if moving is None:
@@ -95,7 +96,7 @@ def _moving(
         return {}, {}
     if not one_turn(plain, ()) or plain.solver.motion.next_states or plain.solver.manner.flipping:
         return None
-    cycle = CycleProgram(tuple(along.stages(plain)))
+    cycle = CycleProgram(tuple(limit_stages(plain, along.outputs, valued=along.valued)))
     middles = _middle_numbers(plain, along)
     known = {**plain.solver.nominal.parameters, **constants(plain), **along.constants, **middles}
     table = np.array([[known[name] for name in cycle.dimensions]])
@@ -128,15 +129,13 @@ def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
 
 def _middles(mechanism: Mechanism, loads: Iterable[Load], signals: MotionSignals) -> dict[str, Floats]:
     """The angles that loads take, at every position."""
-    found: dict[str, Floats] = {}
-    for load in loads:
-        for output in outputs_of(load, mechanism):
-            if output.kind == "angle":
-                found[middle_name("frame", output.owner)] = signals.output(output)[0]
-        if load.twist is not None:
-            links, near = load.twist
-            found[middle_name(*links)] = signals.angle_between(*links, near)
-    return found
+    pairs = {pair: near for load in loads for pair, near in angles_of(load, mechanism).items()}
+    return {
+        middle_name(a, b): signals.output(Output("angle", b, b))[0]
+        if near is None
+        else signals.angle_between(a, b, near)
+        for (a, b), near in pairs.items()
+    }
 
 
 def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:

@@ -14,7 +14,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import Output, SwingPhase
-from linkwright.kinetostatics.friction import FrictionTerm
+from linkwright.kinetostatics.friction import FrictionTerm, Swinging
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
@@ -38,10 +38,6 @@ STEPS, CONVERGED = 16, 1e-10
 NEAR_STEPS, AT = 5, 1e-9
 #: Steps to the edge of a part of a stroke, which may be far from the middle of it.
 EDGE_STEPS = 40
-
-
-#: What comes and goes: an output, or the angle between the links of a pin with friction.
-Swinging = Output | FrictionTerm
 
 
 def limit_stages(

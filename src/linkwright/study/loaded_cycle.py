@@ -3,32 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
-from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import MovingPhase, Output, SwingPhase
-from linkwright.kinetostatics.friction import FrictionTerm
+from linkwright.fields.signals import Output
+from linkwright.kinetostatics.friction import FrictionTerm, Swinging
 from linkwright.kinetostatics.friction_stage import can_be_traced, still_name
 from linkwright.kinetostatics.run import STILL, joint_rate
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import TracedSite, constant_name, middle_name
-from linkwright.loads.along_input import constants as of_load
-from linkwright.loads.along_input import followed, magnitude, outputs_of
-from linkwright.loads.base import Load
-from linkwright.loads.formulas import denominators
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.loads.along_input import followed
 from linkwright.loads.phases import TURN
-from linkwright.study.limit_stages import Swinging, constants, limit_stages
-from linkwright.study.traced import TURNING, VALID, Traced
+from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.traced import VALID, Traced
 
 Floats = NDArray[np.float64]
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
@@ -73,46 +68,14 @@ class LoadedCycle:
         return np.stack([np.broadcast_to(each, designs) for each in columns], axis=1)
 
 
-@dataclass(frozen=True)
-class AlongInput:
-    """Loads whose magnitudes are traced, and what these take.
-
-    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``constants`` by
-    name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
-    value for some designs; ``rubbing``: the friction of joints is traced as well; ``swinging``: what turns round at
-    two positions, where friction and loads against velocities change their signs.
-    """
-
-    names: frozenset[str]
-    outputs: tuple[Output, ...] = ()
-    valued: tuple[Output, ...] = ()
-    constants: Mapping[str, float] = field(default_factory=dict)
-    tables: Mapping[str, Table] = field(default_factory=dict)
-    fallible: tuple[str, ...] = ()
-    rubbing: bool = False
-    swinging: tuple[Swinging, ...] = ()
-
-    def traced(self, plain: Traced) -> Traced:
-        """The same outputs with these loads, and the friction, traced."""
-        if not self.names and not self.rubbing:
-            return plain
-        manner = plain.solver.manner
-        return Traced(
-            plain.mechanism, manner.free, plain.positions, along_input=self.names, rubbing=self.rubbing
-        )
-
-    def stages(self, traced: Traced, *, judged: bool = True) -> list[Stage]:
-        """The stages that find the limit positions."""
-        return limit_stages(traced, self.outputs, judged=judged, valued=self.valued)
-
-    def sizes(self, traced: Traced) -> Scalar:
-        """Sum of the magnitudes of the fallible loads: not finite where one has no value."""
-        motion = traced.solver.motion
-        total: Scalar = 0.0
-        for name in self.fallible:
-            load = traced.mechanism.loads[name]
-            total = total + magnitude(load, TracedSite(motion, load, along_input=True))
-        return total
+def with_loads(plain: Traced, known: AlongInput) -> Traced:
+    """The same outputs with these loads, and the friction, traced."""
+    if not known.names and not known.rubbing:
+        return plain
+    manner = plain.solver.manner
+    return Traced(
+        plain.mechanism, manner.free, plain.positions, along_input=known.names, rubbing=known.rubbing
+    )
 
 
 def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) -> AlongInput | None:
@@ -134,10 +97,10 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     loads = [mechanism.loads[name] for name in sorted(names)]
     if not one_turn(traced, varied) or not all(followed(load, mechanism) for load in loads):
         return None
-    middles = _middles(traced, loads)
+    known = numbers_of_loads(loads, mechanism)
+    middles = known.middles(MotionSignals(traced.nominal)) if known.angles else {}
     if middles is None:
         return None
-    known = numbers_of_loads(loads)
     constants = {**known.constants, **middles, **still}
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
 
@@ -169,54 +132,6 @@ def still_rates(traced: Traced, terms: Iterable[FrictionTerm]) -> dict[str, floa
     return {name: STILL * float(np.nanmax(rate, initial=0.0)) for name, rate in rates.items()}
 
 
-def numbers_of_loads(loads: Iterable[Load]) -> AlongInput:
-    """What the magnitudes of loads take, but for the angles near which angles stay."""
-    given = tuple(loads)
-    phases = [
-        phase for each in given if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
-    ]
-    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
-    numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
-    over = {
-        f"load:{each.name}": table for each in given if (table := getattr(each, "table", None)) is not None
-    }
-    fallible = [each.name for each in given if f"load:{each.name}" in over or of_load(each) or _divides(each)]
-    return AlongInput(
-        frozenset(each.name for each in given),
-        tuple(dict.fromkeys(phase.output for phase in phases)),
-        tuple(dict.fromkeys(parts)),
-        numbers,
-        {name: Table.linear(table.x, table.y) for name, table in over.items()},
-        tuple(fallible),
-    )
-
-
-def _divides(load: Load) -> bool:
-    given = getattr(load, "magnitude", None)
-    return isinstance(given, Expression) and any(True for _ in denominators(given.tree))
-
-
-def _middles(traced: Traced, loads: Iterable[Load]) -> dict[str, float] | None:
-    """Angles near which the angles that loads take stay; None where a link turns through."""
-    pairs: dict[tuple[str, str], float | None] = {}
-    for load in loads:
-        for output in outputs_of(load, traced.mechanism):
-            if output.kind == "angle":
-                pairs["frame", output.owner] = None
-        if load.twist is not None:
-            pairs[load.twist[0]] = load.twist[1]
-    found = {}
-    signals = MotionSignals(traced.nominal) if pairs else None
-    for (a, b), near in pairs.items():
-        assert signals is not None
-        angle = traced.nominal.link(b).angle if near is None else signals.angle_between(a, b, near)
-        low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
-        if not high - low <= TURNING or (near is not None and abs(angle[0] - near) > 0.9 * np.pi):
-            return None
-        found[middle_name(a, b)] = 0.5 * (low + high)
-    return found
-
-
 def loaded_cycle(
     traced: Traced, varied: Iterable[str], names: Iterable[str], reductions: Iterable[Reduction]
 ) -> LoadedCycle | None:
@@ -224,14 +139,14 @@ def loaded_cycle(
     known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)
     if known is None:
         return None
-    over_input = known.traced(traced)
+    over_input = with_loads(traced, known)
     try:
-        stages = known.stages(over_input)
+        stages = limit_stages(over_input, known.outputs, valued=known.valued)
     except LinkwrightError:
         return None
     made, more = {each.name: each for each in reductions}, dict[str, Scalar]()
     if known.fallible:
-        more[SIZES] = known.sizes(over_input)
+        more[SIZES] = known.sizes(over_input.solver.motion)
     if known.rubbing:
         more[RUBBING] = friction_doubt(over_input)
     program = over_input.program(over_input.quantities(names), more=more)

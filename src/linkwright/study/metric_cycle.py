@@ -25,13 +25,14 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.site import limit_name
+from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
 from linkwright.study.limit_stages import STEP, limit_stages
-from linkwright.study.loaded_cycle import AlongInput, along_input, one_turn
+from linkwright.study.loaded_cycle import along_input, one_turn, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries, Reduced
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
@@ -95,7 +96,7 @@ def _metric_cycle(
     if loads is None:
         return None
     loads = replace(loads, swinging=tuple(dict.fromkeys((*loads.swinging, *reversing(plain, program)))))
-    traced = loads.traced(plain)
+    traced = with_loads(plain, loads)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)

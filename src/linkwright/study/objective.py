@@ -28,8 +28,8 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
-from linkwright.study.limit_stages import constants
-from linkwright.study.loaded_cycle import along_input, friction_doubt
+from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.traced import CLEAR, VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
@@ -308,7 +308,7 @@ class _Builder:
         if loads is None:
             raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
         self.loads = loads
-        self.traced = loads.traced(plain)
+        self.traced = with_loads(plain, loads)
 
     @cached_property
     def summaries(self) -> dict[Summary, float]:
@@ -330,7 +330,7 @@ class _Builder:
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
-        loaded = self.loads.stages(self.traced, judged=False)
+        loaded = limit_stages(self.traced, self.loads.outputs, judged=False, valued=self.loads.valued)
         if self.turns is not None:
             loaded = [self.turns, *loaded]
             refuse_turns(self.traced, loaded[1:], self.turns.keep)
@@ -352,7 +352,7 @@ class _Builder:
         motion = self.traced.solver.motion
         valid = motion.valid
         if self.loads.fallible:
-            exist = absolute(self.loads.sizes(self.traced)) <= LARGEST["torque"]
+            exist = absolute(self.loads.sizes(motion)) <= LARGEST["torque"]
             valid = motion.trace.logic("and", valid, exist)
         if self.loads.rubbing:
             valid = motion.trace.logic("and", valid, friction_doubt(self.traced) < 0.5)

@@ -26,13 +26,13 @@ from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import run_forces
-from linkwright.kinetostatics.site import TracedSite, limit_name
+from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.along_input import magnitude
+from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.study.limit_stages import CONVERGED, agree, constants, near_limits
-from linkwright.study.loaded_cycle import AlongInput, along_input
+from linkwright.study.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
+from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
@@ -206,16 +206,13 @@ class _Followed:
         loads = along_input(plain, vary, fields) or nothing
         if loads.rubbing:
             return cls(plain, nothing)
-        return cls(loads.traced(plain), loads)
+        return cls(with_loads(plain, loads), loads)
 
     @cached_property
     def sizes(self) -> dict[str, Scalar]:
         """Their magnitudes, by the names of the fields that forces know them by."""
-        motion, loads = self.traced.solver.motion, self.traced.mechanism.loads
-        found = {name: loads[name.removeprefix("load:")] for name in self.fields}
-        return {
-            name: magnitude(load, TracedSite(motion, load, along_input=True)) for name, load in found.items()
-        }
+        motion = self.traced.solver.motion
+        return {name: traced_magnitude(motion, name.removeprefix("load:")) for name in self.fields}
 
     @cached_property
     def sound(self) -> Mask:
@@ -246,8 +243,9 @@ class _Followed:
     @cached_property
     def _begin(self) -> tuple[CompiledProgram, array[float], dict[str, Floats]] | None:
         """Newton's steps compiled, their numbers, and the limits where they begin."""
-        outputs, cycle = self.loads.outputs, CycleProgram(tuple(self.loads.stages(self.traced)))
-        compiled = compile_program(near_limits(self.traced, outputs, self.loads.valued))
+        outputs, valued = self.loads.outputs, self.loads.valued
+        cycle = CycleProgram(tuple(limit_stages(self.traced, outputs, valued=valued)))
+        compiled = compile_program(near_limits(self.traced, outputs, valued))
         if compiled is None:
             return None
         known = {**self.traced.solver.nominal.parameters, **self.known}

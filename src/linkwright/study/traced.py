@@ -23,6 +23,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.named import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.vary import positions_steps
 from linkwright.words.sentence import Sentence
@@ -33,8 +34,6 @@ Floats = NDArray[np.float64]
 VALID = "valid"
 #: The output that tells how near the dyads are to a change point.
 NEAREST = "nearest change point"
-#: An angle that covers more than this is one of a link that turns.
-TURNING = 1.9 * np.pi
 #: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.
 CLEAR = 0.75 * np.pi
 

@@ -89,7 +89,7 @@ def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
     Raises:
         RequestError: with what would no longer fit.
     """
-    if not any(joint.higher for joint in mechanism.joints.values()):
+    if not mechanism.higher:
         return
     size = mechanism_size(mechanism)
     for address in addresses:

@@ -1,0 +1,154 @@
+"""Loads whose magnitudes are traced with the motion, and the numbers of a cycle that they take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+from math import remainder
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.expression_tree import Number
+from linkwright.core.expressions import Expression
+from linkwright.engine.recent import Recent
+from linkwright.engine.table import Table
+from linkwright.engine.trace import Scalar
+from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase
+from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinetostatics.friction import Swinging
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name, middle_name, value_name
+from linkwright.loads.along_input import angles_of, followed, magnitude
+from linkwright.loads.along_input import constants as of_load
+from linkwright.loads.base import Load
+from linkwright.loads.formulas import denominators
+from linkwright.loads.magnitude import is_constant
+from linkwright.loads.phases import NEAR, TURN
+from linkwright.mechanism.mechanism import Mechanism
+
+#: An angle that covers more than this is one of a link that turns.
+TURNING = 1.9 * np.pi
+#: Nearer than this (rad of the input) limits are one, and a cycle is a whole turn.
+CLOSE = 1e-9
+
+
+@dataclass(frozen=True)
+class AlongInput:
+    """Loads whose magnitudes are traced, and what these take.
+
+    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``angles``: of
+    which pairs of links (see ``angles_of``); ``constants`` by name and ``tables`` by name: numbers of the loads that
+    are no dimensions; ``fallible``: loads that may have no value for some designs; ``rubbing``: friction of joints is
+    traced as well; ``swinging``: what turns round at two positions, where friction and loads against velocities
+    change their signs.
+    """
+
+    names: frozenset[str]
+    outputs: tuple[Output, ...] = ()
+    valued: tuple[Output, ...] = ()
+    angles: Mapping[tuple[str, str], float | None] = field(default_factory=dict)
+    constants: Mapping[str, float] = field(default_factory=dict)
+    tables: Mapping[str, Table] = field(default_factory=dict)
+    fallible: tuple[str, ...] = ()
+    rubbing: bool = False
+    swinging: tuple[Swinging, ...] = ()
+
+    def sizes(self, motion: MotionTrace) -> Scalar:
+        """Sum of the magnitudes of the fallible loads: not finite where one has no value."""
+        return sum((traced_magnitude(motion, name) for name in self.fallible), 0.0)
+
+    def limits(self, signals: MotionSignals) -> dict[str, float] | None:
+        """Limit positions and the values there; None where the cycle is no single turn of the input, or an output has
+        others than two."""
+        found: dict[str, float] = {}
+        for output in self.outputs:
+            ends = signals.limit_inputs(output)
+            apart = abs(remainder(ends[0][0] - ends[1][0], TURN)) if len(ends) == 2 else 0.0
+            if apart < CLOSE or abs(abs(signals.whole.drift) - TURN) > CLOSE:
+                return None
+            found |= {limit_name(output, kind): at for at, kind in ends}
+        for output in self.valued:
+            found |= {value_name(output, each.kind): each.value for each in signals.limits(output)}
+        return found
+
+    def middles(self, signals: MotionSignals) -> dict[str, float] | None:
+        """Angles near which the angles that loads take stay; None where a link turns through."""
+        found = {}
+        for (a, b), near in self.angles.items():
+            angle = (
+                signals.output(Output("angle", b, b))[0]
+                if near is None
+                else signals.angle_between(a, b, near)
+            )
+            low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
+            if not high - low <= TURNING or (near is not None and abs(angle[0] - near) > 0.9 * np.pi):
+                return None
+            found[middle_name(a, b)] = 0.5 * (low + high)
+        return found
+
+
+def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
+    """What the magnitudes of loads of a mechanism take."""
+    given = tuple(loads)
+    phases = [
+        phase for each in given if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
+    ]
+    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
+    numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
+    over = {
+        f"load:{each.name}": table for each in given if (table := getattr(each, "table", None)) is not None
+    }
+    fallible = [each.name for each in given if isinstance(getattr(each, "magnitude", None), Expression)]
+    fallible += [each.name for each in given if f"load:{each.name}" in over or of_load(each)]
+    return AlongInput(
+        frozenset(each.name for each in given),
+        tuple(dict.fromkeys(phase.output for phase in phases)),
+        tuple(dict.fromkeys(parts)),
+        {pair: near for each in given for pair, near in angles_of(each, mechanism).items()},
+        numbers,
+        {name: Table.linear(table.x, table.y) for name, table in over.items()},
+        tuple(fallible),
+    )
+
+
+def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
+    """The loads of a machine by itself that are traced; none but where its only driver turns at constant speed.
+
+    The others are found from its motion: those of kinds that find theirs in a way of their own, and those that divide
+    by what may go through zero between two positions.
+    """
+    drivers = list(mechanism.drivers.values())
+    turns = len(drivers) == 1 and drivers[0].law.rotary and bool(drivers[0].law.constant_speed)
+    return _traced.get(mechanism.loads, (programs, turns), lambda: _found(mechanism, turns))
+
+
+def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
+    given = [each for each in mechanism.loads.values() if turns and not is_constant(each)]
+    return numbers_of_loads(
+        [each for each in given if followed(each, mechanism) and not _divides(each) and _fits(each)],
+        mechanism,
+    )
+
+
+#: By the loads of a mechanism.
+_traced: Recent[Mapping[str, Load], AlongInput] = Recent(64)
+
+
+def _divides(load: Load) -> bool:
+    given = getattr(load, "magnitude", None)
+    divisors = denominators(given.tree) if isinstance(given, Expression) else ()
+    return any(not isinstance(each, Number) for each in divisors)
+
+
+def _fits(load: Load) -> bool:
+    """Whether the load's interval of the input is no longer than a turn."""
+    phase = getattr(load, "phase", None)
+    return not isinstance(phase, InputPhase) or abs(phase.end - phase.start) <= TURN + NEAR
+
+
+def traced_magnitude(motion: MotionTrace, name: str) -> Scalar:
+    """The magnitude of a load over the input."""
+    load = motion.mechanism.loads[name]
+    return magnitude(load, TracedSite(motion, load, along_input=True))
