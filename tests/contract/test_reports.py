@@ -262,6 +262,16 @@ def test_mobility_of_a_machine_with_gears_racks_and_a_cam_adds_up() -> None:
     assert mobility.sides[1:] == ("3\\,n - 2\\,p_{L} - p_{H}", "3\\cdot 12 - 2\\cdot 15 - 5", "1")
 
 
+def test_positions_over_many_turns_show_the_input_at_many_angles() -> None:
+    """Over 24 turns of the sun, 24 positions would all show it at one angle."""
+    found = report("gallery:planetary_two_inputs", sections=["tables"])
+    table = next(b for b in found.document.blocks if isinstance(b, Table))
+    angles = {round(float(row[1]) % 360.0, 1) for row in table.rows}
+    assert len(table.rows) == len(angles) == 25
+    asked = report("gallery:planetary_two_inputs", sections=["tables"], positions=24)
+    assert len(next(b for b in asked.document.blocks if isinstance(b, Table)).rows) == 24
+
+
 def test_gears_have_their_ratios_and_the_geometry_of_their_teeth() -> None:
     found = report("gallery:planetary_two_inputs", sections=["gears"], language="zh")
     assert not found.missing

@@ -110,6 +110,12 @@ def test_a_block_on_the_frame_means_its_displacement() -> None:
     assert main_output(lw.solve_motion(conveyor, steps=12)) == output_named(conveyor, "guide")
 
 
+def test_a_wheel_in_a_fixed_ratio_to_the_driver_is_shown_where_there_is_nothing_else() -> None:
+    five_bar, pair = (lw.load(f"gallery:{name}") for name in ("geared_fivebar", "external_gear_pair"))
+    assert str(main_output(lw.solve_motion(five_bar, steps=12))) == "bar_2"
+    assert str(main_output(lw.solve_motion(pair, steps=12))) == "wheel"
+
+
 @pytest.mark.parametrize("kind", ["sva", "hodograph", "torque", "acceleration_polygon", "force_polygon"])
 def test_chinese_with_greek_letters_and_units_has_no_boxes(kind: str, forces: lw.Forces) -> None:
     if fonts.chinese_font() is None:

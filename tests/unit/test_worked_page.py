@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 
 import pytest
 from tests.unit.test_worked_arithmetic import against_solver, reckon_lines
@@ -151,3 +152,12 @@ def test_a_driver_at_rest_gives_the_balance_of_powers_instead_of_an_effort(name:
     assert reckon_lines(page) == []
     assert page.equations[-1].symbol == "ΔP"
     assert page.equations[-1].result == "0"
+
+
+def test_what_is_printed_as_zero_is_put_in_as_zero() -> None:
+    """A force of some 1e-12 N beside 1667 N, and an angle of some 1e-12° after eleven turns."""
+    forces = lw.solve_forces(lw.solve_motion(lw.load("gallery:planetary_two_inputs"), steps=24))
+    for index in (4, 11):
+        page = lw.worked(forces, index)
+        assert not any(re.search(r"e-1\d", line) for line in page.text().splitlines())
+        assert reckon_lines(page) == [] and against_solver(page, forces)[0] == []

@@ -197,7 +197,7 @@ class Case:
     @cached_property
     def numbered(self) -> Numbered:
         """Equally spaced positions from a limit position of the output on (else from the start)."""
-        count, motion = self.settings.positions, self.motion
+        count, motion = self.settings.positions or self._usual, self.motion
         if not self.mechanism.drivers:
             return Numbered(motion, (0,), None, "")
         output, limit = self._first_limit()
@@ -210,6 +210,13 @@ class Case:
                   for k in range(count)]  # fmt: skip
         denser, rows = self._passing(wanted)
         return Numbered(denser, tuple(rows), limit, output)
+
+    @property
+    def _usual(self) -> int:
+        """24 positions; one more where these would lie whole turns of the input apart."""
+        law = next(iter(self.mechanism.drivers.values())).law
+        turns = abs(law.constant_speed or 0.0) * (self.motion.positions.period or 0.0) / (48.0 * np.pi)
+        return 25 if law.rotary and turns > 0.5 and abs(turns - round(turns)) < 1e-9 else 24
 
     def inputs_of(self, numbered: Numbered) -> list[str]:
         """The input at every numbered position, as tables print it."""

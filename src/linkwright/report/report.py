@@ -115,7 +115,8 @@ def report(
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
-        positions: numbered positions of the tables, else what the file says, else 24.
+        positions: numbered positions of the tables, else what the file says, else 24, or 25 where the
+            input would be the same in all of them.
         progress: is told how many sections are done, and of how many.
 
     Returns:

@@ -37,8 +37,9 @@ class Erratum:
 @dataclass(frozen=True)
 class Settings:
     """``sections`` in the order wanted (empty: all); ``position`` of the worked solution; ``positions`` in the
-    tables, numbered from ``numbered_from`` (``"rocker min"``); ``fluctuation`` δ of the flywheel; ``text``: own text
-    by section, Markdown, or Typst after a first line ``typst``; ``purpose`` and ``source`` instead of the model's.
+    tables (None: as many as show the cycle), numbered from ``numbered_from`` (``"rocker min"``); ``fluctuation`` δ of
+    the flywheel; ``text``: own text by section, Markdown, or Typst after a first line ``typst``; ``purpose`` and
+    ``source`` instead of the model's.
     """
 
     title: str = ""
@@ -49,7 +50,7 @@ class Settings:
     source: str = ""
     sections: tuple[str, ...] = ()
     position: str = ""
-    positions: int = 24
+    positions: int | None = None
     numbered_from: str = ""
     fluctuation: float = 0.03
     text: Mapping[str, str] = field(default_factory=dict)
@@ -69,7 +70,7 @@ def settings(given: Mapping[str, Any], language: str = "en") -> Settings:
     return Settings(
         **words,
         sections=tuple(map(str, _sequence(given, "sections"))),
-        positions=_count(given.get("positions", 24)),
+        positions=_count(given["positions"]) if "positions" in given else None,
         numbered_from=str(given.get("numbered_from", "")),
         fluctuation=_fluctuation(given.get("fluctuation", 0.03)),
         text={str(key): str(text) for key, text in _mapping(given, "text").items()},

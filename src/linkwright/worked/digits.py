@@ -26,7 +26,7 @@ def rounded(value: float, digits: int) -> str:
 
 def put_in(term: Term, digits: int) -> str:
     """How a symbol's or a number's value is printed."""
-    if abs(term.amount) < NOTHING:
+    if term.is_rounding:
         return "0" + ("°" if term.degrees else "")
     if term.op == "number":
         return rounded(term.amount, MOST) + ("°" if term.degrees else "")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
@@ -111,9 +111,11 @@ class Step:
         self.items.append(Relation(left, right))
 
     def find(self, result: Term, formula: Term, unit: str, column: str = "") -> Term:
-        """Adds a result: the symbol with the solver's value, and the formula that gives it."""
-        self.items.append(_equation(result, formula, unit, column))
-        return result
+        """Adds a result: the symbol with the solver's value, and the formula that gives it; what is printed as zero
+        is put in as zero from there on."""
+        item = _equation(result, formula, unit, column)
+        self.items.append(item)
+        return replace(result, amount=0.0) if item.result == "0" else result
 
     def find_pair(self, names: tuple[str, str], values: complex, formula: Pair, column: str) -> Pair:
         """Adds both components of a force; ``names``: plain, and LaTeX with its subscript still open."""

@@ -65,7 +65,12 @@ class Term:
     @property
     def value(self) -> float:
         """What the term amounts to."""
-        return self.reckon(lambda leaf: leaf.amount if abs(leaf.amount) >= NOTHING else 0.0)
+        return self.reckon(lambda leaf: 0.0 if leaf.is_rounding else leaf.amount)
+
+    @property
+    def is_rounding(self) -> bool:
+        """Whether the amount of a symbol or a number is nothing but rounding; degrees are small units."""
+        return abs(self.amount) < (100.0 * NOTHING if self.degrees else NOTHING)
 
     def reckon(self, leaf: Leaf) -> float:
         """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value."""

@@ -38,21 +38,33 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
 
 
 def main_output(motion: Motion) -> Output | str:
-    """The output that matters most: the last in solving order on the frame, else a free point, else a link."""
+    """The output that matters most: the last in solving order on the frame, else a free point, else a link; wheels
+    that turn in a fixed ratio to a driver only where there is nothing else."""
     mechanism = motion.mechanism
     points = free_points(mechanism)
     if len(mechanism.drivers) > 1 and points:
         return points[-1]
     outputs = mechanism_outputs(mechanism)
     order = [link for group in motion.structure.groups for link in group.links]
-    slides = [each for each in outputs if each.kind == "displacement"]
-    for found in (slides, list(outputs)):
+    slides, geared = [each for each in outputs if each.kind == "displacement"], _geared(motion)
+    for found in (slides, [each for each in outputs if output_link(mechanism, each) not in geared]):
         if found:
             return max(found, key=lambda each: order.index(output_link(mechanism, each)))
-    if points:
-        return points[-1]
+    free = [point for point in points if point.partition(".")[0] not in geared]
+    if free:
+        return free[-1]
     moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]
+    moving.sort(key=lambda link: link in geared)
     return Output("angle", moving[0], moving[0]) if moving else Output("angle", order[-1], order[-1])
+
+
+def _geared(motion: Motion) -> set[str]:
+    """Driven links, and the wheels that turn in a fixed ratio to one."""
+    found = {driver.link for driver in motion.mechanism.drivers.values()}
+    for train in motion.structure.trains:
+        if not train.planetary and found & train.ratios.keys():
+            found |= train.ratios.keys()
+    return found
 
 
 def turning_links(motion: Motion) -> list[str]:
