@@ -34,7 +34,7 @@ class ExpressionLaw(Law):
         return self.expression, first, first.diff("t")
 
     def modelica(self, write: LawText) -> str:
-        return write.expression(self)
+        return write.expression(self.expression.tree, self.parameters)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         values, functions = {**self.parameters, "t": t}, array_functions()

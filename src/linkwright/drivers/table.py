@@ -35,7 +35,7 @@ class TableLaw(Law):
     rotary: bool = True
 
     def modelica(self, write: LawText) -> str:
-        return write.pieces(self)
+        return write.pieces(self, self.times, self.interpolation)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         import numpy as np

@@ -15,7 +15,7 @@ from linkwright.loads.site import Site, Wrench
 if TYPE_CHECKING:
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair
+    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("damper")
@@ -51,4 +51,8 @@ class Damper(Load):
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
 
     def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        return write.damper(step, self, link)
+        def tension(length: Term, parting: Term) -> Term:
+            speed = step.find(write.named("L'", self, parting.value), parting, "m/s")
+            return write.named("c", self, self.damping) * speed
+
+        return write.between(step, self, self.between, link, tension)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair
+    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("pressure")
@@ -76,4 +76,20 @@ class Pressure(Load):
         return Press(self.joint, (sign_of(self) or 1) * (-1 if self.pushes == "backward" else 1))
 
     def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        return write.pressure(step, self, link, force)
+        joint, along = write.book.mechanism.guides[self.joint], write.book.slide(self.joint).along
+        forward = (link == joint.block) == (self.pushes == "forward")
+        push = force.real * along.x.value + force.imag * along.y.value
+
+        def press() -> Term:
+            if self.area is not None:
+                area = step.give(write.named("A", self, self.area), "m²")
+            else:
+                round_area = write.circle(write.named("d", self, self.bore or 0.0))
+                area = step.find(write.named("A", self, round_area.value), round_area, "m²")
+            pressure = (push if forward else -push) / area.amount
+            return step.give(write.named("p", self, pressure), "Pa") * area
+
+        size = write.size(step, self, "F", "N", press)
+        if size is None:
+            return None
+        return along.times(size) if forward else -along.times(size)

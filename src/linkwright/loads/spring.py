@@ -14,7 +14,7 @@ from linkwright.loads.site import Site, Wrench
 if TYPE_CHECKING:
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair
+    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("spring")
@@ -57,4 +57,9 @@ class Spring(Load):
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
 
     def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        return write.spring(step, self, link)
+        def tension(length: Term, parting: Term) -> Term:
+            free, stiff = write.named("L0", self, self.free_length), write.named("k", self, self.stiffness)
+            pull = stiff * (length - free) if self.free_length else stiff * length
+            return write.named("F0", self, self.preload) + pull if self.preload else pull
+
+        return write.between(step, self, self.between, link, tension)

@@ -34,4 +34,6 @@ class TorsionDamper(Load):
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
 
     def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
-        return write.torsion_damper(step, self, link, torque)
+        a, b = (write.book.omega(each) for each in self.links)
+        drag = write.named("c", self, self.damping) * (b - a)
+        return write.couple(step, self, self.links, link, torque, lambda _: drag)

@@ -58,4 +58,13 @@ class TorsionSpring(Load):
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
 
     def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
-        return write.torsion_spring(step, self, link, torque)
+        def moment(known: float) -> Term | None:
+            if not self.stiffness:
+                return None
+            angle = self.free_angle + (known - self.preload) / self.stiffness
+            twist = step.give(write.named("φ", self, angle), "rad")
+            free = write.named("φ0", self, self.free_angle)
+            found = write.named("k", self, self.stiffness) * (twist - free if self.free_angle else twist)
+            return write.named("M0", self, self.preload) + found if self.preload else found
+
+        return write.couple(step, self, self.links, link, torque, moment)

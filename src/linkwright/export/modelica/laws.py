@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import assert_never
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, Variable
-from linkwright.drivers.expression import ExpressionLaw
-from linkwright.drivers.table import TableLaw
+from linkwright.drivers.base import Law
 from linkwright.export.modelica.names import number
 
 
@@ -24,14 +25,30 @@ class LawText:
         """start + speed t."""
         return f"{number(start)} + ({number(speed)})*time"
 
-    def expression(self, law: ExpressionLaw) -> str:
+    def expression(self, tree: Node, parameters: Mapping[str, float]) -> str:
         """An expression of t and of parameters, which are put in."""
-        values = {name: number(value) for name, value in law.parameters.items()}
-        return formula(law.expression.tree, {**values, "t": "time"})
+        return formula(tree, {**{name: number(value) for name, value in parameters.items()}, "t": "time"})
 
-    def pieces(self, law: TableLaw) -> str:
-        """The table's cubic or straight pieces."""
-        return _pieces(law, self.begin, self.end)
+    def pieces(self, law: Law, times: Sequence[float], interpolation: str) -> str:
+        """A law by cubic pieces between times, ``linear`` ones or those that repeat (``periodic``)."""
+        nodes = np.asarray(times)
+        if interpolation == "periodic":
+            period = nodes[-1] - nodes[0]
+            first = np.floor((self.begin - nodes[0]) / period)
+            last = np.ceil((self.end - nodes[0]) / period)
+            turns = np.arange(first, max(last, first + 1))
+            nodes = np.unique(np.concatenate([nodes + turn * period for turn in turns]))
+        rows = np.stack([nodes, *law.coordinate(nodes)], axis=1)
+        texts = []
+        for (left, q, qd, qdd), (right, _, _, qdd_next) in pairwise(rows):
+            third = (qdd_next - qdd) / (6 * (right - left)) if interpolation != "linear" else 0.0
+            x = f"(time - ({number(left)}))"
+            a, b, c, d = (f"({number(each)})" for each in (q, qd, qdd / 2, third))
+            texts.append((right, f"({a} + {x}*({b} + {x}*({c} + {x}*{d})))"))
+        text = texts[-1][1]
+        for right, piece in reversed(texts[:-1]):
+            text = f"(if time < {number(right)} then {piece} else {text})"
+        return text
 
 
 def formula(node: Node, names: dict[str, str]) -> str:
@@ -62,31 +79,3 @@ def _call(function: str, arguments: list[str]) -> str:
         a, b = arguments
         return f"(if {a} {'<' if function == 'min' else '>'} {b} then {a} else {b})"
     return f"{function}({', '.join(arguments)})"
-
-
-def _pieces(law: TableLaw, begin: float, end: float) -> str:
-    """The table's cubic or straight pieces between two times."""
-    nodes = _nodes(law, begin, end)
-    position, rate, second = law.coordinate(nodes)
-    texts = []
-    for left, right, q, qd, qdd, qdd_next in zip(
-        nodes, nodes[1:], position, rate, second, second[1:], strict=False
-    ):
-        third = (qdd_next - qdd) / (6 * (right - left)) if law.interpolation != "linear" else 0.0
-        x = f"(time - ({number(left)}))"
-        a, b, c, d = (f"({number(each)})" for each in (q, qd, qdd / 2, third))
-        texts.append((right, f"({a} + {x}*({b} + {x}*({c} + {x}*{d})))"))
-    text = texts[-1][1]
-    for right, piece in reversed(texts[:-1]):
-        text = f"(if time < {number(right)} then {piece} else {text})"
-    return text
-
-
-def _nodes(law: TableLaw, begin: float, end: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    times = np.asarray(law.times)
-    if law.interpolation != "periodic":
-        return times
-    period = times[-1] - times[0]
-    first, last = np.floor((begin - times[0]) / period), np.ceil((end - times[0]) / period)
-    turns = np.arange(first, max(last, first + 1))
-    return np.unique(np.concatenate([times + turn * period for turn in turns]))
