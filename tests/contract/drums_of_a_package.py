@@ -2,7 +2,7 @@
 
 #: The module ``drums``: a tape from one drum to another.
 PACKAGE = '''
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import sqrt as sqrt_of
 from typing import ClassVar
 
@@ -55,9 +55,6 @@ class Tape(HigherPair):
 
     def dimensions(self):
         return {f"{self.name}.radii.{k}": radius for k, radius in enumerate(self.radii)}
-
-    def with_dimensions(self, value):
-        return replace(self, radii=tuple(map(value, self.dimensions())))
 
     def constrain(self, graph):
         graph.sum_rotations(self.name, self._factors())

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
@@ -191,9 +192,14 @@ class Joint(ABC):
     def dimensions(self) -> Mapping[str, float]:
         """Addresses of the joint's dimensions (``guide.offset``) with their SI values."""
 
-    @abstractmethod
-    def with_dimensions(self, value: Callable[[str], float]) -> Joint:
-        """The same joint with the values that ``value`` gives for the addresses of ``dimensions``."""
+    def with_dimensions(self, value: Callable[[str], float]) -> Self:
+        """The same joint with the values that ``value`` gives for the addresses of ``dimensions``: those of its
+        fields, ``JOINT.FIELD``, or of one that holds several, ``JOINT.FIELD.0`` and so on."""
+        new: dict[str, Any] = {}
+        for address in self.dimensions():
+            key, _, index = address.removeprefix(f"{self.name}.").partition(".")
+            new[key] = (*new.get(key, ()), value(address)) if index else value(address)
+        return replace(self, **new)
 
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> Joint:
         """The same joint, with what follows from the points of its first link (a guide's direction) made

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
 from math import asin
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -99,11 +98,6 @@ class BeltPair(WheelPair):
     def dimensions(self) -> Mapping[str, float]:
         own = {f"{self.name}.pretension": self.pretension} if self.pretension else {}
         return {**super().dimensions(), **own}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> BeltPair:
-        other = super().with_dimensions(value)
-        assert isinstance(other, BeltPair)
-        return replace(other, pretension=value(f"{self.name}.pretension")) if self.pretension else other
 
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         a, b = self.pitch_radii()

@@ -214,10 +214,6 @@ class CamJoint(HigherPair):
             found["roller_radius"] = self.roller_radius
         return {f"{self.name}.{key}": value for key, value in found.items()}
 
-    def with_dimensions(self, value: Callable[[str], float]) -> CamJoint:
-        new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
-        return replace(self, **new)  # type: ignore[arg-type]
-
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
         """The cam's profile with its pitch curve, and what of the follower touches it."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Mapping
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -70,11 +69,6 @@ class ChainPair(BeltPair):
     def dimensions(self) -> Mapping[str, float]:
         own = {} if self.pitch is None else {f"{self.name}.pitch": self.pitch}
         return {**super().dimensions(), **own}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> ChainPair:
-        other = super().with_dimensions(value)
-        assert isinstance(other, ChainPair)
-        return other if self.pitch is None else replace(other, pitch=value(f"{self.name}.pitch"))
 
     def _amount_of_radius(self, k: int, radius: float) -> Amount:
         if self.teeth is None or self.pitch is None:

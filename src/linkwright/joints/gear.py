@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import atan, atan2, dist, pi
 from math import cos as cos_of
@@ -185,12 +185,6 @@ class GearPair(WheelPair):
             **own,
             **({f"{self.name}.module": self.module} if self.module else {}),
         }
-
-    def with_dimensions(self, value: Callable[[str], float]) -> GearPair:
-        other = super().with_dimensions(value)
-        assert isinstance(other, GearPair)
-        module = value(f"{self.name}.module") if self.module else None
-        return replace(other, pressure_angle=value(f"{self.name}.pressure_angle"), module=module)
 
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         points, i = mechanism.link(self.carrier).points, self.transmission

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -43,10 +43,6 @@ class PrismaticJoint(SlidingJoint):
         if self.friction:
             found[f"{self.name}.friction"] = self.friction
         return found
-
-    def with_dimensions(self, value: Callable[[str], float]) -> PrismaticJoint:
-        new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
-        return replace(self, **new)  # type: ignore[arg-type]
 
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> PrismaticJoint:
         if self.direction_points is None:

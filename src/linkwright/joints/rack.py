@@ -8,7 +8,7 @@ from dataclasses import replace
 from math import cos as cos_of
 from math import pi
 from math import sin as sin_of
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, absolute, tan
@@ -212,11 +212,11 @@ class RackPair(HigherPair):
         }
         return {f"{self.name}.{key}": value for key, value in values.items()}
 
-    def with_dimensions(self, value: Callable[[str], float]) -> RackPair:
-        new = {address.removeprefix(f"{self.name}."): value(address) for address in self.dimensions()}
-        if "module" in new:
-            new["radius"] = 0.5 * new["teeth"] * new["module"]
-        return replace(self, **new)  # type: ignore[arg-type]
+    def with_dimensions(self, value: Callable[[str], float]) -> Self:
+        found = super().with_dimensions(value)
+        if found.module is None or found.teeth is None:
+            return found
+        return replace(found, radius=0.5 * found.teeth * found.module)
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -36,12 +35,6 @@ class RevoluteJoint(TurningJoint):
     def dimensions(self) -> Mapping[str, float]:
         given = {f"{self.name}.friction": self.friction} if self.friction else {}
         return given if self.pin_radius is None else {f"{self.name}.pin_radius": self.pin_radius, **given}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> RevoluteJoint:
-        radius = None if self.pin_radius is None else value(f"{self.name}.pin_radius")
-        return replace(
-            self, pin_radius=radius, friction=value(f"{self.name}.friction") if self.friction else 0.0
-        )
 
     # the model file ---------------------------------------------------------------------------
     @classmethod

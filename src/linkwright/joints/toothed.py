@@ -138,15 +138,6 @@ class WheelPair(HigherPair):
             found[f"{self.name}.ratio"] = self.ratio
         return {**found, f"{self.name}.phase": self.phase or 0.0}
 
-    def with_dimensions(self, value: Callable[[str], float]) -> WheelPair:
-        def both(key: str) -> Pair | None:
-            given = getattr(self, key) is not None
-            return (value(f"{self.name}.{key}.0"), value(f"{self.name}.{key}.1")) if given else None
-
-        ratio = None if self.ratio is None else value(f"{self.name}.ratio")
-        phase = value(f"{self.name}.phase")
-        return replace(self, teeth=both("teeth"), radii=both("radii"), ratio=ratio, phase=phase)
-
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:
         i = self.transmission

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -34,9 +33,6 @@ class WeldJoint(RigidJoint):
 
     def dimensions(self) -> Mapping[str, float]:
         return {f"{self.name}.angle": self.angle}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> WeldJoint:
-        return replace(self, angle=value(f"{self.name}.angle"))
 
     # the model file ---------------------------------------------------------------------------
     @classmethod
