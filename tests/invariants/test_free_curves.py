@@ -8,12 +8,21 @@ import pytest
 
 import linkwright as lw
 from linkwright.engine import machine_code
+from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.kernels import POINT, kernels
+from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.moves import with_joint
 from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure
-from linkwright.synthesis.free_curve.target import MIDDLE, Target, curve_distance
+from linkwright.synthesis.free_curve.target import (
+    MIDDLE,
+    Target,
+    curve_distance,
+    even_points,
+    normal,
+    symmetric_distance,
+)
 
 pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
 FOUR = np.array([0.9, 0.9 + 1.7j, 0.6j, 1.3 + 0.6j])  # a figure 4 in one stroke
@@ -94,6 +103,41 @@ def test_one_more_joint_leaves_the_curve_and_moves_it() -> None:
                  for h in 1e-4 * np.eye(len(each.x))[:-3]]  # fmt: skip
         assert sum(shift > 1e-9 for shift in moved) > len(design.x) - 3
         parted += 1
+
+
+def _some_curves(count: int) -> np.ndarray:
+    """Curves of an atlas with random shares of nine turning vectors, as bytes."""
+    draw, orders = np.random.default_rng(5), np.arange(-4, 5)
+    turns = np.exp(1j * np.multiply.outer(np.linspace(0, 2 * np.pi, 301)[:-1], orders))
+    shares = (draw.normal(size=(count, 9)) + 1j * draw.normal(size=(count, 9))) / (1 + orders**2)
+    even = np.array([normal(even_points(curve, M, True)) for curve in shares @ turns.T])
+    return np.clip(np.round(np.stack([even.real, even.imag], -1) / STEP), -127, 127).astype(np.int8)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_nearest_part_of_a_curve_is_laid_on_the_target(closed: bool) -> None:
+    target = Target(np.array([0, 2j, 1 + 2j, 1 + 1j, 1j]), closed, math.radians(20), 6.0)
+    curves = _some_curves(4)
+    matches = Atlas((), (), np.zeros((0, 2), np.int32), curves).nearest(target)
+    for row, curve in enumerate(STEP * (curves @ np.array([1, 1j]))):
+        found = {
+            (part, mirror, 2 * math.pi * k / TURNS): symmetric_distance(
+                normal(curve[places(*part)]) * np.exp(2j * np.pi * k / TURNS), points[::40]
+            )[0]
+            for part in parts(closed)
+            for k in range(TURNS)
+            for mirror, points in ((False, target.points), (True, target.points.conj()))
+        }
+        assert matches.distances[row] == pytest.approx(min(found.values()), abs=0.03)
+        assert found[matches.laid(row)] < min(found.values()) + 0.03
+
+
+def test_the_nearest_part_does_not_know_the_order_of_strokes() -> None:
+    curves, found = _some_curves(40), []
+    for strokes in ([0, 2 + 2j, 1 + 1j, 2j, 2], [0, 1 + 1j, 2j, 1 + 1j, 2 + 2j, 1 + 1j, 2]):
+        target = Target(np.array(strokes), False, math.radians(20), 6.0)
+        found.append(Atlas((), (), np.zeros((0, 2), np.int32), curves).nearest(target).distances)
+    assert found[0] == pytest.approx(found[1], abs=0.02)
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

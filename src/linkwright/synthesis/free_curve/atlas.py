@@ -2,7 +2,8 @@
 
 A curve is M points even in arc length, centred, rms radius 1. The look-up is the normalised cross-correlation by fast
 Fourier transform with the wanted curve at several window lengths, forwards and backwards, mirrored or not: every
-start, direction and part of every curve is tried, and place, size and turn do not matter.
+start, direction and part of every curve is tried, and place, size and turn do not matter. Four-bars, which cannot
+follow strokes in their order, are looked up by the mean nearest distance of their parts (``likeness.py``).
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -23,6 +24,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.free_curve.kernels import kernels
+from linkwright.synthesis.free_curve.likeness import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.nodes import (
     Complexes,
     Design,
@@ -38,6 +40,11 @@ M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
 #: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
+#: Parts tried by distance, steps from one to the next; range of the crank where a whole curve lies on an open target.
+PARTS, WHOLE = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
+#: First point and number of a part's steps; with the image it lies on and the turn of the picture.
+Part = tuple[int, int]
+Laid = tuple[Part, bool, float]
 #: Joints of each level; numbers of dyads in its atlas, with the structures of each and the draws of each structure.
 LEVELS = ((5, ((1, 1, 40000),)), (8, ((2, 100, 960),)), (10, ((3, 300, 400), (4, 200, 300))))
 EDITION = 4
@@ -53,7 +60,7 @@ class Atlas:
     curves: NDArray[np.int8]
 
     def matches(self, target: Target) -> Matches:
-        """How well each curve, or the best part of it, fits the target."""
+        """How well each curve, or the best part of it, follows the target."""
         wanted = list(_windows(target))
         filters = [
             np.conj(np.fft.fft(np.pad(each, (0, M - len(each))))).astype(np.complex64) for _, each in wanted
@@ -63,41 +70,95 @@ class Atlas:
         def match(first: int, last: int) -> None:
             best[:, first:last] = _match(self.curves[first:last], wanted, filters, target.closed)
 
-        spread_over(len(self.curves), BLOCK, cores(), match)
-        return Matches(self, wanted, best, np.argsort(-best[0], kind="stable"))
+        def laid(i: int) -> Laid:
+            (mirror, window), lag = wanted[int(best[1, i])], int(best[2, i])
+            part = np.tile(_complex(self.curves[i]), 2)[lag : lag + len(window)]
+            return (lag, len(window)), mirror, float(np.angle(np.sum(np.conj(part) * window)))
 
-    def design(self, i: int, mirror: bool, wanted: Complexes, lag: int) -> Design:
-        """A linkage laid on a target by its curve's part from ``lag`` on."""
+        spread_over(len(self.curves), BLOCK, cores(), match)
+        return Matches(self, -best[0], laid)
+
+    def nearest(self, target: Target) -> Matches:
+        """How near each curve, or the best part of it, comes to the target in any order of its strokes."""
+        tried = parts(target.closed)
+        points = np.array([places(*each) for each in tried], dtype=np.int64)
+        tables, marks = _tables(target)
+        found = np.zeros((len(self.curves), 2))
+
+        def match(first: int, last: int) -> None:
+            curves, room = _complex(self.curves[first:last]), np.zeros(1024)
+            arrays = [each.ctypes.data for each in (tables, marks, room, found[first:last])]
+            kernels()(
+                "likeness", curves.ctypes.data, last - first, M, points.ctypes.data, len(tried), *arrays
+            )
+
+        def laid(i: int) -> Laid:
+            part, image, turn = np.unravel_index(int(found[i, 1]), (len(tried), 2, TURNS))
+            return tried[part], bool(image), 2 * np.pi * float(turn) / TURNS
+
+        spread_over(len(self.curves), BLOCK, cores(), match)
+        return Matches(self, found[:, 0], laid)
+
+    def design(self, i: int, laid: Laid) -> Design:
+        """A linkage laid on a target by a part of its curve."""
+        (lag, length), mirror, turn = laid
         structure, row = self.which[i]
         nodes, x = self.structures[structure], self.x[structure][row].astype(float)
-        angle, length = np.linspace(0, 2 * np.pi, 145), len(wanted)
+        angle = np.linspace(0, 2 * np.pi, 145)
         path = node_paths(nodes, x, angle)[0][-1]
         along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path)))]) / np.abs(np.diff(path)).sum()
         first = float(np.interp(lag / M, along, angle))
-        span = 6.27
+        span = WHOLE
         if length < M:
             span = max((float(np.interp((lag + length) / M % 1, along, angle)) - first) % (2 * np.pi), 0.35)
-        part = np.tile(_complex(self.curves[i]), 2)[lag : lag + length]
-        turn = float(np.angle(np.sum(np.conj(part) * wanted)))
         return Design(nodes, np.concatenate([x, [turn, first, span]]), mirror)
 
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """The linkages of an atlas in ``order`` of their likeness to a target, with window and first point of each."""
+    """How far the curves of an atlas are from a target, each ``laid`` on it as well as it goes."""
 
     atlas: Atlas
-    wanted: list[tuple[bool, Complexes]]
-    best: NDArray[np.float32]
-    order: NDArray[np.intp]
+    distances: NDArray[np.floating[Any]]
+    laid: Callable[[int], Laid]
 
     def designs(self, block: int, count: int, most: int) -> Iterator[Design]:
-        """A block of ``count`` with at most so many joints, the most alike in block 0; blocks come round again."""
+        """A block of ``count`` with at most so many joints, the nearest in block 0; blocks come round again."""
         joints = np.array([len(each) // 4 for each in self.atlas.structures])
-        rows = self.order[joints[self.atlas.which[self.order, 0]] <= most]
+        order = np.argsort(self.distances, kind="stable")
+        rows = order[joints[self.atlas.which[order, 0]] <= most]
         first = block % max(1, len(rows) // count) * count
         for i in rows[first : first + count]:
-            yield self.atlas.design(i, *self.wanted[int(self.best[1, i])], int(self.best[2, i]))
+            yield self.atlas.design(i, self.laid(i))
+
+
+def parts(closed: bool) -> list[Part]:
+    """First point and number of steps of every part that is tried."""
+    return [(0, M)] if closed else [(at, length) for length, step in PARTS for at in range(0, M, step)]
+
+
+def places(first: int, length: int) -> NDArray[np.intp]:
+    """Points of a part."""
+    last = length * (POINTS - 1) / POINTS if length == M else length
+    return np.round(first + np.linspace(0, last, POINTS)).astype(int) % M
+
+
+def _tables(target: Target) -> tuple[Floats, Floats]:
+    """Distances from the target and from its mirror image on rings, and points of both."""
+    from scipy.spatial import cKDTree
+
+    ring, angle = (np.arange(RINGS) + 0.5) * (REACH / RINGS), np.arange(ANGLES) * (2 * np.pi / ANGLES)
+    grid = np.multiply.outer(ring, np.exp(1j * angle))
+    # a row holds the angles of one remainder by ANGLES / TURNS after each other, twice
+    order = (np.arange(4)[:, None] + 4 * (np.arange(2 * TURNS) % TURNS)).ravel()
+    tables, marks = [], []
+    for points in (target.points, target.points.conj()):
+        tree = cKDTree(np.column_stack([points.real, points.imag]))
+        far = tree.query(np.stack([grid.real, grid.imag], axis=-1))[0]
+        some = even_points(points, MARKS, target.closed)
+        tables.append(far[:, order].ravel())
+        marks += [some.real, some.imag]
+    return np.concatenate(tables), np.concatenate(marks)
 
 
 def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:

@@ -427,6 +427,7 @@ def descend(
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
+    from linkwright.synthesis.free_curve.likeness import LIKENESS
     from linkwright.synthesis.free_curve.promise import PROMISES
     from linkwright.synthesis.free_curve.sample import SAMPLING
 
@@ -434,6 +435,6 @@ def kernels() -> Kernels:
         [
             turn_crank, place_crank, place_dyad, place_point, place, *DISTANCES, too_large, lengths_back,
             align_back, dyad_back, point_back, nodes_back, range_back, deviation, restart, update, descend,
-            *SAMPLING, *PROMISES,
+            *SAMPLING, *PROMISES, *LIKENESS,
         ]
     )  # fmt: skip

@@ -150,7 +150,10 @@ class Search:
     def _rounds(self) -> None:
         """As many rounds as the time holds, after the atlases have been looked up."""
         used = {ATLASES[most] for most in self.best if most in ATLASES}
-        self.matches = {level: atlas(level).matches(self.target) for level in used}
+        self.matches = {
+            level: atlas(level).matches(self.target) if level else atlas(level).nearest(self.target)
+            for level in used
+        }
         over = (time.perf_counter() - self.begin) / self.seconds
         rounds = max(1, round(self.seconds * cores() / (ROUND * sum(self._parts()))))
         times = np.linspace(over, max(over, MERGED), rounds + 1)
