@@ -8,7 +8,10 @@ import pytest
 
 import linkwright as lw
 from linkwright.kinematics import programs
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.shape import shape
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once
 
 SIXBAR = "gallery:jaw_crusher_sixbar"
@@ -50,7 +53,8 @@ def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
 )
 def test_motion_and_forces_at_once_have_the_bits_of_one_after_the_other(name, at_once, static):
     mechanism = lw.load(f"gallery:{name}")
-    assert (forces_at_once(mechanism, 144, static) is not None) == at_once
+    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, 144))
+    assert (forces_at_once(run, static) is not None) == at_once
     together = lw.solve_forces(mechanism, steps=144, static=static)
     apart = lw.solve_forces(lw.solve_motion(mechanism, steps=144), static=static)
     assert together.notes == apart.notes

@@ -7,6 +7,8 @@ import linkwright as lw
 from linkwright.engine.cycle import CycleProgram
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
@@ -80,7 +82,8 @@ def test_sweeps_equal_single_designs(load: str) -> None:
 def test_loads_traced_with_the_motion_are_those_found_from_it(load: str) -> None:
     """One evaluation of motion, limits, loads and forces, beside magnitudes found from the motion on arrays."""
     mechanism = machine(load)
-    together, apart = forces_at_once(mechanism, 360, False), lw.solve_forces(lw.solve_motion(mechanism))
+    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, 360))
+    together, apart = forces_at_once(run, False), lw.solve_forces(lw.solve_motion(mechanism))
     assert together is not None
     for name, expected in apart.fields.items():
         assert together.fields[name] == pytest.approx(expected, rel=1e-13, abs=1e-13 * np.abs(expected).max())

@@ -11,9 +11,10 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.cycle import Floats, over_cycle
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -254,8 +255,8 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
     Raises:
         LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
     """
-    from linkwright.kinetostatics.run import forces_at_once, run_forces
+    from linkwright.kinetostatics.run import forces_of_run, run_forces
 
     if isinstance(source, Motion):
         return run_forces(source, static)
-    return forces_at_once(source, steps, static) or run_forces(solve_motion(source, steps=steps), static)
+    return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)

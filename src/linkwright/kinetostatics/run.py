@@ -8,17 +8,15 @@ from typing import Any
 import numpy as np
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats, Positions, over_cycle
+from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import traced_loads
-from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import LARGEST
 from linkwright.units import format as spelled
 from linkwright.words.sentence import Sentence, together
@@ -48,13 +46,17 @@ def run_forces(
     return _evaluated(motion, solver, fields, static)
 
 
-def forces_at_once(mechanism: Mechanism, steps: int, static: bool) -> Forces | None:
-    """Motion over the cycle and forces in one evaluation, of machines with closed forms and without friction; None
-    where positions are not reached, or something may be passed between two of them.
+def forces_of_run(run: MotionRun, static: bool, failures: str = "raise") -> Forces:
+    """Motion and forces over the positions of a run, in one evaluation where that is possible, else in turn.
 
-    Raises as :func:`run_forces`.
+    Raises as :func:`run_forces` and :meth:`MotionRun.solve`.
     """
-    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps))
+    return forces_at_once(run, static) or run_forces(run.solve(failures), static)
+
+
+def forces_at_once(run: MotionRun, static: bool) -> Forces | None:
+    """The same in one evaluation, of machines with closed forms and without friction; None where positions are not
+    reached, or something may be passed between two of them."""
     solver = ForceSolver(run.solver, inertia=not static)
     if run.measures is None:
         return None

@@ -25,7 +25,7 @@ from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.run import run_forces
+from linkwright.kinetostatics.run import forces_of_run
 from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
@@ -135,7 +135,7 @@ class Prepared:
         design = Design(self.mechanism, self._modes, changes)
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):
-            return self._solve_in_turn(design, failures)
+            return self._solve_alone(design, failures)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
         fields = {name: values[self._index[name]] for name in self._loads.fields}
         return Forces(motion, self.force_solver, fields, False, motion.rows)
@@ -159,12 +159,12 @@ class Prepared:
         if self.mechanism.dimension(address) == 0.0:
             raise RequestError(Sentence("study.zero_not_named", address=address))
 
-    def _solve_in_turn(self, design: Design, failures: str) -> Forces:
-        """Motion first: where loads or iterations need it, or change points and gaps may lie between positions."""
+    def _solve_alone(self, design: Design, failures: str) -> Forces:
+        """As a machine by itself: where loads are not traced, or change points and gaps may lie between positions."""
         for address in set(design.changes) - set(self.vary):
             self._refuse_fixed(address)
         solver = self.solver.for_design(design)
-        return run_forces(MotionRun(solver, self.positions).solve(failures), False)
+        return forces_of_run(MotionRun(solver, self.positions), False, failures)
 
 
 class _Numbers(threading.local):
