@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
@@ -313,6 +313,7 @@ def _factor_suggestion(part: str) -> str | None:
     return SPELLINGS.get(part) or nearest(part.rstrip("0123456789^²³"), list(UNITS))
 
 
+@cache
 def example(dimension: str) -> str:
     """A right form of a quantity of this dimension, for remedies: ``60.5 mm``."""
     numbers = {

@@ -11,6 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
@@ -176,7 +177,7 @@ class Quantities(Field):
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
     ) -> tuple[float, ...] | None:
-        items = reader.items(node, place, len(self.names) or self.count, self._form())
+        items = reader.items(node, place, len(self.names) or self.count, self._form)
         if items is None:
             return None
         values = [
@@ -185,6 +186,7 @@ class Quantities(Field):
         ]
         return None if any(value is None for value in values) else tuple(v for v in values if v is not None)
 
+    @cached_property
     def _form(self) -> str:
         if self.form:
             return self.form

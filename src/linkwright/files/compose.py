@@ -97,6 +97,8 @@ class _Composer:
 
     def node(self, event: Any, depth: int) -> Node:
         kind = type(event)
+        if kind is ScalarEvent and event.anchor is None and event.tag is None and depth <= MAX_DEPTH:
+            return self.scalar(event)
         if kind is AliasEvent:
             return self.alias(event)
         if depth > MAX_DEPTH:
@@ -153,7 +155,9 @@ class _Composer:
 
     def scalar(self, event: Any) -> Scalar:
         start, text = event.start_mark, event.value
-        self.grow(start, 1)
+        self.total += 1
+        if self.total > MAX_NODES:
+            self.grow(start, 0)
         if unfit := UNFIT.search(text):
             shown = f"U+{ord(unfit[0]):04X}"
             self.remark(

@@ -62,7 +62,7 @@ class Source:
     def __init__(self, text: str) -> None:
         self._before = text
         self._shifts: list[tuple[int, int]] = []  # from this offset on, so many characters were there more
-        self.text = _PAIR.sub(self._join, text)
+        self.text = _PAIR.sub(self._join, text) if "\\u" in text else text
 
     def _join(self, found: re.Match[str]) -> str:
         code = 0x10000 + ((int(found[1][2:], 16) - 0xD800) << 10) + int(found[2][2:], 16) - 0xDC00
