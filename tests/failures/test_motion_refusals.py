@@ -124,18 +124,16 @@ def test_a_dyad_that_is_out_of_reach_behind_a_triad_leaves_no_place_to_begin() -
 
 
 PASSED = (
-    "crank_rocker", "jaw_crusher_sixbar", "theo_jansen_leg", "slider_crank_offset", "dyad_rpr", "whitworth",
-    "parallelogram", "kite", "change_point_fourbar", "triad", "tangent_mechanism", "scotch_yoke", "geared_fivebar",
-    "dyad_prp", "double_slider", "truss", "excavator", "swing_conveyor",
+    "crank_rocker", "slider_crank_offset", "dyad_rpr", "parallelogram", "change_point_fourbar", "triad",
+    "scotch_yoke", "external_gear_pair", "double_slider", "truss",
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("steps", [36, 120])
 @pytest.mark.parametrize("name", PASSED)
-def test_what_plainly_passes_its_cycle_is_so_when_it_is_solved(name: str, steps: int) -> None:
+def test_what_plainly_passes_its_cycle_is_so_when_it_is_solved(name: str) -> None:
     """Nothing is asked of machines of which plain numbers cannot tell."""
     mechanism = lw.load(f"gallery:{name}")
-    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    motion = lw.solve_motion(mechanism, steps=36, failures="mark")
     whole = len(mechanism.drivers) == 1 and mechanism.cycle is None
     law = next(iter(mechanism.drivers.values())).law if mechanism.drivers else None
     groups = [p for p in motion.solver.motion.placed.values() if p.group.unknowns]
@@ -144,7 +142,7 @@ def test_what_plainly_passes_its_cycle_is_so_when_it_is_solved(name: str, steps:
     plain = (
         whole and law is not None and law.constant_speed is not None and law.rotary and closed and not wheels
     )
-    found = plainly_passed(mechanism, lw.structure(mechanism), steps)
+    found = plainly_passed(mechanism, lw.structure(mechanism), 36)
     assert found == (plain and bool(motion.ok.all()) and not motion.notes)
 
 

@@ -181,12 +181,12 @@ class _Search:
         nominal = float(self.base.coordinates[self.driver][0][0])
         drawn = self.solver.assembly.inputs[self.driver]
         near = np.arange(0.0, np.pi, STEP) if self.rotary else np.arange(0.0, 1.0, SLIDE_STEP) * self.size
-        around = np.stack([nominal + near, nominal - near], axis=1).ravel()
-        for q in ([nominal], [drawn], around):
-            positions = self.positions(np.asarray(q))
+        tries = [np.array([nominal]), np.array([drawn])]
+        if not self.solver.motion.next_states:
+            tries.append(np.stack([nominal + near, nominal - near], axis=1).ravel())
+        for q in tries:
+            positions = self.positions(q)
             followed = self.solver.follow(positions, apart=True)
-            if followed is not None and len(q) > 1:
-                continue
             states = {} if followed is None else followed.states
             codes = self.solver.evaluate(("outcome",), positions, states, {})[0]
             good = np.flatnonzero((codes == 0) & _finite(states, len(q)))
