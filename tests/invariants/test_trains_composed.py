@@ -105,3 +105,45 @@ def test_a_pair_more_that_does_not_fit_blocks_and_the_loop_is_named(seed: int) -
     loop = {f"mesh{k}" for k in set(train.way(a)) ^ set(train.way(b))} | {"more"}
     named = set(re.findall(r"'(mesh\d|more)'", str(refused.value)))
     assert named == loop
+
+
+ON_AN_ARM = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  arm: {points: {O: [0 m, 0 m], C: [0.4 m, 0.3 m]}}
+  sun: {points: {O: [0 m, 0 m], S: [0.05 m, 0 m]}}
+  planet: {points: {C: [0 m, 0 m], P: [0.02 m, 0 m]}}
+joints: {pair: {kind: KIND, links: LINKS, SIZES, carrier: arm}}
+drivers:
+  turning: {turn: arm, about: O, speed: 3 rad/s, start: 20 deg}
+  held: {turn: sun, about: O, position: "0.3 rad - 2 rad*(t/(1 s))^2"}
+cycle: {duration: 1 s}
+"""
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize(
+    ("kind", "sizes", "ratio"),
+    [
+        ("belt", ("radii: [50 mm, 20 mm]", "radii: [20 mm, 50 mm]"), 2.5),
+        ("belt", ("radii: [50 mm, 20 mm], run: crossed", "radii: [20 mm, 50 mm], run: crossed"), -2.5),
+        ("chain", ("teeth: [36, 18], pitch: 12.7 mm", "teeth: [18, 36], pitch: 12.7 mm"), 2.0),
+        ("gear", ("teeth: [20, 40]", "teeth: [40, 20]"), -0.5),
+        ("gear", ("ratio: 0.25", "ratio: 4"), 0.25),
+    ],
+)
+def test_a_pair_on_a_turning_arm_follows_willis(
+    kind: str, sizes: tuple[str, str], ratio: float, swapped: bool
+) -> None:
+    """ω_p - ω_k = i (ω_s - ω_k), of angles and accelerations too."""
+    links = "[planet, sun]" if swapped else "[sun, planet]"
+    text = ON_AN_ARM.replace("KIND", kind).replace("SIZES", sizes[swapped]).replace("LINKS", links)
+    motion = lw.solve_motion(lw.loads(text), steps=8)
+    time = motion.time
+    sun, arm, planet = (motion.link(name) for name in ("sun", "arm", "planet"))
+    assert planet.angular_velocity == pytest.approx(3.0 + ratio * (-4.0 * time - 3.0), abs=1e-11)
+    assert planet.angular_acceleration == pytest.approx(np.full(len(time), -4.0 * ratio), abs=1e-10)
+    turned = [each.angle - each.angle[0] for each in (sun, arm, planet)]
+    assert turned[2] == pytest.approx(turned[1] + ratio * (turned[0] - turned[1]), abs=1e-11)
+    assert turned[0] == pytest.approx(-2.0 * time**2, abs=1e-12)
