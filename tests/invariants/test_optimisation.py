@@ -72,6 +72,14 @@ def test_demands_that_cannot_be_met_name_the_failing_one(press: Path) -> None:
     assert "不能同时满足" in caught.value.say("zh")
 
 
+def test_demands_out_of_all_proportion_are_answered_with_the_nearest_design(press: Path) -> None:
+    for least, told in (("at least 4 km", "4000 m"), ("0..1e-12 mm", "stroke guide")):
+        with pytest.raises(lw.OptimizeError, match=told) as caught:
+            lw.optimize(press, keep={"stroke guide": least}, evaluations=300)
+        wanted = 0.08 if "km" in least else 0.02  # stroke 2 r
+        assert caught.value.nearest.best.values["crank.length"] == pytest.approx(wanted, rel=1e-5)
+
+
 def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_path: Path) -> None:
     whole = lw.optimize(press, evaluations=800, seed=3)
     state = tmp_path / "state.json"

@@ -79,7 +79,7 @@ def test_the_least_largest_of_many_beside_linear_programming() -> None:
         bounds=[(0, 1)] * 5 + [(0, None)],
     ).fun  # fmt: skip
     reached = np.sort(largest(found, None).goals[:, 0])
-    assert reached[:8] == pytest.approx(np.full(8, least), rel=1e-4)
+    assert reached[:6] == pytest.approx(np.full(6, least), rel=1e-4)
     assert reached[-1] < 1.03 * least  # six functions meet there, of which three stay in a step
 
 

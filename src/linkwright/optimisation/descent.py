@@ -108,9 +108,9 @@ class _Searches:
         wider = better & (gained > 0.7 * hoped) & (size > 0.9 * self.width)
         self.width = np.where(wider, np.minimum(2.0 * self.width, LARGEST), self.width)
         self.width = np.where(better, self.width, 0.5 * np.minimum(self.width, size))
-        self.price = np.where(cheap, DEARER * self.price, self.price)
+        self.price = np.where(cheap, np.minimum(DEARER * self.price, DEAREST), self.price)
         self.width = np.where(missing, np.maximum(self.width, AGAIN), self.width)
-        self.idle = np.where(gained > LITTLE, 0, self.idle + 1)
+        self.idle = np.where(gained > LITTLE, 0, self.idle + better)
         self._keep((self.width > LEAST) & (self.idle < PATIENCE) & ((hoped > GAIN) | ~better) | missing)
 
     def _keep(self, rows: NDArray[np.bool_]) -> None:

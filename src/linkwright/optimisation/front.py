@@ -12,6 +12,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.optimisation.task import Judged
 
 Floats = NDArray[np.float64]
+#: The share of all objectives that is added to the largest, so that no other one is left worse than need be.
+SHARED = 1e-4
 #: What a design that misses a demand, or does not move, lies behind all others.
 _BEHIND = 1e6
 
@@ -61,10 +63,11 @@ def spread(goals: int, count: int) -> Floats:
 
 
 def nearest(judged: Judged, scale: Scale, points: Floats) -> Floats:
-    """How far every design (N) is from every point (R): the largest distance in an objective, as share of its way;
-    designs that miss demands lie behind those that meet them, (R, N)."""
+    """How far every design (N) is from every point (R): the largest distance in an objective, as share of its way,
+    and a little of all of them; designs that miss demands lie behind those that meet them, (R, N)."""
     with np.errstate(invalid="ignore"):
-        found = (scale.shares(judged.goals)[None] - points[:, None]).max(axis=2)
+        shares = scale.shares(judged.goals)
+        found = (shares[None] - points[:, None]).max(axis=2) + SHARED * shares.sum(axis=1)
         behind = np.where(judged.total > 0.0, _BEHIND * (1.0 + judged.total), 0.0)
     return np.asarray(np.nan_to_num(found + behind, nan=np.inf, posinf=np.inf))
 

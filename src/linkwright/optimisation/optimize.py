@@ -55,8 +55,9 @@ _NO_ROWS = np.array([], dtype=np.intp)
 Floats = NDArray[np.float64]
 #: Designs of a front are alike whose objectives differ by less than this share.
 ALIKE = 1e-5
-#: Objectives below this share of the start's are none.
-NOTHING = 1e-9
+#: Objectives below this share of the start's are none; so many times its size an objective lies below its aim that
+#: does not count but where nothing else does.
+NOTHING, ASIDE = 1e-9, 10.0
 
 
 def optimize(
@@ -263,7 +264,11 @@ class _Run:
     def _polished(self, judged: Judged) -> Judged:
         """The population with its best designs polished; of several objectives the front, evenly filled."""
         count = judged.goals.shape[1]
-        if count == 1 or not (judged.total == 0).any():
+        if not (judged.total == 0).any():
+            judged = self._bettered(judged, self._nearest(judged))
+        if not (judged.total == 0).any():
+            return judged
+        if count == 1:
             better = self._descended(judged, np.zeros((1, count)), self.best, NEAR, self.last)
             return self._bettered(judged, better)
         for goal in range(count):
@@ -274,14 +279,21 @@ class _Run:
         rows = picked(judged, nearest(judged, Scale.of(judged), points), len(points), 0.0)
         return taken(judged, np.array(rows, dtype=np.intp))
 
+    def _nearest(self, judged: Judged) -> Judged:
+        """Designs that miss the demands least, whatever the objectives."""
+        before = taken(judged, np.array(picked(judged, judged.total[None], self.best, NEAR), dtype=np.intp))
+        none = np.zeros_like(before.goals)
+        return self.polish.polished(before, none, none, self.last)
+
     def _end(self, judged: Judged, goal: int) -> Judged:
         """Designs with one objective least."""
         alone = np.where(judged.total == 0, judged.goals[:, goal], np.inf)
         rows = np.array(picked(judged, alone[None], self.best, NEAR), dtype=np.intp)
-        weights = np.zeros((len(rows), judged.goals.shape[1]))
         before = taken(judged, rows)
-        weights[:, goal] = 1.0 / self._sizes(before, goal)
-        return self.polish.polished(before, weights, np.zeros_like(weights), self.last)
+        sizes = np.stack([self._sizes(before, k) for k in range(before.goals.shape[1])], axis=1)
+        aims = before.goals + ASIDE * sizes
+        aims[:, goal] = 0.0
+        return self.polish.polished(before, 1.0 / sizes, aims, self.last)
 
     @staticmethod
     def _bettered(judged: Judged, better: Judged) -> Judged:

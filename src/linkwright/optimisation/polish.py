@@ -7,11 +7,14 @@ from numpy.typing import NDArray
 
 from linkwright.optimisation.descent import STEPS, Model, Places, descended
 from linkwright.optimisation.evolution import joined
+from linkwright.optimisation.front import SHARED
 from linkwright.optimisation.task import Judged, Task
 
 Floats = NDArray[np.float64]
 #: What is kept from the edge of a demand, in its scales, and the step of differences where no exact slope is had.
 ROOM, STEP = 2e-7, 1e-5
+#: The least size of a demand beside the start's value.
+FINE = 1e-3
 #: The value of an objective without weight: below all others.
 _NONE = -1e6
 
@@ -28,10 +31,13 @@ class Polish:
         self.span = np.where(task.high > task.low, task.high - task.low, 1.0)
         self.limits: list[tuple[str, float, float]] = []
         for each in task.bounds:
+            start = abs(task.at_start[each.text])
+            size = max(each.scale, FINE * start) if np.isfinite(start) else each.scale
+            edge = ROOM * each.scale / size
             if np.isfinite(each.low):
-                self.limits.append((each.text, 1 / each.scale, -each.low / each.scale - ROOM))
+                self.limits.append((each.text, 1 / size, -each.low / size - edge))
             if np.isfinite(each.high):
-                self.limits.append((each.text, -1 / each.scale, each.high / each.scale - ROOM))
+                self.limits.append((each.text, -1 / size, each.high / size - edge))
 
     def polished(self, before: Judged, weights: Floats, aims: Floats, steps: int = STEPS) -> Judged:
         """The designs (K) with the largest of ``weights`` · (objective − ``aims``), (K, goals) each, made least and
@@ -44,7 +50,7 @@ class Polish:
 
         moved = descended(evaluate, before.x[:, self.free], steps)
         after = self.task.judge(self._whole(before.x, moved))
-        was, now = (np.max(weights * (each.goals - aims), axis=1) for each in (before, after))
+        was, now = (_weighed(each.goals, weights, aims).max(axis=1) for each in (before, after))
         with np.errstate(invalid="ignore"):
             better = (after.total < before.total) | ((after.total == before.total) & (now <= was))
         return joined(before, after, np.flatnonzero(better), np.array([], dtype=np.intp))
@@ -63,8 +69,9 @@ class Polish:
         climbs = np.empty((len(x), len(self.limits), x.shape[1]))
         for k, (text, weight, offset) in enumerate(self.limits):
             rooms[:, k], climbs[:, k] = weight * values[text] + offset, weight * slopes[text]
-        goals = np.where(weights > 0.0, weights * (goals - aims), _NONE)
         falls = weights[:, :, None] * falls
+        falls += SHARED * falls.sum(axis=1, keepdims=True)
+        goals = np.where(weights > 0.0, _weighed(goals, weights, aims), _NONE)
         return Model(x[:, self.free], goals, rooms, falls[:, :, self.free], climbs[:, :, self.free])
 
     def _with_slopes(self, x: Floats) -> tuple[dict[str, Floats], dict[str, Floats]]:
@@ -92,3 +99,10 @@ class Polish:
             values[text], slopes[text] = each[:, 0], np.zeros((count, k))
             slopes[text][:, free] = (each[:, 1 : len(free) + 1] - each[:, len(free) + 1 :]) / width
         return values, slopes
+
+
+def _weighed(goals: Floats, weights: Floats, aims: Floats) -> Floats:
+    """What is made least, the largest of it, (K, goals)."""
+    with np.errstate(invalid="ignore"):
+        found = np.where(weights > 0.0, weights * (goals - aims), 0.0)
+        return np.asarray(found + SHARED * found.sum(axis=1, keepdims=True))

@@ -10,6 +10,8 @@ Floats = NDArray[np.float64]
 STEPS, AIM, NEAR = 40, 0.1, 0.995
 #: Mean product of a row and its multiplier that ends the search.
 SMALL = 1e-11
+#: What is added to the diagonal, as share of its largest number, against rounding.
+STEADY = 1e-13
 
 
 def quadratic(
@@ -23,7 +25,7 @@ def quadratic(
     Source: Nocedal and Wright, *Numerical Optimization*, 2006, ch. 16.6.
     """
     count = 2 * (least.shape[1] + slope.shape[1])
-    u = 0.5 * (low + high)
+    u, own = 0.5 * (low + high), range(slope.shape[1])
     down, up = u - low, high - u
     lack = np.maximum(least - _times(rows, u), 0.0) + 1.0
     room = _times(rows, u) + lack - least
@@ -39,7 +41,8 @@ def quadratic(
         stiff = force / (room + force * lack / rest)
         push = stiff * (aim / force - room - aim / rest + lack)
         matrix = curved + rows.swapaxes(1, 2) @ (stiff[:, :, None] * rows)
-        matrix[:, range(u.shape[1]), range(u.shape[1])] += below / down + above / up
+        matrix[:, own, own] += below / down + above / up
+        matrix[:, own, own] += STEADY * matrix[:, own, own].max(axis=1, keepdims=True)
         wanted = _times(rows.swapaxes(1, 2), force + push) - _times(curved, u) - slope + aim / down - aim / up
         du = np.linalg.solve(matrix, wanted[..., None])[..., 0]
         dforce = push - stiff * _times(rows, du)
