@@ -185,20 +185,14 @@ class PlainReader:
         found: dict[str, Any] = {}
         for key, name in keys.items():
             value = mapping.get(key)
-            if value is None and fields[name].required:
-                self.error(
-                    mapping,
-                    place.child(key),
-                    Sentence("model.missing_key", key_=key),
-                    missing_remedy(key, fields[name].doc, fields[name].shape()),
-                    "missing-key",
-                )
+            each = fields[name]
+            if value is None and each.required:
+                remedy = missing_remedy(key, each.doc, each.shape())
+                problem = Sentence("model.missing_key", key_=key)
+                self.error(mapping, place.child(key), problem, remedy, "missing-key")
             elif value is not None:
-                found[name] = (
-                    None
-                    if key in split
-                    else fields[name].read(cast("Reader", self), value, place.child(key), found)
-                )
+                reader = cast("Reader", self)
+                found[name] = None if key in split else each.read(reader, value, place.child(key), found)
         return found
 
     def unknown_keys(self, mapping: MappingNode, place: Place, known: list[str]) -> set[str]:

@@ -104,7 +104,11 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
         return None
     given = reader.table(mapping, place, every) or {}
     law = _read_law(reader, mapping, place, given, laws, rotary)
-    joint = _revolute(reader, mapping, place, given) if rotary else _prismatic(reader, given)
+    joint: tuple[str, str, str] | None = None
+    if rotary:
+        joint = _revolute(reader, mapping, place, given)
+    elif given.get("slide") is not None:
+        joint = given["slide"], "", ""
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
@@ -145,11 +149,6 @@ def _read_law(
     if foreign or given.get(key) is None:
         return None
     return LAWS[key].from_values(given, rotary, reader.values)
-
-
-def _prismatic(reader: Reader, given: Mapping[str, Any]) -> tuple[str, str, str] | None:
-    joint = given.get("slide")
-    return None if joint is None else (joint, "", "")
 
 
 def _revolute(

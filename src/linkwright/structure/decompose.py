@@ -48,7 +48,7 @@ def _solving_order(mechanism: Mechanism, graph: ConstraintGraph, mobility: int) 
     choices = graph.choices()
     _, owners = graph.places()
     place_of, row_of = maximum_matching(choices, len(owners))
-    _refuse_excess(mechanism, graph, choices, place_of, row_of, owners, mobility)
+    _refuse_excess(mechanism, graph, choices, place_of, row_of, mobility)
     _refuse_free(mechanism, choices, row_of, owners, mobility)
     bodies = list(graph.freedoms)
     number = {body: i for i, body in enumerate(bodies)}
@@ -71,7 +71,6 @@ def _refuse_excess(
     choices: list[list[int]],
     place_of: list[int],
     row_of: list[int],
-    owners: list[str],
     mobility: int,
 ) -> None:
     unmatched = [row for row, place in enumerate(place_of) if place < 0]
