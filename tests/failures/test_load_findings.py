@@ -144,6 +144,18 @@ def test_divisors_deep_within_and_where_the_cycle_begins_again(magnitude: str, p
     assert f'"{magnitude}" divides by zero near input = {place or ""}' in message
 
 
+@pytest.mark.parametrize(
+    "magnitude", ["5 N*cylinder/(1 m)/(2 - 2)", "5 N*cylinder/(p*1 m)", "5 N/p*cylinder/(1 m)"]
+)
+def test_divisors_that_are_always_zero(magnitude: str) -> None:
+    text = SLIDER.replace("frame:", "parameters: {p: 0}\nframe:")
+    message = refused(text, f'{{kind: force, on: piston, at: B, direction: 0 deg, magnitude: "{magnitude}"}}')
+    assert message == (
+        f'loads.push: "{magnitude}" divides by zero at input = 0°; change the expression, or leave that position '
+        "out by a phase"
+    )
+
+
 def test_positions_far_apart_are_no_neighbours() -> None:
     """Between 0.2 and 0.8 rad lies a pole, but nobody asks what the load is there; from 0.5 to 0.7 rad it is seen."""
     load = f'{{{FORCE}, magnitude: "5 N*rad/(input - 0.6 rad)"}}'

@@ -190,6 +190,14 @@ def test_a_table_counts_angles_modulo_one_turn() -> None:
     np.testing.assert_allclose(got, [9, 4.5, 9, 4.5])
 
 
+def test_a_table_over_one_turn_and_a_half_takes_angles_as_they_are() -> None:
+    table = Table("input", tuple(np.radians([-90.0, 0.0, 180.0, 450.0])), (0.0, 9.0, 0.0, 27.0), "angle")
+    values = interpolated(table, Turning([-90, 0, 90, 270, 450]), np.ones(5, dtype=bool))
+    assert values == pytest.approx([0.0, 9.0, 4.5, 9.0, 27.0])
+    with pytest.raises(LinkwrightError, match="450° to 460° is missing"):
+        interpolated(table, Turning([0, 460]), np.ones(2, dtype=bool))
+
+
 def test_a_table_over_two_turns_repeats_after_them() -> None:
     table = Table("input", tuple(np.radians([0, 360, 720])), (0.0, 36.0, 0.0))
     got = interpolated(table, Turning([90, 450, 720 + 90, -90]), ALL)
