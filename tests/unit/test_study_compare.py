@@ -320,3 +320,27 @@ def test_three_machines_of_one_name_are_numbered() -> None:
     assert [found.value("velocity_ratio", k) for k in range(3)] == pytest.approx([-0.5] * 3)
     assert found.ranking and not found.judged and {rank.score for rank in found.ranking} == {1.0}
     assert "None of the metrics has a better direction, so there is no ranking." in found.text()
+
+
+def test_summaries_of_outputs_are_compared_like_numbers() -> None:
+    """Torque and speed of the rams over the positions, in closed form; a table too short is told."""
+    sizes = {"short": 0.1, "long": 0.2}
+    machines = [loads(PRESS.replace("NAME", a).replace("CRANK", f"{r} m")) for a, r in sizes.items()]
+    names = ["driver.effort rms", "B.velocity max", "guide.displacement argmax"]
+    found = compare(machines, metrics=names, steps=90)
+    turn = 2 * np.pi * np.arange(90) / 90
+    for label, r in sizes.items():
+        leaning = np.arcsin(r / 0.5 * np.sin(turn))
+        rate = -r * (np.sin(turn) + np.cos(turn) * np.tan(leaning))
+        torque = np.where(rate > 1e-12, 2e3 * rate, 0.0)
+        assert found.value("driver.effort rms", label) == pytest.approx(np.sqrt((torque**2).mean()))
+        assert found.value("B.velocity max", label) == pytest.approx(10 * np.abs(rate).max())
+        assert found.value("guide.displacement argmax", label) == 0.0
+    assert [row.criterion.better for row in found.rows] == ["lower", None, None]
+    assert [row.dimension for row in found.rows] == ["torque", "velocity", "angle"]
+    assert found.ranking[0].label == "short" and found.rows[0].best == (0,)
+    short = PRESS.replace(MOVING, "table: {over: guide, x: [0 m, 0.4 m], y: [5 N, 1 N]}}").replace(
+        "CRANK", "0.1 m"
+    )
+    with pytest.raises(lw.LinkwrightError, match=r"0\.4 m to 0\.6 m is missing"):
+        compare([loads(short), loads(short)], metrics=["driver.effort rms"], steps=36)
