@@ -231,3 +231,22 @@ def test_a_sobol_sequence_needs_scipy(monkeypatch: pytest.MonkeyPatch) -> None:
         lw.LinkwrightError, match="a Sobol sequence needs scipy; install it with: pip install scipy"
     ):
         study(machine, {"coupler.length": "3..4 m"}, sampling="sobol", samples=4)
+
+
+@pytest.mark.parametrize(
+    ("model", "vary", "names"),
+    [
+        ("triad", "bar_1.mass", ["travel", "peak_input_torque", "rms_input_torque", "peak_reaction"]),
+        ("planetary_two_inputs", "ring.mass", ["peak_input_torque", "rms_input_torque", "peak_reaction"]),
+    ],
+)
+def test_what_a_machine_does_not_have_is_left_out_where_nobody_asked(
+    model: str, vary: str, names: list[str]
+) -> None:
+    """A triad has no transmission angle, what turns round and round no travel; asked for by name they are refused."""
+    machine = lw.load(f"gallery:{model}")
+    found = study(machine, {vary: [1.0, 2.0]}, steps=24)
+    assert list(found.metrics) == names
+    assert list(found.data()["metrics"]) == names
+    with pytest.raises(lw.LinkwrightError, match=r"'transmission_angle' does not apply to .*; leave it out"):
+        study(machine, {vary: [1.0, 2.0]}, metrics=["transmission_angle", "peak_reaction"], steps=24)

@@ -218,7 +218,7 @@ def study(
         raise RequestError(Sentence("study.nothing_varies"))
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
     work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
-    return work.study(ranges, sampling)
+    return work.study(ranges, sampling, usual=metrics is None)
 
 
 def _criteria(mechanism: Mechanism, metrics: Iterable[str] | str | None) -> list[Criterion]:
@@ -249,7 +249,7 @@ class _Work:
         self.notes: dict[str, None] = {}
         self.troubled: dict[int, str] = {}
 
-    def study(self, ranges: tuple[Range, ...], sampling: str) -> Study:
+    def study(self, ranges: tuple[Range, ...], sampling: str, *, usual: bool) -> Study:
         summaries = [each.name for each in self.asked if is_summary(each.name)]
         probe = summaries or ["closeness min" if self._closed() else self._any_output()]
         found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps)
@@ -275,6 +275,8 @@ class _Work:
         ok[list(self.troubled)] = False
         if not ok.any():
             raise LinkwrightError(_none_moves(self.count, failures))
+        if usual:
+            self._leave_out_idle(ok)
         self._refuse_idle(ok)
         better = {each.name: each.better for each in self.asked}
         return Study(
@@ -322,6 +324,11 @@ class _Work:
         except LinkwrightError as error:
             self.troubled[index] = error.sentence
         self.notes |= dict.fromkeys(each.notes)
+
+    def _leave_out_idle(self, ok: NDArray[np.bool_]) -> None:
+        """Leaves out what nobody asked for and none of the designs that move has."""
+        found = {name: values for name, values in self.values.items() if not np.isnan(values[ok]).all()}
+        self.values = found or self.values
 
     def _refuse_idle(self, ok: NDArray[np.bool_]) -> None:
         """Raises for a metric that has a value for none of the designs that move."""
