@@ -47,6 +47,24 @@ class Wind(Load):
 
     def wrenches(self, site):
         return [Wrench(self.on, site.direction(0.0) * site.dimension("size"), site.place(self.on, self.at))]
+
+
+@LOADS.register("tether")
+@dataclass(frozen=True, kw_only=True)
+class Tether(Load):
+    """A force to the right at a point that grows with an output."""
+
+    kind: ClassVar[str] = "tether"
+    end: base.LinkPoint = base.point(doc="where it pulls")
+    follows: base.Output = base.output(doc="what it goes by")
+    rate: float = base.quantity("stiffness", doc="force per length")
+
+    def wrenches(self, site):
+        place = site.place(self.end.link, self.end.point)
+        return [Wrench(self.end.link, site.direction(0.0) * site.magnitude(), place)]
+
+    def from_cycle(self, signals):
+        return self.rate * signals.output(self.follows)[0]
 '''
 PACKAGE += LAW
 PACKAGE += '''
@@ -90,7 +108,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     importlib.import_module("windpackage")
     yield
     sys.path.remove(str(folder))
-    del sys.modules["windpackage"], LOADS._elements["wind"]
+    del sys.modules["windpackage"], LOADS._elements["wind"], LOADS._elements["tether"]
     del LAWS._elements["settling"], METRICS._elements["mean_crank_torque"]
 
 
@@ -175,3 +193,31 @@ def test_sweeps_and_derivatives_go_through_the_load(file: Path) -> None:
     assert found["input_torque", "max"] == pytest.approx(np.array(best), rel=1e-9)
     slope = lw.sensitivity(mechanism, of=["input_torque"], by=["loads.gust.size"], steps=40)
     assert slope.slope("input_torque", "loads.gust.size") == pytest.approx(unit, rel=1e-7, abs=1e-9)
+
+
+def test_a_load_of_its_own_way_follows_an_output_at_a_point() -> None:
+    """100 N per metre of the piston's place, at the same piston: power 100 s ds/dt, in numbers and in sweeps."""
+    text = MODEL.replace("LAW", "speed: 3 rad/s").replace("cycle: {duration: 2 s}\n", "")
+    tether = "{kind: tether, end: B, follows: guide, rate: 100 N/m}"
+    machine = lw.loads(text.replace("{kind: wind, on: piston, at: B, size: 50 N}", tether))
+    assert lw.loads(dump(machine)).loads == machine.loads and "loads.gust.rate" in machine.dimensions()
+    forces = lw.solve_forces(machine, steps=36)
+    turn = forces.motion.input
+    place = 0.2 * np.cos(turn) + np.sqrt(0.49 - 0.04 * np.sin(turn) ** 2)
+    slope = -0.2 * np.sin(turn) * (1 + 0.2 * np.cos(turn) / np.sqrt(0.49 - 0.04 * np.sin(turn) ** 2))
+    assert forces.load("gust").force[:, 0] == pytest.approx(100 * place)
+    assert forces.input_torque == pytest.approx(-100 * place * slope, abs=1e-9)
+    for wrong, said in (("end: Q", 'no point "Q"'), ("follows: guid", 'did you mean "guide"?')):
+        key = wrong.split(":")[0]
+        before = "end: B" if key == "end" else "follows: guide"
+        with pytest.raises(lw.LinkwrightError) as refused:
+            lw.loads(
+                text.replace("{kind: wind, on: piston, at: B, size: 50 N}", tether.replace(before, wrong))
+            )
+        assert said in str(refused.value)
+    found = lw.sweep(machine, {"loads.gust.rate": [100.0, 200.0]}, outputs=["driver.effort max"], steps=36)
+    assert found["driver.effort max"] == pytest.approx(np.array([1, 2]) * forces.input_torque.max())
+    with pytest.raises(
+        lw.LinkwrightError, match=r"loads\.gust: a load of the kind 'tether' is found from the whole cycle"
+    ):
+        lw.sensitivity(machine, of=["driver.effort max"], by=["crank.length"], steps=36)

@@ -254,7 +254,9 @@ def test_a_table_with_short_steps_is_a_straight_line_in_each() -> None:
 
 def test_cycles_that_are_too_coarse_or_not_passed_have_no_steady_running() -> None:
     crusher = lw.load("gallery:jaw_crusher_fourbar")
-    with pytest.raises(lw.LinkwrightError, match=r"cannot be evaluated between them; solve its cycle without"):
+    with pytest.raises(
+        lw.LinkwrightError, match=r"cannot be evaluated between them; solve its cycle without"
+    ):
         steady_running(lw.solve_forces(crusher, steps=2), fluctuation=0.02)
     short = lw.load("gallery:crank_rocker").with_dimensions({"coupler.length": 1.5, "rocker.mass": 1.0})
     marked = lw.solve_forces(lw.solve_motion(short, steps=36, failures="mark"))
