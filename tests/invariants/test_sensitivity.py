@@ -279,3 +279,25 @@ def test_relative_derivatives_are_percent_per_percent_and_none_of_zero() -> None
     )
     rows = found._repr_html_().split("<tr>")[2:]
     assert len(rows) == 4 and rows[0].count("<td") == 4 and ">0.1<" in rows[0] and ">2<" in rows[0]
+
+
+@pytest.mark.parametrize(("links", "turns"), [("[coupler, rocker]", False), ("[frame, crank]", True)])
+def test_torsion_springs_are_differentiated(links: str, turns: bool) -> None:
+    """Between links that a dyad places; on the crank, which winds it up whatever the lengths of the others."""
+    spring = f"{{kind: torsion_spring, links: {links}, stiffness: 20 N·m/rad, free_angle: 100 deg}}"
+    machine = lw.loads(lw.dump(lw.load("gallery:crank_rocker")) + f"\nloads: {{spring: {spring}}}\n")
+    by = ["coupler.length", "loads.spring.stiffness"]
+    found = sensitivity(machine, of=["driver.effort rms"], by=by, steps=36)
+
+    def alone(changes: dict[str, float]) -> float:
+        torque = lw.solve_forces(machine.with_dimensions(changes), steps=36).input_torque
+        return float(np.sqrt((torque**2).mean()))
+
+    for address, slope in zip(by, found.gradient("driver.effort rms"), strict=True):
+        value = machine.dimension(address)
+        ends = [alone({address: value + k * 1e-5 * value}) for k in (-1, 1)]
+        assert slope == pytest.approx((ends[1] - ends[0]) / (2e-5 * value), rel=1e-6, abs=1e-9)
+    assert found.value("driver.effort rms") == pytest.approx(alone({}), rel=1e-12)
+    swept = lw.sweep(machine, {by[0]: [3.1, 3.3]}, outputs=["driver.effort rms"], steps=36)
+    assert swept["driver.effort rms"] == pytest.approx([alone({by[0]: x}) for x in (3.1, 3.3)], rel=1e-9)
+    assert (found.gradient("driver.effort rms")[0] == 0.0) == turns
