@@ -245,6 +245,19 @@ def test_the_evaluation_of_two_presses_is_what_the_closed_forms_say() -> None:
         )
     machines = [loads(PRESS.replace("NAME", label).replace("CRANK", f"{r} m")) for label, r in sizes.items()]
     found = compare(machines, fluctuation=0.05)
+    ranked = found.text().split("100 = best in all)\n")[1].split("\n\n")[0].splitlines()
+    assert ranked[0] == "1. short: 100 of 100" and ranked[1].startswith(
+        "   best in: largest acceleration of the"
+    )
+    assert ranked[2].startswith("2. long: ") and len(ranked) == 6  # three reasons, the dearest first
+    assert (
+        ranked[3] == "   largest acceleration of the output: 28 m/s², against 12 m/s² of short (2.33 times)"
+    )
+    costs = [float(line.rsplit("(", 1)[1].split()[0]) for line in ranked[3:]]
+    assert costs == sorted(costs, reverse=True)
+    head, *rows = found._repr_html_().split("<tr>")[1:]
+    assert head.index(">short<") < head.index(">long<") and len(rows) == len(found.rows)
+    assert "travel of the output" in rows[0] and ">200 mm" in rows[0] and "400 mm" in rows[0]
     said = found.evaluation().splitlines()
     assert said[0] == f"Motion: {'; '.join(lines['motion'])}."
     assert said[1] == f"Pivot reaction: {'; '.join(lines['pivot'])}."
@@ -344,3 +357,24 @@ def test_summaries_of_outputs_are_compared_like_numbers() -> None:
     )
     with pytest.raises(lw.LinkwrightError, match=r"0\.4 m to 0\.6 m is missing"):
         compare([loads(short), loads(short)], metrics=["driver.effort rms"], steps=36)
+
+
+def test_the_gap_of_both_ways_to_the_torque_is_that_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lw.Forces, "power_residual", np.array([1.0, -5.0, 2.0]))
+    machines = [loads(PRESS.replace("NAME", a).replace("CRANK", "0.1 m")) for a in ("one", "other")]
+    said = compare(machines, metrics=["travel"], steps=24).evaluation()
+    assert said.count("it agrees within 0.5 N·m") == 2  # 5 W at 10 rad/s
+
+
+def test_what_is_zero_is_the_best_of_what_should_be_small() -> None:
+    """Wheels turn evenly; a crank-rocker's rocker does not."""
+    gears, rocker = lw.load("gallery:external_gear_pair"), lw.load("gallery:crank_rocker")
+    even = compare([gears, gears], metrics=["output_acceleration"], steps=24)
+    assert [rank.score for rank in even.ranking] == [1.0, 1.0]
+    mixed = compare([rocker, gears], metrics=["output_acceleration"], output=["rocker", "wheel"], steps=24)
+    assert [(rank.index, rank.score) for rank in mixed.ranking] == [(1, 1.0), (0, 0.0)]
+    assert mixed.rows[0].best == (1,)
+    assert "against 0 rad/s² of External gear pair\n" in mixed.text()
+    with pytest.raises(lw.LinkwrightError) as unknown:
+        mixed.value("travel", 0)
+    assert str(unknown.value) == "'travel' is not among the compared metrics; there is output_acceleration"
