@@ -302,9 +302,11 @@ cycle: {duration: 1 s}
     )
     found = sweep(turning, {"driver.speed": [3.0, -6.0]}, outputs=["A.velocity max"], steps=12)
     assert found["A.velocity max"] == pytest.approx([3.0, 6.0])
-    assert "positions of the input" in said(
-        lambda: sweep(turning, {"driver.start": [0.0, 0.1]}, outputs=["A.x max"])
-    )
+    for begin in (0.0, 1.0, -2.0):
+        started = turning.with_dimensions({"driver.start": begin})
+        assert "positions of the input" in said(
+            lambda m=started, b=begin: sweep(m, {"driver.start": [b, b + 0.1]}, outputs=["A.x max"])
+        )
 
 
 def test_objectives_that_have_no_gradient_or_another_shape() -> None:

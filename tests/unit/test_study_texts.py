@@ -98,6 +98,9 @@ def test_studies_and_sweeps_as_tables_of_notebooks(study: lw.Study) -> None:
         "coupler.length", "rocker.length", "travel [rad]", "transmission_angle [rad]", "B.velocity max [m/s]",
     ]  # fmt: skip
     assert frame["coupler.length"].to_numpy() == pytest.approx(np.repeat(np.linspace(1.2, 3.6, 7), 2))
+    heads, *lines = study.csv().splitlines()
+    assert heads == ",".join(frame.columns) and len(lines) == 14
+    assert lines[0] == "1.2,2.4,,," and float(lines[-1].split(",")[2]) == study["travel"][-1]
     assert repr(study).startswith(f"Study('{NAME}': 14 designs, 6 can move; coupler.length, ")
     machine = study.mechanism
     columns = {"coupler.length": [1.2, 3.4, 3.6]}
@@ -123,6 +126,18 @@ def test_studies_and_sweeps_as_tables_of_notebooks(study: lw.Study) -> None:
 def fourbar(name: str, coupler: float) -> lw.Mechanism:
     text = lw.dump(lw.load("gallery:crank_rocker")).replace(NAME, name)
     return lw.loads(text).with_dimensions({"coupler.length": coupler})
+
+
+def test_a_number_of_outputs_is_that_of_the_shared_one_unless_another_is_asked_for() -> None:
+    """The coupler's point is faster than the rocker turns, but the rocker is what is compared."""
+    machines = [fourbar("a", 3.0), fourbar("b", 3.4)]
+    names = ["peak_acceleration", "peak_acceleration rocker", "peak_acceleration coupler.P"]
+    found = lw.compare(machines, metrics=names, output="rocker", steps=72)
+    for k, machine in enumerate(machines):
+        alone = lw.metrics(lw.solve_motion(machine, steps=72), "peak_acceleration")
+        values = [alone.value("peak_acceleration", subject) for subject in ("rocker", "rocker", "coupler.P")]
+        assert [found.value(name, k) for name in names] == pytest.approx(values)
+        assert values[2] > values[1]
 
 
 def test_the_table_of_a_comparison_marks_the_best_and_says_what_decided() -> None:
@@ -191,6 +206,8 @@ def test_designs_barred_between_two_positions_are_said_to_be() -> None:
     machine = lw.load("tests/reference/faults/gap_between_samples.yaml")
     found = lw.study(machine, {"rocker.length": [0.69, 0.72, 0.695]}, metrics=["B.velocity max"], steps=5)
     assert found.ok.tolist() == [False, True, False]
+    (failure,) = found.failures
+    assert (failure.kind, failure.group, failure.designs.tolist()) == ("barred", None, [0, 2])
     failed = found.text().split("Designs that fail\n")[1]
     assert failed.startswith("2 between two positions; the first: ") and "short stretch" in failed
     assert "2 个在两个位置之间失败；第一个：" in found.text("zh")
