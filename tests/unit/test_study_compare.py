@@ -378,3 +378,14 @@ def test_what_is_zero_is_the_best_of_what_should_be_small() -> None:
     with pytest.raises(lw.LinkwrightError) as unknown:
         mixed.value("travel", 0)
     assert str(unknown.value) == "'travel' is not among the compared metrics; there is output_acceleration"
+
+
+def test_values_that_differ_by_rounding_alone_are_equally_good() -> None:
+    short = loads(PRESS.replace("NAME", "short").replace("CRANK", "0.1 m"))
+    alike = short.with_dimensions({"loads.work.magnitude": 2e3 * (1 + 1e-11)})
+    more = short.with_dimensions({"loads.work.magnitude": 2e3 * (1 + 1e-7)})
+    found = compare([short, alike, more], metrics=["peak_input_torque"], steps=24)
+    values = found.rows[0].values
+    assert values[0] is not None and values[1] is not None and values[0].value < values[1].value
+    assert found.rows[0].best == (0, 1)
+    assert compare([short, alike], metrics=["peak_input_torque"], steps=24).rows[0].best == ()

@@ -12,7 +12,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.study.criteria import criterion
-from linkwright.study.ranges import parse_range
+from linkwright.study.ranges import Range, parse_range
+from linkwright.study.sampling import grid
 from linkwright.study.study import study
 
 
@@ -250,3 +251,16 @@ def test_what_a_machine_does_not_have_is_left_out_where_nobody_asked(
     assert list(found.data()["metrics"]) == names
     with pytest.raises(lw.LinkwrightError, match=r"'transmission_angle' does not apply to .*; leave it out"):
         study(machine, {vary: [1.0, 2.0]}, metrics=["transmission_angle", "peak_reaction"], steps=24)
+
+
+def test_a_million_designs_are_the_most() -> None:
+    """The last range varies fastest."""
+    rows, columns = (Range(name, np.arange(1000.0)) for name in ("a", "b"))
+    designs = grid([rows, columns])
+    assert len(designs["a"]) == 1_000_000
+    assert (designs["a"][[999, 1000]], designs["b"][[999, 1000]]) == (
+        pytest.approx([0, 1]),
+        pytest.approx([999, 0]),
+    )
+    with pytest.raises(lw.LinkwrightError, match="the grid has 1001000 designs; give 1000000 or fewer"):
+        grid([rows, Range("c", np.arange(1001.0))])

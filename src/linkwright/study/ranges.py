@@ -172,7 +172,7 @@ def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
         "duration": "time",
         "turns": "dimensionless",
     }
-    return kinds.get(parts[-1])
+    return kinds.get(parts[1])
 
 
 def _declared(fields: Mapping[str, Field], key: str) -> str | None:
