@@ -124,3 +124,17 @@ def test_the_printing_press_shows_its_cam_under_its_roller() -> None:
             gap, bounds=(near - 0.02, near + 0.02), method="bounded", options={"xatol": 1e-9}
         )
         assert best.fun == pytest.approx(roller.radius, abs=1e-9 * 0.06)
+
+
+@pytest.mark.parametrize(("held", "side"), CASES)
+@pytest.mark.parametrize("touch", ["roller", "knife", "flat"])
+def test_every_drawn_line_goes_round_the_cam_once(held: dict[str, str], side: str, touch: str) -> None:
+    """By the angle that its points turn about the cam's centre, each a little from the one before."""
+    mechanism = lw.loads(text_of(held, side, touch, "counterclockwise"))
+    cam, _ = mechanism.joints["lobe"].marks(mechanism, {})
+    centre = complex(*mechanism.links["cam"].points["O"])
+    for line in filter(len, cam.outlines):
+        place = np.array(line) @ [1, 1j] - centre
+        turned = np.angle(np.roll(place, -1) / place)
+        assert abs(turned.sum()) == pytest.approx(2.0 * np.pi)
+        assert np.abs(turned).max() < 0.1
