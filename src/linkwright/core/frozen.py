@@ -48,8 +48,9 @@ def frozen(value: Any) -> Any:
     """The same array or mapping, arrays within mappings too, read-only; everything else as it is."""
     if value is None or type(value) in _FROZEN:
         return value
-    numpy = sys.modules.get("numpy")  # a model alone needs none
-    if numpy is not None and isinstance(value, numpy.ndarray):
+    # a model alone needs no arrays; where another thread is still importing NumPy there are none yet
+    array = getattr(sys.modules.get("numpy"), "ndarray", None)
+    if array is not None and isinstance(value, array):
         return locked(value)
     if isinstance(value, Mapping):
         return FrozenDict({key: frozen(each) for key, each in value.items()})

@@ -42,9 +42,9 @@ from linkwright.words.titles import title_said
 Progress = Callable[[int, int], None]
 #: Evaluations where designs go one after the other and nobody says how many; seconds between two saved states.
 SLOW, SAVED = 400, 2.0
-#: Share of the evaluations that the first designs take, how many of them the local search starts from, its steps, and
-#: how far apart they lie in the cube.
-SAMPLED, STARTS, FEW, APART = 0.5, 16, 15, 0.1
+#: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local
+#: search starts from, its steps, and how far apart they lie in the cube.
+SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 15, 0.1
 #: Designs that are polished in the end for each objective; places along a front.
 POLISHED, FRONT = 3, 48
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
@@ -195,6 +195,7 @@ class _Run:
         try:
             state = self._begun()
             snapshot = state.data()
+            self._tell(state)
             while state.evaluations < self.most and not idle(state):
                 generation(self.task, state)
                 snapshot = state.data()
@@ -230,7 +231,7 @@ class _Run:
         """The first population: the best of many designs, some of them after a short local search."""
         if not self.task.measures.side_by_side:
             return begin(self.task, self.size)
-        state = begin(self.task, max(self.size, int(SAMPLED * self.most)))
+        state = begin(self.task, max(self.size, min(int(SAMPLED * self.most), AT_ONCE)))
         goals = state.judged.goals.shape[1]
         better = self._descended(state.judged, spread(goals, STARTS), STARTS, APART, FEW)
         judged = joined(state.judged, better, _NO_ROWS, np.arange(len(better.x)))

@@ -197,9 +197,10 @@ class Case:
     @cached_property
     def numbered(self) -> Numbered:
         """Equally spaced positions from a limit position of the output on (else from the start)."""
-        count, motion = self.settings.positions or self._usual, self.motion
+        motion = self.motion
         if not self.mechanism.drivers:
             return Numbered(motion, (0,), None, "")
+        count = self.settings.positions or self._usual
         output, limit = self._first_limit()
         period = motion.positions.period
         if not motion.positions.closed or period is None:
