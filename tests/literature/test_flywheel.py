@@ -17,9 +17,11 @@ from linkwright.machine import (
     energy_fluctuation,
     equivalent_torque,
     fluctuation_from_areas,
+    flywheel_inertia,
     motor,
     on_faster_shaft,
     rim,
+    speed_fluctuation,
     steady_running,
     true_speed,
 )
@@ -262,3 +264,9 @@ def test_cycles_that_are_too_coarse_or_not_passed_have_no_steady_running() -> No
     marked = lw.solve_forces(lw.solve_motion(short, steps=36, failures="mark"))
     with pytest.raises(lw.LinkwrightError, match="does not reach all positions of its cycle"):
         steady_running(marked, fluctuation=0.02)
+
+
+def test_a_shaft_may_turn_either_way() -> None:
+    for speed in (12.0, -12.0):
+        assert speed_fluctuation(30.0, speed, 5.0) == pytest.approx(30.0 / (5.0 * 144.0), rel=1e-14)
+        assert flywheel_inertia(30.0, speed, 0.04) == pytest.approx(30.0 / (0.04 * 144.0), rel=1e-14)

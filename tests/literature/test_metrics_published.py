@@ -197,3 +197,28 @@ def test_four_bars_of_larger_linkages() -> None:
         assert loop.margin == pytest.approx(p + q - s - longest)
     assert (first.type, second.type) == ("crank_rocker", "triple_rocker")
     assert (first.shortest, second.shortest) == ("crank", "rocker")
+
+
+@pytest.mark.parametrize("start", ["0 deg", "30 deg", "180 deg"])
+def test_the_range_of_a_crank_that_does_not_turn_through(start: str) -> None:
+    """The crank reaches as far as coupler and rocker are stretched (law of cosines), wherever the cycle begins."""
+    fourbar = lw.loads(f"""
+format: 1
+frame: {{points: {{O: [0 mm, 0 mm], Q: [100 mm, 0 mm]}}}}
+links:
+  crank: {{points: [O, A], length: 70 mm}}
+  coupler: {{points: [A, B], length: 50 mm}}
+  rocker: {{points: [Q, B], length: 40 mm}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O, speed: 1 rad/s, start: {start}}}
+""")
+    (found,) = metrics(lw.solve_motion(fourbar, steps=72, failures="mark"))["range_of_motion"]
+    half = acos((70**2 + 100**2 - 90**2) / (2 * 70 * 100))
+    assert (found.subject, found.value) == ("driver", pytest.approx(2 * half, rel=1e-9))
+
+
+def test_velocity_ratio_and_mechanical_advantage_say_what_they_are() -> None:
+    table = metrics(lw.solve_motion(lw.load("gallery:slider_crank_inline")))
+    (ratio,), (advantage,) = table["velocity_ratio"], table["mechanical_advantage"]
+    assert (ratio.dimension, advantage.dimension) == ("length_per_angle", "angle_per_length")
+    assert ratio.value * advantage.value == pytest.approx(1.0, rel=1e-12)
