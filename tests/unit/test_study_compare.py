@@ -389,3 +389,13 @@ def test_values_that_differ_by_rounding_alone_are_equally_good() -> None:
     assert values[0] is not None and values[1] is not None and values[0].value < values[1].value
     assert found.rows[0].best == (0, 1)
     assert compare([short, alike], metrics=["peak_input_torque"], steps=24).rows[0].best == ()
+
+
+def test_a_summary_is_that_of_the_machine_with_its_own_gravity() -> None:
+    """The balancing torque's root mean square of a machine that hangs askew, from the forces solved alone."""
+    crusher = replace(lw.load("gallery:jaw_crusher_sixbar"), gravity=(3.0, -9.0))
+    longer = crusher.with_dimensions({"crank.length": 1.01 * crusher.dimension("crank.length")})
+    found = lw.compare([crusher, longer], metrics=["driver.effort rms"])
+    for label, machine in zip(found.labels, (crusher, longer), strict=True):
+        torque = lw.solve_forces(machine).input_torque
+        assert found.value("driver.effort rms", label) == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)
