@@ -1,156 +1,22 @@
-"""Inputs of a megabyte or less that grow in one direction are answered in two seconds."""
+"""Inputs of a megabyte or less that grow in one direction are answered with little work."""
 
-import time
-from collections.abc import Callable
-from math import cos, sin
 from pathlib import Path
 
 import pytest
-from tests.failures.pace import at_once
+from tests.large_inputs import INPUTS, parallelograms
+from tests.work import AT_ONCE, calls
 
 from linkwright.cli import main
 from linkwright.files.model_file import read_text
 
-MODEL = """\
-format: 1
-frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
-links:
-  crank: {points: [O1, A], length: LENGTH}
-  coupler: {points: [A, B], length: 3.5 m}
-  rocker: {points: [O2, B], length: 3 m}
-assembly: {B: left}
-driver: {turn: crank, about: O1, speed: 10 rpm}
-"""
-
-
-def with_length(text: str, before: str = "", after: str = "") -> str:
-    return before + MODEL.replace("LENGTH", text) + after
-
-
-def chain(dyads: int) -> str:
-    """A crank and a row of dyads, each driven by the one before it."""
-    pivots = ", ".join(f"O{i}: [{4 * i} m, 0 m]" for i in range(dyads + 1))
-    links = ["  crank: {points: [O0, B0], length: 1 m}"]
-    for i in range(1, dyads + 1):
-        links += [
-            f"  c{i}: {{points: [B{i - 1}, B{i}], length: 4 m}}",
-            f"  r{i}: {{points: [O{i}, B{i}], length: 2 m}}",
-        ]
-    words = ", ".join(f"B{i}: left" for i in range(1, dyads + 1))
-    driver = "driver: {turn: crank, about: O0, speed: 10 rpm}\n"
-    return (
-        f"format: 1\nframe: {{points: {{{pivots}}}}}\nlinks:\n"
-        + "\n".join(links)
-        + f"\nassembly: {{{words}}}\n"
-        + driver
-    )
-
-
-def parallelograms(count: int) -> str:
-    """A row of parallelograms, each with a third rocker that the others make redundant, drawn."""
-    across, up = 0.4 * cos(0.9), 0.4 * sin(0.9)
-    pivots = [f"O{i}: [{i} m, 0 m], M{i}: [{i + 0.5} m, 0 m]" for i in range(count + 1)]
-    links = [f"  r{i}: {{points: [O{i}, A{i}], length: 0.4 m}}" for i in range(count + 1)]
-    for i in range(count):
-        links += [
-            f"  c{i}: {{points: [A{i}, A{i + 1}], length: 1 m, also: {{B{i}: [0.5 m, 0 m]}}}}",
-            f"  m{i}: {{points: [M{i}, B{i}], length: 0.4 m}}",
-        ]
-    places = {f"A{i}": i for i in range(count + 1)} | {f"B{i}": i + 0.5 for i in range(count)}
-    drawn = [f"{name}: [{place + across} m, {up} m]" for name, place in places.items()]
-    return (
-        f"format: 1\nframe: {{points: {{{', '.join(pivots)}}}}}\nlinks:\n"
-        + "\n".join(links)
-        + f"\ndrawing: {{{', '.join(drawn)}}}\ndriver: {{turn: r0, about: O0, speed: 10 rpm}}\n"
-    )
-
-
-def parameters(rows: list[str]) -> str:
-    return "parameters:\n" + "".join(f"  {row}\n" for row in rows)
-
-
-#: (text, whether it is a model)
-INPUTS: dict[str, tuple[Callable[[], str], bool]] = {
-    "digits": (lambda: with_length("1" * 900_000), False),
-    "nearly a number": (lambda: with_length("1 " + "m" * 990), False),
-    "exponents": (lambda: with_length("1e" * 490), False),
-    "superscripts": (lambda: with_length("1 m" + "²" * 900), False),
-    "units": (lambda: with_length("1 m" + "*m" * 450), False),
-    "dashes": (lambda: with_length("1 " + "a-" * 450), False),
-    "minus signs": (lambda: with_length('"' + "-" * 990 + '1"'), False),
-    "parentheses": (lambda: with_length("(" * 400 + "1 m" + ")" * 400), False),
-    "spaces": (lambda: with_length("1" + " " * 900_000 + "x"), False),
-    "eighty factors": (lambda: with_length("a*" * 80 + "l", "parameters: {a: 1, l: 1 m}\n"), True),
-    "three hundred factors": (lambda: with_length("a*" * 300 + "l", "parameters: {a: 1, l: 1 m}\n"), True),
-    "chained parameters": (
-        lambda: with_length("p2999", parameters(["p0: 1 m", *(f"p{i}: p{i - 1}" for i in range(1, 3000))])),
-        True,
-    ),
-    "parameters defined below": (
-        lambda: with_length("p2999", parameters([*(f"p{i}: p{i - 1}" for i in range(2999, 0, -1)), "p0: 1 m"])),
-        False,
-    ),
-    "a broken parameter": (
-        lambda: with_length("p2999", parameters(["p0: 1 xx", *(f"p{i}: p{i - 1}" for i in range(1, 3000))])),
-        False,
-    ),
-    "unknown names": (lambda: with_length("1 m", parameters([f"p{i}: q{i} + 1 m" for i in range(9000)])), False),
-    "a long block": (lambda: with_length("1 m", "purpose: |\n" + ("  " + "x" * 78 + "\n") * 12_000), True),
-    "a long line": (lambda: with_length("1 m", "purpose: " + "x " * 450_000 + "\n"), True),
-    "a comment": (lambda: with_length("1 m", "#" * 900_000 + "\n"), True),
-    "empty lines": (lambda: with_length("1 m", "\n" * 900_000), True),
-    "tabs": (lambda: "a \t \t\t" * 140_000, False),
-    "six hundred links": (lambda: chain(299), True),
-    "deep lists": (lambda: "a: " + "[" * 500_000, False),
-    "deep mappings": (lambda: "a: " + "{a: " * 200_000, False),
-    "deep dashes": (lambda: "- " * 400_000, False),
-    "deep blocks": (lambda: "".join(" " * i + "a:\n" for i in range(1300)), False),
-    "question marks": (lambda: "? " * 400_000, False),
-    "exploding aliases": (
-        lambda: "a: &a [x,x,x,x,x,x,x,x,x,x]\n"
-        + "".join(f"{c}: &{c} [{','.join(['*' + chr(ord(c) - 1)] * 10)}]\n" for c in "bcdefghij"),
-        False,
-    ),
-    "unknown keys": (lambda: with_length("1 m", "".join(f"key{i}: 1\n" for i in range(14_000))), False),
-    "a long key": (lambda: with_length("1 m", '? "' + "k" * 900_000 + '"\n: 1\n'), False),
-    "a long word": (lambda: with_length("1 m").replace("turn: crank", "turn: " + "c" * 900_000), False),
-    "many links": (
-        lambda: "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n"
-        + "".join(f"  l{i}: {{points: [O1, A], length: 1 m}}\n" for i in range(3500)),
-        False,
-    ),
-    "many points": (
-        lambda: "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n  a: {points: [O1, A], length: 1 m, also: {"
-        + ", ".join(f"P{i}: [1 m, {i + 1} mm]" for i in range(7000))
-        + "}, mass: 1 kg, inertia: 1 kg*m^2}\ndriver: {turn: a, about: O1, speed: 1 rpm}\n",
-        True,
-    ),
-    "many loads": (
-        lambda: with_length("1 m", after="loads:\n" + "".join(
-            f'  l{i}: {{kind: force, on: crank, at: A, direction: 0 deg, magnitude: "1 N*sin(crank)"}}\n'
-            for i in range(1500)
-        )),
-        True,
-    ),
-    "a long table": (
-        lambda: with_length("1 m").replace(
-            "speed: 10 rpm",
-            f"table: {{time: [{', '.join(f'{i} s' for i in range(13_000))}], "
-            f"position: [{', '.join(f'{i % 7} deg' for i in range(13_000))}]}}",
-        ),
-        True,
-    ),
-}  # fmt: skip
-
 
 @pytest.mark.parametrize("name", INPUTS)
-def test_it_is_answered_in_two_seconds(name: str) -> None:
+def test_it_is_answered_at_once(name: str) -> None:
     make, is_model = INPUTS[name]
     text = make()
     assert len(text.encode()) <= 1_000_000
-    began = time.process_time()
     mechanism, findings = read_text(text, "m.yaml")
-    assert time.process_time() - began < at_once()
+    assert calls(lambda: read_text(text, "m.yaml")) < AT_ONCE
     assert (mechanism is not None) == is_model, findings[:3]
     assert is_model or findings
     assert len(findings) <= 301
@@ -158,28 +24,19 @@ def test_it_is_answered_in_two_seconds(name: str) -> None:
 
 @pytest.mark.parametrize("command", ["structure", "check"])
 @pytest.mark.parametrize("name", ["six hundred links", "many points", "many loads", "a long table"])
-def test_commands_answer_large_models_in_two_seconds(
+def test_commands_answer_large_models_at_once(
     name: str, command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "m.yaml"
     path.write_text(INPUTS[name][0](), encoding="utf-8")
-    began = time.process_time()
-    assert main([command, str(path)]) == 0
-    assert time.process_time() - began < at_once()
+    assert calls(lambda: main([command, str(path)])) < AT_ONCE
     assert "obility" in capsys.readouterr().out
 
 
-def test_sixty_links_too_many_are_named_in_two_seconds(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    small, path = tmp_path / "small.yaml", tmp_path / "m.yaml"
-    small.write_text(parallelograms(2), encoding="utf-8")
+def test_sixty_links_too_many_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "m.yaml"
     path.write_text(parallelograms(60), encoding="utf-8")
-    assert main(["check", str(small)]) == 1  # modules are imported when they are first needed
-    capsys.readouterr()
-    began = time.process_time()
     assert main(["check", str(path)]) == 1
-    assert time.process_time() - began < at_once()
     said = capsys.readouterr().out
     named = ", ".join(f"'m{i}'" for i in reversed(range(60)))
     assert f"the rank of the Jacobian in the drawing gives 1: the links {named} are redundant" in said

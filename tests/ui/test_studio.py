@@ -516,7 +516,6 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         errors: list[str] = []
         tab.on("pageerror", lambda error: errors.append(str(error)))
         tab.set_default_timeout(20_000)
-        begin = time.monotonic()
         tab.goto(studio.url)
         tab.wait_for_selector("svg.drafting")
         box = tab.locator("svg.drafting").bounding_box()
@@ -548,7 +547,6 @@ def test_a_fourbar_drawn_from_nothing(tmp_path: Path) -> None:
         tab.get_by_label("File name").fill("drawn.yaml")
         tab.get_by_role("button", name="Save", exact=True).click()
         tab.locator(".said", has_text="Saved.").wait_for()
-        assert time.monotonic() - begin < 120
         text = (tmp_path / "drawn.yaml").read_text()
         assert lw.solve_forces(lw.solve_motion(lw.loads(text))).input_torque.any()
         before = tab.locator("textarea").input_value()

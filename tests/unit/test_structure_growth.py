@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import random
-import time
 
 import pytest
+from tests.work import calls
 
 import linkwright as lw
 
@@ -34,20 +34,11 @@ def chain(dyads: int, order: str) -> lw.Mechanism:
     )
 
 
-def seconds(mechanism: lw.Mechanism) -> float:
-    """Least time of the processor for one analysis."""
-    least = float("inf")
-    for _ in range(5):
-        begin = time.process_time()
-        lw.structure(mechanism)
-        least = min(least, time.process_time() - begin)
-    return least
-
-
 @pytest.mark.parametrize("order", ["file", "reversed", "shuffled"])
 def test_structure_grows_linearly(order: str) -> None:
     few, many = chain(FEW, order), chain(MANY, order)
     found = lw.structure(many)
     assert [len(group.links) for group in found.groups] == [1] + [2] * MANY
     assert {group.signature for group in found.groups[1:]} == {"RRR"}
-    assert seconds(many) / seconds(few) < (MANY / FEW) ** 1.4
+    growth = calls(lambda: lw.structure(many)) / calls(lambda: lw.structure(few))
+    assert 1.0 < growth < (MANY / FEW) ** 1.1
