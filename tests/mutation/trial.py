@@ -22,7 +22,7 @@ from tests.mutation.covering import ROOT, SOURCE
 #: Imported once, before the processes are forked; nothing of the package is among them.
 HEAVY = (
     "numpy", "scipy.optimize", "scipy.interpolate", "scipy.stats", "scipy.linalg", "pytest",
-    "hypothesis", "llvmlite.binding", "yaml", "mpmath", "matplotlib.figure", "pandas", "ast", "unittest.mock",
+    "llvmlite.binding", "yaml", "mpmath", "matplotlib.figure", "pandas", "ast", "unittest.mock",
 )  # fmt: skip
 QUIETLY = (
     "-x",
