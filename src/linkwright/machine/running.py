@@ -140,7 +140,7 @@ def steady_running(
     energy = reduced.energy
     formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
     cycle = SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
-    exact = _exact(cycle, reduced.mean_inertia, fluctuation, formula)
+    exact = cycle.flywheel(fluctuation, formula)
     return SteadyRunning(
         equivalent=reduced,
         energy=energy,
@@ -166,35 +166,3 @@ def _require_load(mean: float, forces: Forces) -> None:
         raise LinkwrightError(Sentence("running.no_work", name=forces.mechanism.name))
     if mean < 0:
         raise LinkwrightError(Sentence("running.driven_by_loads", name=forces.mechanism.name, mean=mean))
-
-
-def _exact(cycle: SteadyCycle, present: float, required: float, first: float) -> float:
-    """Flywheel with which the true fluctuation is the required one; zero where none is needed.
-
-    By steps that would be exact if the fluctuation were inverse to the inertia, then by secants through two of them.
-    """
-
-    def reached(flywheel: float) -> float | None:
-        try:
-            return cycle.fluctuation(flywheel)
-        except LinkwrightError:
-            return None
-
-    alone = reached(0.0)
-    if alone is not None and alone <= required:
-        return 0.0
-    here, before = max(first, 0.1 * present), None
-    for _ in range(60):
-        found = reached(here)
-        if found is None:
-            here, before = 2.0 * here + present, None
-            continue
-        step = (here + present) * (found / required - 1.0)
-        following = here + step
-        if before is not None and step != before[1]:
-            secant = here - step * (here - before[0]) / (step - before[1])
-            following = secant if abs(secant - following) < abs(step) else following
-        if abs(following - here) <= 1e-12 * (here + present):
-            return following
-        before, here = (here, step), max(following, 1e-3 * here)
-    return here

@@ -9,25 +9,14 @@ from functools import cached_property, partial
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import (
-    POINTS,
-    WEIGHTS,
-    Extreme,
-    Floats,
-    Function,
-    Integral,
-    Piecewise,
-    at_nodes,
-    nodes,
-)
+from linkwright.core.piecewise import WEIGHTS, Extreme, Floats, Function, Integral, Piecewise, at_nodes, nodes
 from linkwright.errors import LinkwrightError
+from linkwright.machine.speeds import Speeds, SteadyCycles, in_pieces
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops.
 STOPPED = 1e-9
-#: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
-LAST = 1e-9
 #: How often pieces are halved where the speed that was found is not smooth, and it is found again.
 ROUNDS = 8
 
@@ -105,35 +94,52 @@ class SteadyCycle:
 
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
-        self._done, self._inertia = work.at_nodes.ravel(), at_nodes(own, work.edges).ravel()
-        self._shares = _shares(work.edges)
         self._least = Piecewise(work.edges, work.at_nodes).extreme("min").value
-        self._known: dict[float, tuple[float, Extreme, Extreme]] = {}
+        self._first = self._cycles(work.edges, work.at_nodes, at_nodes(own, work.edges))
+        self._known: dict[float, _Solved] = {}
 
     def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
         """The speed; raises LinkwrightError for a machine that would stop, or has no inertia somewhere."""
-        energy, *extremes = self._solved(flywheel)
+        found = self._solved(flywheel)
         start, end = self.work.edges[[0, -1]].tolist()
         angle = np.linspace(start, end, steps + 1)
-        low, high = ((found.place, found.value) for found in extremes)
-        return SpeedCurve(angle, self.speed, low, high, motor_torque, partial(self._at, flywheel, energy))
+        low, high = ((each.place, each.value) for each in (found.slowest, found.fastest))
+        return SpeedCurve(
+            angle, self.speed, low, high, motor_torque, partial(self._at, flywheel, found.energy)
+        )
 
     def fluctuation(self, flywheel: float) -> float:
         """Coefficient of speed fluctuation; raises as ``curve``."""
-        _, low, high = self._solved(flywheel)
-        return (high.value - low.value) / self.speed
+        found = self._solved(flywheel)
+        return (found.fastest.value - found.slowest.value) / self.speed
 
-    def _solved(self, flywheel: float) -> tuple[float, Extreme, Extreme]:
-        """Energy at the period's begin, J, the smallest and the largest speed."""
+    def flywheel(self, fluctuation: float, first: float) -> float:
+        """The flywheel with which the speed fluctuates by just this share of its mean; zero where none is needed.
+
+        ``first``: one to begin with. Raises as ``curve``, and where none is found.
+        """
+        edges, cycles = self.work.edges, self._first
+        for _ in range(ROUNDS):
+            size = float(cycles.flywheel(fluctuation, np.array([first]))[0])
+            if np.isnan(size):
+                raise LinkwrightError(Sentence("running.no_flywheel", fluctuation=fluctuation))
+            finer = self._solved(size).edges
+            if len(finer) == len(edges):
+                break
+            edges, cycles = finer, self._at_edges(finer)
+        return size
+
+    def _solved(self, flywheel: float) -> _Solved:
         if flywheel not in self._known:
             self._known[flywheel] = self._found(flywheel)
         return self._known[flywheel]
 
-    def _found(self, flywheel: float) -> tuple[float, Extreme, Extreme]:
-        edges, done, inertia, shares = self.work.edges, self._done, flywheel + self._inertia, self._shares
+    def _found(self, flywheel: float) -> _Solved:
+        edges, cycles = self.work.edges, self._first
         for _ in range(ROUNDS):
-            energy = _initial_energy(done, inertia, shares, self.speed, self._least)
-            speed = np.sqrt(2.0 * (energy + done) / inertia).reshape(-1, POINTS)
+            found = cycles.at(np.array([flywheel]))
+            energy = self._energy(found)
+            speed = self.speed * found.values[0].T
             curve = Piecewise(edges, speed)
             if curve.smooth.all():
                 break
@@ -141,18 +147,41 @@ class SteadyCycle:
             if len(curve.edges) == len(edges):
                 break
             edges = curve.edges
-            at, shares = nodes(edges).ravel(), _shares(edges)
-            done, inertia = self.work(at), flywheel + self.own(at)
-        return energy, *curve.extremes()
+            cycles = self._at_edges(edges)
+        return _Solved(edges, energy, *curve.extremes())
+
+    def _energy(self, found: Speeds) -> float:
+        """The energy at the period's begin, J."""
+        if not found.inertia.min() > 0.0:
+            raise LinkwrightError(Sentence("running.no_inertia"))
+        unit = 0.5 * self.speed * self.speed
+        energy = unit * float(found.energy[0])
+        if energy + self._least <= STOPPED * unit * float(found.inertia.max()):
+            raise LinkwrightError(Sentence("running.would_stop"))
+        return energy
+
+    def _at_edges(self, edges: Floats) -> SteadyCycles:
+        at = nodes(edges).ravel()
+        return self._cycles(edges, self.work(at), self.own(at))
+
+    def _cycles(self, edges: Floats, work: Floats, inertia: Floats) -> SteadyCycles:
+        share = 0.5 * np.diff(edges)[:, None] * WEIGHTS / (edges[-1] - edges[0])
+        return SteadyCycles(
+            in_pieces(share), in_pieces(work) / (0.5 * self.speed * self.speed), in_pieces(inertia)
+        )
 
     def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:
         return np.asarray(np.sqrt(2.0 * (energy + self.work(angle)) / (flywheel + self.own(angle))))
 
 
-def _shares(edges: Floats) -> Floats:
-    """Shares of all Gauss points in the way between the outer edges."""
-    widths = np.diff(edges)[:, None]
-    return np.asarray((0.5 * widths * WEIGHTS).ravel() / (edges[-1] - edges[0]))
+@dataclass(frozen=True)
+class _Solved:
+    """Edges of the pieces, energy at the period's begin, J, the smallest and the largest speed."""
+
+    edges: Floats
+    energy: float
+    slowest: Extreme
+    fastest: Extreme
 
 
 def _constant(inertia: float) -> Function:
@@ -163,29 +192,3 @@ def _constant(inertia: float) -> Function:
 
 def _same(value: float, angle: Floats) -> Floats:
     return np.full(angle.shape, value)
-
-
-def _initial_energy(work: Floats, inertia: Floats, weights: Floats, speed: float, least: float) -> float:
-    """E0 with which the mean of 1/ω over the angle is 1/speed, by safeguarded Newton steps.
-
-    ``weights`` of the mean over the angle at the places of ``work`` and ``inertia``; ``least``: smallest work, J.
-    """
-    if not (inertia > 0).all():
-        raise LinkwrightError(Sentence("running.no_inertia"))
-    low, scale = -least, 0.5 * speed * speed * float(inertia.max())
-    high = low + scale
-    energy = 0.5 * speed * speed * float(weights @ inertia) - float(weights @ work)
-    energy = energy if low < energy < high else high
-    half = 0.5 * inertia
-    for _ in range(200):
-        kinetic = energy + work
-        slowness = np.sqrt(half / kinetic) * weights
-        gap, slope = float(slowness.sum()) - 1.0 / speed, -0.5 * float((slowness / kinetic).sum())
-        low, high = (energy, high) if gap > 0 else (low, energy)
-        newton = energy - gap / slope
-        before, energy = energy, newton if low < newton < high else 0.5 * (low + high)
-        if abs(energy - before) <= max(1e-15 * scale, LAST * (energy + least) if energy == newton else 0.0):
-            break
-    if energy + least <= STOPPED * scale:
-        raise LinkwrightError(Sentence("running.would_stop"))
-    return energy

@@ -27,6 +27,8 @@ WORDS = {
     "machine instead of resisting; check the direction of the loads",
     "bad_speed": "the mean speed is {speed:g} rad/s; give a value above zero",
     "no_inertia": "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel",
+    "no_flywheel": "no flywheel was found with which the speed fluctuates by just {fluctuation:g}; ask for another "
+    "coefficient",
     "would_stop": "the kinetic energy does not suffice to carry the machine over its cycle at this mean "
     "speed: it would stop; add a flywheel or raise the speed",
     "bad_period": "the period of a torque curve is {period:g} rad; give an angle above zero",

@@ -1,0 +1,170 @@
+"""The true speed of many machines side by side, from signals at the Gauss points of their cycles."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.piecewise import POINTS, TO_LAST, Floats, Peak, largest, weights_at
+
+#: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
+LAST = 1e-9
+#: Newton's steps for an energy, and for a flywheel; where these change by less than a share, they are found.
+STEPS, SIZES, FOUND = 200, 40, 1e-13
+
+
+@dataclass(frozen=True, eq=False)
+class Speeds:
+    """Speeds ω of some machines over their mean, (designs, POINTS, pieces), and what they follow from.
+
+    ``kinetic``: 2 E/ω_mean², kg·m², of the kinetic energy E; ``inertia``: all of it, flywheels included, kg·m².
+    """
+
+    kinetic: Floats
+    inertia: Floats
+    energy: Floats
+
+    @cached_property
+    def values(self) -> Floats:
+        """ω/ω_mean = √(kinetic / inertia)."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.sqrt(self.kinetic / self.inertia)
+
+    @cached_property
+    def fastest(self) -> Peak:
+        """The largest speed over the mean: piece, place in it, value, size of the last orders."""
+        return largest(self.values, self.values.max(axis=1))
+
+    @cached_property
+    def slowest(self) -> Peak:
+        """The same of the smallest one; the value is negative."""
+        return largest(-self.values, -self.values.min(axis=1))
+
+    @property
+    def fluctuation(self) -> Floats:
+        """(ω_max - ω_min)/ω_mean, (designs,)."""
+        return np.asarray(self.fastest[2] + self.slowest[2])
+
+    @property
+    def rough(self) -> Floats:
+        """How far polynomials are from meeting speed and slowness, as shares of the mean ones, (designs,)."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            last = (np.abs(TO_LAST.T @ each).max(axis=(1, 2)) for each in (self.values, 1.0 / self.values))
+            return np.asarray(np.maximum(*last))
+
+    def weights(self, fastest: float, slowest: float) -> Floats:
+        """Weights of the speeds at the Gauss points in a sum of the largest and the smallest one."""
+        found = np.zeros_like(self.values)
+        rows = np.arange(len(found))
+        for share, (piece, place, _, _) in ((fastest, self.fastest), (slowest, self.slowest)):
+            if share:
+                found[rows, :, piece] += share * weights_at(place)
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """Derivatives of a number of each design by excess work (as kg·m²), inertia and share of every Gauss point.
+
+    ``flywheel``: by the flywheel, (designs,).
+    """
+
+    excess: Floats
+    inertia: Floats
+    share: Floats
+    flywheel: Floats
+
+    def scaled(self, by: Floats) -> Slopes:
+        """The same of a multiple."""
+        each = by[:, None, None]
+        return Slopes(self.excess * each, self.inertia * each, self.share * each, self.flywheel * by)
+
+
+class SteadyCycles:
+    """Cycles of steady running of some machines, (designs, POINTS, pieces) each: ½ J ω² = E0 + W.
+
+    ``share``: a point's share of the angle of the period; ``excess``: 2 W/ω_mean², kg·m², of the excess work W of the
+    driver; ``inertia``: J without a flywheel, kg·m². E0 follows from the mean speed: the mean of ω_mean/ω over the
+    angle is 1.
+    """
+
+    def __init__(self, share: Floats, excess: Floats, inertia: Floats) -> None:
+        self.share, self.excess, self.inertia = share, excess, inertia
+
+    def at(self, flywheel: Floats) -> Speeds:
+        """The speeds with flywheels (designs,), kg·m²; NaN where there is no inertia somewhere."""
+        inertia = self.inertia + flywheel[:, None, None]
+        energy = self._energy(inertia)
+        return Speeds(energy[:, None, None] + self.excess, inertia, energy)
+
+    def _energy(self, inertia: Floats) -> Floats:
+        """2 E0/ω_mean² by safeguarded Newton's steps for the square of the mean speed, (designs,)."""
+        designs = len(inertia)
+        share, excess, inertia = (each.reshape(designs, -1) for each in (self.share, self.excess, inertia))
+        least, scale = excess.min(axis=1), inertia.max(axis=1)
+        low, high = -least, scale - least
+        energy = np.einsum("dn,dn->d", share, inertia - excess)
+        energy = np.where((low < energy) & (energy < high), energy, high)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            for _ in range(STEPS):
+                kinetic = energy[:, None] + excess
+                slowness = np.sqrt(inertia / kinetic)
+                mean = np.einsum("dn,dn->d", share, slowness)
+                slope = np.einsum("dn,dn->d", share, slowness / kinetic)
+                low, high = np.where(mean > 1.0, energy, low), np.where(mean > 1.0, high, energy)
+                newton = energy + mean * (mean * mean - 1.0) / slope
+                inside = (low < newton) & (newton < high)
+                before, energy = energy, np.where(inside, newton, 0.5 * (low + high))
+                enough = np.maximum(1e-15 * scale, np.where(inside, LAST * (energy + least), 0.0))
+                if not (np.abs(energy - before) > enough).any():
+                    break
+        return np.asarray(np.where(inertia.min(axis=1) > 0.0, energy, np.nan))
+
+    def flywheel(self, fluctuation: float, first: Floats) -> Floats:
+        """Flywheels (designs,), kg·m², with which the speed fluctuates by just a share of the mean.
+
+        Zero where none is needed, NaN where none is found; ``first``: flywheels to begin with.
+        By Newton's steps for 1/δ, which is nearly a straight line over the flywheel.
+        """
+        own = _sum(self.share * self.inertia)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            needed = ~(self.at(np.zeros(len(own))).fluctuation <= fluctuation)
+            size = np.where(needed, np.maximum(first, 0.1 * own), 0.0)
+            left = needed
+            for _ in range(SIZES):
+                found = self.at(size)
+                reached, slope = found.fluctuation, self.slopes(found, 1.0, -1.0).flywheel
+                following = size + reached * (1.0 - reached / fluctuation) / slope
+                following = np.where(following > 0.0, following, 1e-3 * size)
+                following = np.where(left, following, size)
+                left = left & (np.abs(following - size) > FOUND * (size + own))
+                size = following
+                if not left.any():
+                    break
+        return np.where(left, np.nan, size)
+
+    def slopes(self, found: Speeds, fastest: float, slowest: float) -> Slopes:
+        """Derivatives of a sum of the largest and the smallest speed over the mean.
+
+        Their places stay (envelope theorem), the energy follows from the mean speed (implicit function theorem).
+        """
+        speed, kinetic, inertia = found.values, found.kinetic, found.inertia
+        with np.errstate(invalid="ignore", divide="ignore"):
+            own = 0.5 * found.weights(fastest, slowest) * speed
+            late = 0.5 * self.share / speed
+            by_energy = _sum(own / kinetic) / _sum(late / kinetic)
+            late = late * by_energy[:, None, None]
+            excess, weight = (own - late) / kinetic, (late - own) / inertia
+            return Slopes(excess, weight, by_energy[:, None, None] / speed, _sum(weight))
+
+
+def _sum(values: Floats) -> Floats:
+    """Sums over the Gauss points, (designs,)."""
+    return np.asarray(values.sum(axis=(1, 2)))
+
+
+def in_pieces(values: Floats) -> Floats:
+    """Values of one machine (pieces, POINTS) as those of the only design, (1, POINTS, pieces)."""
+    return np.ascontiguousarray(values.reshape(-1, POINTS).T)[None]
