@@ -87,6 +87,26 @@ def test_a_refused_change_changes_nothing(tmp_path: Path, address: str, value: s
     assert document.text == BLOCK
 
 
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+def test_values_set_together_read_as_if_set_in_turn(tmp_path: Path, mark: str) -> None:
+    path = tmp_path / "m.yaml"
+    path.write_text(mark + BLOCK)
+    values = {
+        "rocker.length": "3.25 m", "crank.mass": "2 kg", "crank.inertia": "1 kg·m²", "links.crank.length": "1.1 m",
+        "coupler.P.y": "25 mm", "links.coupler.also.P.y": "26 mm", "driver.start": "5 deg", "l": "1.05 m",
+    }  # fmt: skip
+    together, in_turn = read_document(path), read_document(path)
+    together.set_all(values)
+    for address, value in values.items():
+        in_turn.set(address, value)
+    assert together.text == in_turn.text and together.text.count("26 mm") == 1
+    assert together.mechanism.dimension("crank.inertia") == 1.0
+    kept = together.text
+    with pytest.raises(LinkwrightError):
+        together.set_all({"rocker.length": "4 m", "crank.length": "1 kg"})
+    assert together.text == kept and together.mechanism.dimension("rocker.length") == 3.25
+
+
 def test_json_stays_json(tmp_path: Path) -> None:
     data = {
         "format": 1,

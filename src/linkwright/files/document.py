@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence
@@ -17,6 +18,19 @@ from linkwright.words.sentence import Sentence
 
 _AXES = {"x": "0", "y": "1"}
 ReadText = Callable[[str, str], tuple[Mechanism | None, list[Finding]]]
+
+
+class _Edit(NamedTuple):
+    """What takes the place of a part of a text; ``adds``: a key that was not there."""
+
+    start: int
+    end: int
+    written: str
+    adds: bool = False
+
+    def overlaps(self, other: _Edit) -> bool:
+        """Whether both change the same characters."""
+        return self.start < other.end and other.start < self.end
 
 
 class Document:
@@ -35,25 +49,37 @@ class Document:
     def set(self, address: str, value: str) -> None:
         """Write ``value`` (the text that stands in the file, such as ``"1.3 m"``) at a place of the file.
 
-        ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``).
-        A last key
-        that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a
-        model;
-        LinkwrightError for a place that the file does not have.
+        ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``). A last
+        key that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a
+        model; LinkwrightError for a place that the file does not have.
         """
-        root, _ = compose(self.text.removeprefix("\ufeff"))
-        assert isinstance(root, Mapping)
-        missing: str | None = None
+        self.set_all({address: value})
+
+    def set_all(self, values: dict[str, str]) -> None:
+        """The same for texts by address, all or none of them: the new text is checked once."""
+        text, left = self.text, list(values.items())
+        while left:
+            root, edits = _root(text), list[_Edit]()
+            while left:
+                edit = self._edit(text, root, *left[0])
+                if edits and (edit.adds or any(edit.overlaps(each) for each in edits)):
+                    break
+                edits.append(edit)
+                left.pop(0)
+                if edit.adds:
+                    break
+            for edit in sorted(edits, reverse=True):
+                text = text[: edit.start] + edit.written + text[edit.end :]
+        self.mechanism, self.text = self._checked(text), text
+
+    def _edit(self, text: str, root: Mapping, address: str, value: str) -> _Edit:
         for path in _paths(address, root):
             node, rest = _follow(root, path)
             if not rest:
-                self._replace(node, value)
-                return
-            if len(rest) == 1 and isinstance(node, Mapping) and node is not root:
-                missing = rest[0] if missing is None else missing
-                if rest[0] == path[-1] and rest[0] not in ("x", "y", "0", "1"):
-                    self._insert(node, rest[0], value)
-                    return
+                return self._replaced(text, node, value)
+            last = len(rest) == 1 and rest[0] not in ("x", "y", "0", "1")
+            if last and isinstance(node, Mapping) and node is not root:
+                return self._added(text, node, rest[0], value)
         raise LinkwrightError(
             with_remedy(
                 Sentence("model.no_place", address=address), offered(address, self.mechanism.dimensions())
@@ -63,8 +89,7 @@ class Document:
     def place(self, address: str) -> tuple[int, int] | None:
         """Where the value at an address stands in the text: its first offset and the one behind it; None where the
         file has no such place."""
-        root, _ = compose(self.text.removeprefix("\ufeff"))
-        assert isinstance(root, Mapping)
+        root = _root(self.text)
         offset = 1 if self.text.startswith("\ufeff") else 0
         for path in _paths(address, root):
             node, rest = _follow(root, path)
@@ -76,33 +101,31 @@ class Document:
         """Write the text to a file, whole or not at all; raises LinkwrightError where it cannot be written."""
         write_whole(path, self.text.encode())
 
-    def _replace(self, node: Node, value: str) -> None:
-        offset = 1 if self.text.startswith("\ufeff") else 0
+    def _replaced(self, text: str, node: Node, value: str) -> _Edit:
+        offset = 1 if text.startswith("\ufeff") else 0
         start, end = node.start + offset, node.end + offset
-        while end > start and self.text[end - 1] in " \r\n":
+        while end > start and text[end - 1] in " \r\n":
             end -= 1
         written = self._written(value)
         if isinstance(node, Scalar) and node.empty and start == end:
             written = f" {written}"
-        self._accept(self.text[:start] + written + self.text[end:])
+        return _Edit(start, end, written)
 
-    def _insert(self, node: Mapping, key: str, value: str) -> None:
-        offset = 1 if self.text.startswith("\ufeff") else 0
+    def _added(self, text: str, node: Mapping, key: str, value: str) -> _Edit:
+        offset = 1 if text.startswith("\ufeff") else 0
         name = json.dumps(key) if self._json else key
         entry = f"{name}: {self._written(value)}"
         if not node.entries or node.flow:
-            place = _flow_end(node, self.text, offset)
+            place = _flow_end(node, text, offset)
             glue = ", " if node.entries else ""
-            self._accept(self.text[:place] + glue + entry + self.text[place:])
-            return
+            return _Edit(place, place, glue + entry, adds=True)
         last = node.entries[-1]
-        end = content_end(last) + offset
-        line_end = self.text.find("\n", end)
-        at = len(self.text) if line_end < 0 else line_end
-        if self.text[at - 1 : at] == "\r":
+        line_end = text.find("\n", content_end(last) + offset)
+        at = len(text) if line_end < 0 else line_end
+        if text[at - 1 : at] == "\r":
             at -= 1
-        newline = "\r\n" if "\r\n" in self.text else "\n"
-        self._accept(self.text[:at] + newline + " " * last.key.column + entry + self.text[at:])
+        newline = "\r\n" if "\r\n" in text else "\n"
+        return _Edit(at, at, newline + " " * last.key.column + entry, adds=True)
 
     @property
     def _json(self) -> bool:
@@ -114,9 +137,11 @@ class Document:
             return stripped
         return json.dumps(stripped, ensure_ascii=False) if self._json and stripped != "0" else flow(stripped)
 
-    def _accept(self, text: str) -> None:
-        self.mechanism = self._checked(text)
-        self.text = text
+
+def _root(text: str) -> Mapping:
+    root, _ = compose(text.removeprefix("\ufeff"))
+    assert isinstance(root, Mapping)
+    return root
 
 
 def _flow_end(node: Mapping, text: str, offset: int) -> int:

@@ -43,13 +43,10 @@ class State:
 
 
 def begin(task: Task, count: int) -> State:
-    """The start itself, designs near it, and others spread evenly between the bounds."""
-    from scipy.stats import qmc
-
+    """The start itself, designs near it, and others spread evenly between the bounds (a Latin hypercube)."""
     k = len(task.problem.variables)
     draw = np.random.default_rng(task.problem.seed)
-    with np.errstate(all="ignore"):
-        x = qmc.LatinHypercube(k, rng=draw).random(count)
+    x = np.column_stack([(draw.permutation(count) + draw.random(count)) / count for _ in range(k)])
     x[0] = np.clip(task.inverse(task.problem.start), 0, 1)
     near = max(2, count // 4)
     x[1:near] = np.clip(x[0] + 0.05 * draw.normal(size=(near - 1, k)), 0, 1)

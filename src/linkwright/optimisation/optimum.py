@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from copy import copy
 from dataclasses import field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -90,11 +91,13 @@ class Optimum(Frozen):
             from linkwright.files.write import dump
 
             return dump(self.mechanism(index))
-        changed = Document(self.document.text, self.document.name, self.document._read_text)
+        texts = {}
         for variable in self.problem.variables:
             factor, unit = (units.unit(variable.unit)[0], f" {variable.unit}") if variable.unit else (1.0, "")
             value = self.choices[index].values[variable.address]
-            changed.set(variable.address, f"{value / factor:.12g}{unit}")
+            texts[variable.address] = f"{value / factor:.12g}{unit}"
+        changed = copy(self.document)
+        changed.set_all(texts)
         return changed.text
 
     def write(self, path: str | Path, index: int = 0) -> Path:
