@@ -32,6 +32,10 @@ class _Edit(NamedTuple):
         """Whether both change the same characters."""
         return self.start < other.end and other.start < self.end
 
+    def made(self, text: str) -> str:
+        """The text with it."""
+        return text[: self.start] + self.written + text[self.end :]
+
 
 class Document:
     """The text of a model file, its mechanism, and changes of single values that keep comments and order."""
@@ -69,7 +73,7 @@ class Document:
                 if edit.adds:
                     break
             for edit in sorted(edits, reverse=True):
-                text = text[: edit.start] + edit.written + text[edit.end :]
+                text = edit.made(text)
         self.mechanism, self.text = self._checked(text), text
 
     def _edit(self, text: str, root: Mapping, address: str, value: str) -> _Edit:

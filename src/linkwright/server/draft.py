@@ -27,9 +27,6 @@ class Draft(Document):
     def __init__(self, text: str) -> None:
         self.name, self.text = "model", text
 
-    def _accept(self, text: str) -> None:
-        self.text = text
-
     @property
     def root(self) -> MappingNode:
         """The tree; raises LinkwrightError for a text that has none."""
@@ -55,7 +52,7 @@ class Draft(Document):
         elif (old := found.get(key)) is not None:
             self.write(old, flow(value))
         else:
-            self._insert(found, key, flow(value))
+            self.add(found, key, flow(value))
 
     def write(self, node: Node, text: str) -> None:
         """Writes a text in place of a node."""
@@ -64,6 +61,10 @@ class Draft(Document):
         while end > start and self.text[end - 1] in " \r\n":
             end -= 1
         self.text = self.text[:start] + text + self.text[end:]
+
+    def add(self, node: MappingNode, key: str, text: str) -> None:
+        """Writes a key that a mapping has not yet."""
+        self.text = self._added(self.text, node, key, text).made(self.text)
 
     def _append(self, text: str) -> None:
         self.text = self.text.rstrip("\n") + ("\n" if self.text.strip() else "") + text + "\n"

@@ -58,7 +58,7 @@ def _point(draft: Draft, action: Mapping[str, Any]) -> None:
     elif (old := points.get(action["name"])) is not None:
         draft.write(old, flow(place))
     else:
-        draft._insert(points, action["name"], flow(place))
+        draft.add(points, action["name"], flow(place))
 
 
 def _link(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -133,7 +133,7 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> None:
     if (old := link.get("mass")) is not None:
         draft.write(old, action["mass"])
     else:
-        draft._insert(link, "mass", action["mass"])
+        draft.add(link, "mass", action["mass"])
 
 
 def _load(draft: Draft, action: Mapping[str, Any]) -> None:
