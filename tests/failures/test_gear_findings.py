@@ -147,7 +147,7 @@ CASES = {
     ),
     "radius of zero": (
         "  m: {kind: gear, links: [a, b], radii: [0 mm, 60 mm]}",
-        ("joints.m.radii", "a radius is zero or negative"),
+        ("joints.m.radii.0", "0 mm is zero", "give a length above zero"),
     ),
     "one centre": (
         "  m: {kind: gear, links: [a, d], teeth: [20, 40]}",
@@ -423,3 +423,63 @@ def test_a_pinion_on_its_own_shaft_is_not_accused() -> None:
     )
     own = own.replace("O: [0 m, 0 m], G:", "O: [0 m, 0 m], W: [0 m, 10 mm], G:", 1)
     assert lw.structure(lw.loads(own)).mobility == 1
+
+
+NUMBER, LENGTH = (
+    ("a dimensionless number above zero", "大于零的无量纲数"),
+    ("a length above zero", "大于零的长度"),
+)
+
+
+def two_wheels(kind: str) -> str:
+    """Two wheels on the frame, 60 mm apart."""
+    kept = ("  a:", "  b:", "format", "frame", "  S:", "links", "driver", "joints")
+    lines = [line for line in HEAD.splitlines() if line.startswith(kept)]
+    return "\n".join([*lines, f"  m: {{{kind}, links: [a, b]}}"])
+
+
+@pytest.mark.parametrize(
+    ("kind", "address", "value", "wanted"),
+    [
+        ("kind: gear, teeth: [20, 40]", "m.teeth.0", -20.0, NUMBER),
+        ("kind: gear, teeth: [20, 40]", "m.teeth.1", 0.0, NUMBER),
+        ("kind: rolling, radii: [20 mm, 40 mm]", "m.radii.0", -0.02, LENGTH),
+        ("kind: belt, radii: [10 mm, 40 mm]", "m.radii.1", 0.0, LENGTH),
+        ("kind: rolling, ratio: -0.5", "m.ratio", 0.5, ("of the same sign as -0.5", "与 -0.5 同号的传动比")),
+        ("kind: gear, ratio: 3", "m.ratio", 0.0, ("other than zero", "不为零")),
+        ("kind: gear, ratio: -2", "m.pressure_angle", 1.6, ("from 0 deg to below 90 deg", "小于 90 deg")),
+    ],
+)
+def test_sizes_that_a_file_may_not_give_are_refused_in_code(
+    kind: str, address: str, value: float, wanted: tuple[str, str]
+) -> None:
+    mechanism = lw.loads(two_wheels(kind))
+    with pytest.raises(lw.LinkwrightError) as caught:
+        mechanism.with_dimensions({address: value})
+    said = caught.value.sentence
+    assert f"{address} is set to {value:g}" in str(said) and wanted[0] in str(said), str(said)
+    assert wanted[1] in in_language(said, "zh"), in_language(said, "zh")
+    kept = mechanism.with_dimensions({address: 1.1 * mechanism.dimension(address)})
+    assert kept.dimension(address) == pytest.approx(1.1 * mechanism.dimension(address))
+
+
+def test_rolling_wheels_have_no_pressure_angle() -> None:
+    own = {"m.radii.0", "m.radii.1", "m.phase"}
+    mechanism = lw.loads(two_wheels("kind: rolling, radii: [20 mm, 40 mm]"))
+    assert {each for each in mechanism.dimensions() if each.startswith("m.")} == own
+    sizes = mechanism.joints["m"].wheel_sizes(mechanism)
+    assert sizes is not None and sizes.pressure_angle is None and sizes.module is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "radii", "key", "shown"),
+    [
+        ("rolling", "[20 mm, -40 mm]", "joints.m.radii.1", "-40 mm is negative"),
+        ("belt", "[0 mm, 40 mm]", "joints.m.radii.0", "0 mm is zero"),
+    ],
+)
+def test_the_radius_that_is_none_is_named(kind: str, radii: str, key: str, shown: str) -> None:
+    with pytest.raises(lw.ModelError) as caught:
+        lw.loads(two_wheels(f"kind: {kind}, radii: {radii}"))
+    (finding,) = caught.value.findings
+    assert (finding.key, finding.message, finding.remedy) == (key, shown, "give a length above zero")

@@ -10,6 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.errors import ModelError
 from linkwright.files.write import dump
+from linkwright.words.sentence import in_language
 
 PROGRAM = """
       - {rise: LIFT, over: 110 deg, law: cycloidal}
@@ -208,7 +209,8 @@ def test_contact_that_would_have_to_pull_is_said_with_its_place() -> None:
     lost = 0.5 * (9.81 + program.curves(phi)[2] * speed**2) < 0
     first = math.degrees(forces.motion.input[lost][0])
     (note,) = (each for each in forces.notes if "would have to pull" in each)
-    assert f"from {first:g} deg" in note and "lobe" in note
+    assert f"from {first:g} deg" in note and note.startswith("the cam lobe cannot hold its follower")
+    assert in_language(note, "zh").startswith("凸轮 lobe ")
     steady = lw.loads(text.replace("touch: roller", "closure: groove\n    touch: roller"))
     assert not lw.solve_forces(lw.solve_motion(steady, steps=72)).notes
     pressed = lw.loads(model(GUIDED, "counterclockwise", "roller", "18 mm", OFFSET="6 mm"))
@@ -269,3 +271,15 @@ def test_an_arm_or_a_distance_of_no_length_does_not_reach(old: str, new: str, to
     assert old in text
     with pytest.raises(ModelError, match="does not reach"):
         lw.loads(text.replace(old, new))
+
+
+def test_a_pair_of_another_kind_that_would_have_to_pull_is_not_called_a_cam(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from linkwright.joints.gear import GearPair
+
+    monkeypatch.setattr(GearPair, "pulls", lambda pair, forces: forces.motion.input < 2.0)
+    forces = lw.solve_forces(lw.solve_motion(lw.load("gallery:external_gear_pair"), steps=8))
+    (note,) = (each for each in forces.notes if "would have to pull" in each)
+    assert note.startswith("the pair mesh (gear) can only push, but would have to pull from 0 deg")
+    assert "齿轮副 mesh 只能受压" in in_language(note, "zh")

@@ -47,6 +47,10 @@ class Field(ABC):
         """JSON Schema of the value with its description."""
         return {**self.shape(), "description": self.doc} if self.doc else self.shape()
 
+    def limit(self, value: float) -> Sentence | None:
+        """What numbers it takes, where this SI value is none of them."""
+        return None
+
     def flatten(self, value: Any) -> dict[str, float]:
         """The value's dimensions: suffixes of the address (``""``, ``.x``) with SI values."""
         return {}
@@ -96,9 +100,9 @@ class Quantity(Field):
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
         value = reader.quantity(node, place, self.dimension)
-        if value is None or self._admits(value):
+        limit = None if value is None else self.limit(value)
+        if value is None or limit is None:
             return value
-        limit = self._limit()
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
         reader.error(
             node,
@@ -109,15 +113,6 @@ class Quantity(Field):
         )
         return None
 
-    def _admits(self, value: float) -> bool:
-        if self.minimum is not None and value < self.minimum:
-            return False
-        if self.above is not None and value <= max(self.above, units.SMALLEST):
-            return False
-        if self.below is not None and value >= self.below:
-            return False
-        return not (self.nonzero and value == 0)
-
     def _fault(self, value: float) -> str:
         if value == 0:
             return Sentence("model.zero")
@@ -127,30 +122,23 @@ class Quantity(Field):
             "model.negative" if value < 0 and not (self.minimum or self.above) else "model.too_small"
         )
 
-    def _limit(self) -> str:
-        noun = Sentence(f"nouns.a_{self.dimension}")
-        if self.above is not None:
-            return Sentence(
-                "model.above",
-                noun=noun,
-                limit=units.format(self.above, self.dimension)
-                if self.above
-                else Sentence("model.length_zero"),
-            )
-        if self.below is not None:
+    def limit(self, value: float) -> Sentence | None:
+        above = self.above is None or value > max(self.above, units.SMALLEST)
+        within = above and (self.minimum is None or value >= self.minimum)
+        if within and (self.below is None or value < self.below) and not (self.nonzero and value == 0):
+            return None
+        noun, least = (
+            Sentence(f"nouns.a_{self.dimension}"),
+            self.minimum if self.above is None else self.above,
+        )
+        if self.below is not None and self.above is None:
             unit = "deg" if self.dimension == "angle" else None
-            ends = (self.minimum or 0.0, self.below)
-            low, high = (units.format(each, self.dimension, unit) for each in ends)
+            low, high = (units.format(each, self.dimension, unit) for each in (least or 0.0, self.below))
             return Sentence("model.from_to_below", noun=noun, low=low, high=high)
-        if self.minimum is not None:
-            return Sentence(
-                "model.or_more",
-                noun=noun,
-                limit=units.format(self.minimum, self.dimension)
-                if self.minimum
-                else Sentence("model.length_zero"),
-            )
-        return Sentence("model.not_zero", noun=noun)
+        if least is None:
+            return Sentence("model.not_zero", noun=noun)
+        shown = units.format(least, self.dimension) if least else Sentence("model.length_zero")
+        return Sentence("model.or_more" if self.above is None else "model.above", noun=noun, limit=shown)
 
     def shape(self) -> Schema:
         return quantity_schema(self.dimension)
@@ -167,11 +155,13 @@ class Quantity(Field):
 
 @dataclass(frozen=True)
 class Quantities(Field):
-    """A list of quantities of one dimension; ``names`` names them (x, y), ``count`` limits their number."""
+    """A list of quantities of one dimension; ``names`` names them (x, y), ``count`` limits their number, each is
+    ``above`` a limit in SI."""
 
     dimension: str
     names: tuple[str, ...] = ()
     count: int | None = None
+    above: float | None = field(default=None, kw_only=True)
     form: str = field(default="", kw_only=True)
 
     def read(
@@ -181,10 +171,17 @@ class Quantities(Field):
         if items is None:
             return None
         values = [
-            reader.quantity(item, place.child(self._suffix(index)), self.dimension)
+            self._one.read(reader, item, place.child(self._suffix(index)), given)
             for index, item in enumerate(items)
         ]
         return None if any(value is None for value in values) else tuple(v for v in values if v is not None)
+
+    @cached_property
+    def _one(self) -> Quantity:
+        return Quantity(self.dimension, above=self.above)
+
+    def limit(self, value: float) -> Sentence | None:
+        return self._one.limit(value)
 
     @cached_property
     def _form(self) -> str:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -79,7 +78,7 @@ class LinkPoints(Field):
 LINK_FIELDS: Mapping[str, Field] = {
     "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
     "length": Quantity("length", above=0, doc="distance from the first point to the second"),
-    "lengths": Quantities("length", count=2, doc="bent link: first to second, first to third point"),
+    "lengths": Quantities("length", count=2, above=0, doc="bent link: first to second, first to third point"),
     "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
     "also": Coordinates(doc="further points, by coordinates in the link's axes"),
     "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
@@ -278,7 +277,7 @@ def _place_points(
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)
     elif sizes == ["lengths", "angle"] and len(points) == 3:
-        return _bent(reader, node, place, given)
+        return _bent(given)
     else:
         wanted = (
             Sentence("model.sizes_with_points", sizes=together(sizes), count=len(points)),
@@ -288,17 +287,8 @@ def _place_points(
     return None
 
 
-def _bent(reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any]) -> _Placed | None:
+def _bent(given: Mapping[str, Any]) -> _Placed:
     first, second = given["lengths"]
-    if min(first, second) <= units.SMALLEST:
-        reader.error(
-            node.get("lengths"),
-            place.child("lengths"),
-            Sentence("model.bad_length"),
-            Sentence("model.lengths_above"),
-            "range",
-        )
-        return None
     corner, one, two = given["points"]
     angle = given["angle"]
     arm = second * math.cos(angle), second * math.sin(angle)

@@ -201,6 +201,11 @@ class Joint(ABC):
             new[key] = (*new.get(key, ()), value(address)) if index else value(address)
         return replace(self, **new)
 
+    def limit(self, address: str, value: float) -> Sentence | None:
+        """What numbers a dimension takes, where this SI value is none of them: by the field of its key."""
+        field = self.fields().get(address.removeprefix(f"{self.name}.").partition(".")[0])
+        return None if field is None else field.limit(value)
+
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> Joint:
         """The same joint, with what follows from the points of its first link (a guide's direction) made
         anew."""
@@ -371,6 +376,12 @@ class Joint(ABC):
         """The kind as it is read; one of another package by its own word."""
         key = f"nouns.pair_{cls.kind}"
         return Sentence(key) if has(key) else cls.kind
+
+    @classmethod
+    def said(cls, key: str, **values: object) -> Sentence:
+        """A sentence about joints of the kind: its own, ``KEY_KIND``, where the catalogue has one."""
+        own = f"{key}_{cls.kind}"
+        return Sentence(own if has(own) else key, **values)
 
     @classmethod
     def lacks(cls, what: str) -> LackingError:

@@ -46,9 +46,8 @@ class BeltPair(WheelPair):
 
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
-        shared = {key: field for key, field in super().fields().items() if key != "teeth"}
         return {
-            **shared,
+            **super().fields(),
             "run": Word(("open", "crossed"), doc="default open"),
             "pretension": Quantity("force", minimum=0, doc="tension of each strand without load (default 0)"),
         }

@@ -1,38 +1,180 @@
-"""Wheels that roll on each other without slipping."""
+"""Wheels that roll on each other without slipping, and what gears share with them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+import cmath
+from collections.abc import Iterable, Mapping, Sequence
+from math import dist
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field
-from linkwright.joints.base import JOINTS
-from linkwright.joints.gear import GearPair
+from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt
+from linkwright.engine.vector import Vec
+from linkwright.fields.base import Field, Quantity, Word
+from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
+from linkwright.joints.marks import Mark
+from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.cycle import Floats
+    from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.structure.group import Connection
 
 
 @JOINTS.register("rolling")
 @dataclass(frozen=True)
-class RollingPair(GearPair):
-    """Two wheels on one carrier that roll on each other without slipping, by their ``radii`` or ``ratio``.
+class RollingPair(WheelPair):
+    """Two wheels that roll on each other; ``mesh`` is external or internal (the larger one is the ring).
 
-    The row of a gear pair; its multiplier is the force along the common tangent that friction must supply. What
-    presses the wheels together is a matter of the carrier and of its loads.
+    With d = |AB| and the ratio i, negative for an external pair, the pitch point C lies at ρ_a = d i / (i - 1) from A
+    and at ρ_b = d / (i - 1) from B on the ray A→B, and the row is ρ_a (θ_a - θ_c) - ρ_b (θ_b - θ_c) = const. Its
+    multiplier is the tangential force on a along AB turned left, which friction must supply; what presses the wheels
+    together is a matter of the carrier and of its loads (Norton, Design of Machinery, ch. 9).
     """
 
     kind: ClassVar[str] = "rolling"
     letter: ClassVar[str] = "O"
-    toothed: ClassVar[bool] = False
-    pressure_angle: float = 0.0
+    mesh: str = "external"
+
+    @property
+    def sense(self) -> float:
+        return 1.0 if self.mesh == "internal" else -1.0
 
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         return {
-            key: field
-            for key, field in super().fields().items()
-            if key not in ("teeth", "module", "pressure_angle")
+            **super().fields(),
+            "ratio": Quantity(
+                "dimensionless",
+                nonzero=True,
+                doc="ratio of b's speed to a's on the carrier: negative external, positive internal",
+            ),
+            "mesh": Word(
+                ("external", "internal"), doc="default external; internal: the larger one is the ring"
+            ),
         }
 
     @classmethod
     def sizes(cls) -> tuple[str, ...]:
         return ("radii", "ratio")
+
+    @classmethod
+    def read(cls, entry: Entry) -> Joint | None:
+        values = entry.values
+        ratio = values.get("ratio")
+        if ratio is not None and not (values.get("teeth") or values.get("radii")):
+            values["mesh"] = "internal" if ratio > 0 else "external"
+        return super().read(entry)
+
+    def check(self, entry: Entry, distance: float) -> None:
+        i = self.transmission
+        given = self.teeth or self.radii
+        if self.ratio is not None and given is not None:
+            own = self.sense * given[0] / given[1]
+            if abs(self.ratio - own) > FITS * abs(own):
+                key = "teeth" if self.teeth else "radii"
+                problem = Sentence("joints.ratio_misfit", ratio=self.ratio, key_=key, own=own)
+                entry.say("ratio", problem, Sentence("joints.leave_ratio"), "choice")
+                return
+        if i == 1.0:
+            entry.say("", Sentence("joints.equal_internal"), Sentence("joints.unequal"), "range")
+            return
+        if distance == 0.0:
+            problem = Sentence("joints.same_centre", centres=self.centres)
+            entry.say("links", problem, Sentence("joints.centres_apart"), "range")
+            return
+        apart = self._apart(distance)
+        if apart is not None:
+            entry.say("radii" if self.radii else "module", apart, Sentence("joints.fit_distance"), "range")
+
+    @property
+    def asked(self) -> float:
+        """The distance of the centres that the sizes ask for, m; 0 where they take any."""
+        a, b = self.radii or (0.0, 0.0)
+        return abs(a - self.sense * b)
+
+    def _apart(self, distance: float, slack: float = 0.0) -> Sentence | None:
+        """What is wrong where the sizes ask for another distance of the centres, by more than the slack, m."""
+        wanted = self.asked
+        if not wanted or abs(wanted - distance) <= max(FITS * distance, slack):
+            return None
+        return Sentence(
+            "joints.distance_misfit",
+            centres=self.centres,
+            carrier=self.carrier,
+            distance=length(distance),
+            wanted=length(wanted),
+            mesh=Sentence("joints.internal" if self.sense > 0 else "joints.external"),
+        )
+
+    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+        return self._apart(abs(self.line(mechanism)))
+
+    def traced_line(self, dimensions: Dimensions) -> Vec:
+        """From the centre of a to that of b in the carrier's axes, traced, m."""
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        return b - a
+
+    def fits(self, dimensions: Dimensions) -> Mask:
+        """Radii ask for their distance of the centres; a ratio or teeth alone take any."""
+        if self.radii is None:
+            return True
+        first, second = (dimensions(f"{self.name}.radii.{k}") for k in (0, 1))
+        wanted, square = first - self.sense * second, self.traced_line(dimensions).square
+        return absolute(wanted * wanted - square) <= 2.0 * FITS * square
+
+    def written(self) -> dict[str, Any]:
+        found = super().written()
+        return {**found, "mesh": self.mesh} if self.mesh == "internal" and self.ratio is None else found
+
+    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+        points, i = mechanism.link(self.carrier).points, self.transmission
+        d = dist(*(points[each] for each in self.centres))
+        return d * i / (i - 1.0), -d / (i - 1.0)
+
+    def acts_at(self, motion: Motion) -> Floats:
+        """The pitch point."""
+        a, b = (motion.point(f"{self.carrier}.{each}").position for each in self.centres)
+        i = self.transmission
+        return a + (b - a) * (i / (i - 1.0))
+
+    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
+        """Two wheels of the pitch radii."""
+        radii = [abs(each) for each in self.arms(mechanism)]
+        for k, link in enumerate(self.links):
+            ring = self.mesh == "internal" and radii[k] > radii[1 - k]
+            centre = mechanism.link(link).points[self.centres[k]]
+            yield Mark("gear" if self.toothed else "disc", link, centre, radii[k], inside=ring)
+
+    def contact(self, mechanism: Mechanism) -> Contact:
+        _, other = self.arms(mechanism)
+        angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
+        return Contact(-other, self.carrier, angle, at, press=self.sense)
+
+    def cut(self, connection: Connection, dimensions: Dimensions) -> RollingCut:
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        line = b - a
+        d = sqrt(line.square)
+        i = self.traced_ratio(dimensions)
+        part = d * reciprocal(i - 1.0)
+        phase = dimensions(f"{self.name}.phase")
+        unit = line * reciprocal(d)
+        return RollingCut(connection, self.carrier, (part * i, -part, -d), part * phase, a, b, unit)
+
+
+@dataclass(frozen=True)
+class RollingCut(WheelCut):
+    """``unit``: from A to B in the carrier's axes."""
+
+    unit: Vec
+
+    def place(self, end: str, poses: Poses) -> Vec:
+        """The pitch point."""
+        return poses[self.carrier].point(self.centre_a + self.unit * self.k[0])
+
+    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
+        force = poses[self.carrier].spin(self.unit).perp * multipliers[0]
+        return (force if end == self.connection.a else -force), 0.0

@@ -86,8 +86,7 @@ class WheelPair(HigherPair):
     def fields(cls) -> Mapping[str, Field]:
         return {
             "links": LinkNames(required=True, doc="the two wheels [a, b]"),
-            "teeth": Numbers(doc="their numbers of teeth [a, b]"),
-            "radii": Quantities("length", count=2, doc="their pitch radii [a, b]"),
+            "radii": Quantities("length", count=2, above=0, doc="their pitch radii [a, b]"),
             "carrier": LinkName(doc="the link on which both wheels have their pins, where it is in doubt"),
             "phase": Quantity(
                 "angle", doc="angle of b's x axis to the carrier's when a's has none (default: drawn)"
@@ -137,6 +136,12 @@ class WheelPair(HigherPair):
         if self.ratio is not None:
             found[f"{self.name}.ratio"] = self.ratio
         return {**found, f"{self.name}.phase": self.phase or 0.0}
+
+    def limit(self, address: str, value: float) -> Sentence | None:
+        """A pair does not become an internal one, or the other way round, by a changed ratio."""
+        if address == f"{self.name}.ratio" and value * self.transmission < 0:
+            return Sentence("joints.same_sign", ratio=self.transmission)
+        return super().limit(address, value)
 
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:
@@ -290,6 +295,9 @@ class Numbers(Field):
         a, b = found
         return None if a is None or b is None else (a, b)
 
+    def limit(self, value: float) -> Sentence | None:
+        return Quantity("dimensionless", above=0).limit(value)
+
     def shape(self) -> dict[str, Any]:
         return pair_schema({"type": ["integer", "string"], "minimum": 1})
 
@@ -303,9 +311,6 @@ def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     if not given:
         remedy = Sentence("joints.give_size" if len(keys) > 1 else "joints.give_key", keys=keys)
         entry.say("", Sentence("joints.no_size"), remedy, "missing-key")
-        return False
-    if "radii" in given and min(values["radii"]) <= 0:
-        entry.say("radii", Sentence("joints.bad_radius"), Sentence("joints.positive_radius"), "range")
         return False
     if {"teeth", "radii"} <= set(given):
         (a, b), (c, d) = values["teeth"], values["radii"]

@@ -139,7 +139,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
             Sentence("forces.from_to", first=spelled(first, *unit), last=spelled(last, *unit))
             for first, last in ends
         )
-        yield Sentence("forces.contact_lost", name=name, places=together(places))
+        yield joint.said("forces.contact_lost", name=name, kind=joint.word(), places=together(places))
 
 
 def _indeterminate(motion: Motion) -> tuple[str, ...]:

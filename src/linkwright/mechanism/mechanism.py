@@ -175,10 +175,8 @@ class Mechanism(Frozen):
         """A new mechanism with changed SI values.
 
         Dimensions that are expressions of changed parameters follow; a changed dimension that was an
-        expression
-        loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that
-        is not
-        positive, a negative mass or inertia.
+        expression loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that
+        is not positive, a negative mass or inertia, a value of a joint that a file may not give it either.
         """
         known = self._dimensions
         new = known | {address: self._checked(address, value) for address, value in changes.items()}
@@ -334,6 +332,10 @@ class Mechanism(Frozen):
             raise RequestError(Sentence("model.set_length", address=address, value=value))
         if owner in self.links and last in ("mass", "inertia") and value < 0:
             raise RequestError(Sentence("model.set_negative", address=address, value=value))
+        sort, name = self._owners.get(address, ("", ""))
+        limit = self.joints[name].limit(address, value) if sort == "joint" else None
+        if limit is not None:
+            raise RequestError(Sentence("model.set_outside", address=address, value=value, limit=limit))
         return value
 
     def __repr__(self) -> str:

@@ -2,6 +2,7 @@
 
 WORDS = {
     "no_teeth": "{value:g} is no number of teeth",
+    "same_sign": "a ratio of the same sign as {ratio:g}; the other sign is another mesh",
     "whole_teeth": "give a whole number of 1 or more",
     "no_size": "nothing says how large the wheels are",
     "give_size": "give one of {keys}",
@@ -19,8 +20,6 @@ WORDS = {
     "no_pitch": "the chain's pitch is missing",
     "give_pitch": "give pitch: 12.7 mm beside teeth, or radii instead",
     "radii_and_pitch": "pitch with teeth already gives the radii",
-    "bad_radius": "a radius is zero or negative",
-    "positive_radius": "give radii above zero",
     "without_pin": 'the wheel "{wheel}" has no pin about which it turns',
     "does_not_turn": 'the link "{wheel}" does not turn about a pin, so no belt or chain can run around it',
     "give_pin": 'give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre',

@@ -2,6 +2,7 @@
 
 WORDS = {
     "no_teeth": "{value:g} 不是齿数",
+    "same_sign": "与 {ratio:g} 同号的传动比；异号属于另一种啮合",
     "whole_teeth": "请给出不小于 1 的整数",
     "no_size": "没有给出轮的大小",
     "give_size": "请给出 {keys} 之一",
@@ -19,8 +20,6 @@ WORDS = {
     "no_pitch": "缺少链条节距",
     "give_pitch": "请在 teeth 旁给出 pitch: 12.7 mm，或改用 radii",
     "radii_and_pitch": "节距与齿数已经决定半径",
-    "bad_radius": "有半径为零或为负",
-    "positive_radius": "请给出大于零的半径",
     "without_pin": "轮“{wheel}”没有可绕其转动的转动副",
     "does_not_turn": "构件“{wheel}”不绕转动副转动，带或链不能绕在其上",
     "give_pin": "请给“{wheel}”一个与其支承构件（机架、系杆）同名的点作为轮心",
