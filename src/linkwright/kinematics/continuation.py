@@ -66,6 +66,21 @@ class Followed(Frozen):
     closed: bool
     returns: bool | None
 
+    def taken(self, order: NDArray[np.intp]) -> Followed:
+        """Some of the positions in another order, each for itself."""
+        return replace(
+            self,
+            inputs=self.inputs[order],
+            states={name: row[order] for name, row in self.states.items()},
+            coordinates=self.coordinates[order],
+            certified=self.certified[order],
+            margin=self.margin[order],
+            stop_of=self.stop_of[order],
+            breaks=frozenset(),
+            closed=False,
+            returns=None,
+        )
+
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
         """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, d).
 

@@ -65,6 +65,14 @@ class Positions:
         rows = (self.time, *chain.from_iterable(self.coordinates.values()))
         return self.closed, self.period, self.cycle, *(row.tobytes() for row in rows)
 
+    def taken(self, order: NDArray[np.intp]) -> Positions:
+        """Some of the positions in another order, each for itself."""
+        coordinates = {
+            name: (q[order], rate[order], second[order])
+            for name, (q, rate, second) in self.coordinates.items()
+        }
+        return Positions(self.time[order], coordinates, self.rotary, False, None)
+
     @cached_property
     def arrays(self) -> dict[str, Floats]:
         """The program's inputs per position, by name; ``input`` is the first driver's coordinate."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -78,7 +79,15 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     found = output_of(motion.mechanism, output) if isinstance(output, str) else output
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
-    return motion.kept(("limits", found), lambda: _Search(motion, found).limits())
+    return motion.kept(("limits", found), lambda: _limits(motion, found))
+
+
+def _limits(motion: Motion, output: Output) -> tuple[LimitPosition, ...]:
+    """Of positions in no order the limits by increasing time."""
+    limits, order = _Search(motion.in_order(), output).limits(), motion.order
+    if order is None:
+        return limits
+    return tuple(replace(each, index=int(order[each.index])) for each in limits)
 
 
 def limit_inputs(motion: Motion, output: Output) -> list[tuple[float, str]]:

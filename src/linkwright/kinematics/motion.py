@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import FrozenDict, locked
@@ -45,6 +46,12 @@ class Rows:
         self.values = locked(values)
         self.index = index
         self.extra: dict[str, Floats] = {}
+
+    def taken(self, order: NDArray[np.intp]) -> Rows:
+        """The rows at some positions, in another order."""
+        found = Rows(self.values[:, order], self.index)
+        found.extra.update((name, locked(row[order])) for name, row in self.extra.items())
+        return found
 
     def row(self, name: str, evaluate: Evaluate) -> Floats:
         """The row of an output, (n,); ``evaluate`` supplies one that is not stored."""
@@ -202,6 +209,33 @@ class Motion:
         if not self.inputs:
             raise RequestError(Sentence("motion.no_input", name=self.mechanism.name))
         return next(iter(self.inputs.values()))
+
+    @cached_property
+    def order(self) -> NDArray[np.intp] | None:
+        """The positions by their times, (n,), where inputs were asked for in no order; None where they follow each
+        other one way."""
+        ways = np.diff(self.positions.time)
+        if not ((ways > 0.0).any() and (ways < 0.0).any()):
+            return None
+        return np.argsort(self.positions.time, kind="stable")
+
+    def in_order(self) -> Motion:
+        """The same positions one after the other, as everything needs that lies between two of them."""
+        order = self.order
+        return self if order is None else self.kept("in order", lambda: self._taken(order))
+
+    def _taken(self, order: NDArray[np.intp]) -> Motion:
+        return Motion(
+            self.solver,
+            self.design,
+            self.positions.taken(order),
+            {name: row[order] for name, row in self.states.items()},
+            {name: row[order] for name, row in self.modes.items()},
+            self.rows.taken(order),
+            self.notes,
+            None if self.barred is None else self.barred[order],
+            None if self.followed is None else self.followed.taken(order),
+        )
 
     @property
     def outcome_codes(self) -> Floats:

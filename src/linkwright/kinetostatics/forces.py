@@ -68,6 +68,15 @@ class Forces:
         """Number of positions n."""
         return self.motion.steps
 
+    def in_order(self) -> Forces:
+        """The forces of ``motion.in_order()``."""
+        order = self.motion.order
+        if order is None:
+            return self
+        fields = {name: row[order] for name, row in self.fields.items()}
+        rows = self.rows.taken(order)
+        return Forces(self.motion.in_order(), self.solver, fields, self.static, rows, self.notes)
+
     def reaction(self, joint: str, *, on: str | None = None, axes: str = "frame") -> Floats:
         """Force (n, 2), N, that a joint exerts on link ``on``, in frame axes or in the axes of a link.
 

@@ -66,11 +66,17 @@ class Analysis:
 
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
-        """The analysis of a result, the same one as long as the result is of use."""
+        """The analysis of a result, the same one as long as the result is of use.
+
+        Positions that were asked for in no order are taken by their times.
+        """
         if isinstance(result, Analysis):
             return result
-        motion, forces = (result.motion, result) if isinstance(result, Forces) else (result, None)
-        return _known.get(result, "", lambda: cls(motion, forces))
+        return _known.get(result, "", lambda: cls._in_order(result.in_order()))
+
+    @classmethod
+    def _in_order(cls, result: Motion | Forces) -> Analysis:
+        return cls(result.motion, result) if isinstance(result, Forces) else cls(result)
 
     @cached_property
     def input_dimension(self) -> str:
