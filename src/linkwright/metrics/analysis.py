@@ -24,7 +24,7 @@ from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
-from linkwright.metrics.cycle_grid import CycleGrid, cycle_grid
+from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs, value
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
@@ -294,6 +294,9 @@ class Analysis:
         of = "motion" if self.forces is None else "forces"
         if self.grid is None:
             return self.mean(signal(self.forces or self.motion))
+        for _, *ends in self.grid.limits_at_changes(signal, of):
+            if np.isinf(ends).any():
+                return float(np.sum(ends))  # infinite, or undefined where it grows to both sides
         return self.grid.curve(signal, of, halve=True).total / (self.grid.end - self.grid.start)
 
     def rms_of(self, signal: Callable[..., Floats]) -> float:
@@ -327,12 +330,29 @@ class Analysis:
             found = self.grid.curve(signal, of).extreme(kind)
             if found.smooth:
                 return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
+            if len(self.grid.around):
+                return self._past_changes(self.grid, signal, of, sign)
         step = float(abs(time[1] - time[0]))
         peaks = _peaks(sign * values, self.closed)[:4]
         low, high = time[peaks] - step, time[peaks] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
         return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
+
+    def _past_changes(
+        self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float
+    ) -> Extreme | None:
+        """The extreme of a signal that polynomials do not meet in a cycle with change points."""
+        for time, *ends in grid.limits_at_changes(signal, of):
+            if sign * np.inf in ends:
+                return Extreme(sign * np.inf, time, self.resolver.input_at(time), True)
+        times = np.linspace(grid.start, grid.end, 361)
+        times = np.sort(np.append(times, grid.around.mean(axis=1)))
+        function = grid.function(signal, of)
+        found = self._best_of(lambda t: sign * function(t), times, sign)
+        if found is None or abs(found.value) > PASSED * np.nanmax(np.abs(function(times))):
+            return found
+        return replace(found, value=0.0)
 
     def extremes_between(
         self,
@@ -357,16 +377,20 @@ class Analysis:
     ) -> Extreme | None:
         """The same between two times, from samples."""
         sign = 1.0 if kind == "max" else -1.0
-        count = 361
-        time = np.linspace(start, end, count)
-        values = sign * signal(self.resolver.at(time, of))
+        return self._best_of(
+            lambda t: sign * signal(self.resolver.at(t, of)), np.linspace(start, end, 361), sign
+        )
+
+    def _best_of(self, signal: Callable[[Floats], Floats], time: Floats, sign: float) -> Extreme | None:
+        """The largest of a signal at some times, s, and between those beside it."""
+        values = signal(time)
         if not np.isfinite(values).any():
             return None
         best = int(np.nanargmax(values))
         at = float(time[best])
         first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
-        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, count - 1)]]
-        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, first)
+        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, len(time) - 1)]]
+        return self._narrowed(signal, low, high, sign, first)
 
     def _narrowed(
         self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
-from math import isnan
+from math import isinf, isnan
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.metrics.analysis import Analysis, Extreme, Result
-from linkwright.metrics.quantities import si_unit
+from linkwright.metrics.quantities import shown, si_unit
 from linkwright.registry import Registry
 from linkwright.words import has, say
 
@@ -199,7 +199,7 @@ class Metric(ABC):
             return
         for number in self.asked(analysis):
             value, at, exact = number.measured(analysis)
-            remarks = self.remarks(value, at, analysis)
+            remarks = (*self.remarks(value, at, analysis), *_unbounded(value, at, analysis))
             yield self.value(
                 analysis,
                 number.subject,
@@ -224,6 +224,13 @@ class Metric(ABC):
         kind = dimension or self.dimension
         where = None if at is None or isnan(at) else at
         return MetricValue(self.name, subject, float(value), kind, where, analysis.input_dimension, **more)
+
+
+def _unbounded(value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+    """What is to be said of an infinite value: nothing of one that belongs to no place."""
+    if not isinf(value) or isnan(at):
+        return ()
+    return (Remark("unbounded", {"at": shown(at, analysis.input_dimension)}, warning=True),)
 
 
 METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics", entry_points="linkwright.metrics")

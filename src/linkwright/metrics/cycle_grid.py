@@ -31,6 +31,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import NEAR, activity, switch_times
+from linkwright.metrics.passed import between, limit, sides
 from linkwright.metrics.resolve import Resolver
 
 #: Pieces of one cycle before the places where something jumps or bends are cut out.
@@ -44,15 +45,20 @@ _ALIKE = {
     **dict.fromkeys(("a", "g", "sa"), "second"),
     **dict.fromkeys(("r", "c", "effort"), "force"),
 }
+#: A piece around a change point reaches this share of the cycle to both sides. Nearer to it than the innermost Gauss
+#: points no position is asked for: places are exact to the machine's digits over the distance, second derivatives to
+#: these over its cube. To this share polynomials meet what is smooth there.
+AROUND, PASSED = 1.0 / 36.0, 1e-8
 #: More rough pieces than this are noise.
 _NOISE = 96
+_NONE: Floats = np.empty(0)
 
 
 class CycleGrid:
     """Motion, and forces if they were solved, at the Gauss points of pieces between ``start`` and ``end``, s.
 
     ``asked``: outputs that will be wanted beside those that are stored. Edges lie where loads begin or end to act;
-    pieces that still are not smooth are halved.
+    pieces that still are not smooth are halved. Change points lie in the middle of pieces that are not.
     """
 
     def __init__(
@@ -88,7 +94,33 @@ class CycleGrid:
     @property
     def tolerance(self) -> float:
         """Share of a signal's size to which polynomials meet it."""
-        return max(SMOOTH, 8.0 * self._solved[2])
+        return max(SMOOTH, 8.0 * self._solved[2], PASSED if len(self.around) else 0.0)
+
+    @cached_property
+    def around(self) -> Floats:
+        """Ends of the pieces around change points, s, (changes, 2)."""
+        length, changes = self.end - self.start, self.resolver.changes
+        if self._motion.positions.closed:
+            changes = np.concatenate([changes - length, changes, changes + length])
+        changes = np.sort(changes)
+        apart = np.minimum(np.diff(changes, prepend=-np.inf), np.diff(changes, append=np.inf))
+        way = np.minimum(AROUND * length, 0.5 * apart)
+        ends = np.clip(np.stack([changes - way, changes + way], axis=1), self.start, self.end)
+        return np.asarray(ends[ends[:, 1] > ends[:, 0]])
+
+    def _edges(self, switches: Floats) -> Floats:
+        """Those of the first pieces."""
+        edges = edges_between(self.start, self.end, PIECES, _NONE)
+        for low, high in self.around:
+            edges = edges[(edges <= low) | (edges >= high)]
+        inner = switches[(switches > self.start) & (switches < self.end)]
+        return increasing(np.concatenate([edges, self.around.ravel(), inner]))
+
+    def _passing(self, edges: Floats) -> NDArray[np.bool_]:
+        """Which pieces belong to change points."""
+        middle = 0.5 * (edges[:-1] + edges[1:])
+        low, high = self.around.T[:, :, None]
+        return np.asarray(((middle > low) & (middle < high)).any(axis=0))
 
     def curve(self, signal: Callable[[Any], Floats], of: str, *, halve: bool = False) -> Piecewise:
         """A signal of the motion, or of the forces, over the time; ``halve``: where it kinks of itself, too."""
@@ -100,7 +132,7 @@ class CycleGrid:
         found = Piecewise(self.edges, pieces, tolerance=tolerance)
         if not halve or found.smooth.all():
             return found
-        return Piecewise(self.edges, pieces, self._function(signal, of), self.edges, tolerance)
+        return Piecewise(self.edges, pieces, self.function(signal, of), self.edges, tolerance)
 
     def means(self, values: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere."""
@@ -117,8 +149,53 @@ class CycleGrid:
             each if each.place <= self.end else replace(each, place=each.place - period) for each in found
         ]
 
-    def _function(self, signal: Callable[[Any], Floats], of: str) -> Callable[[Floats], Floats]:
-        return lambda time: np.asarray(signal(self.resolver.at(time, of)), dtype=float)
+    def function(self, signal: Callable[[Any], Floats], of: str) -> Callable[[Floats], Floats]:
+        """A signal at any times of the cycle, (n,); around change points as the polynomials on both sides of them."""
+
+        def solved(time: Floats) -> Floats:
+            return np.asarray(signal(self.resolver.at(time, of)), dtype=float)
+
+        known = self._around_changes(signal, of)
+        if not known:
+            return solved
+
+        def found(time: Floats) -> Floats:
+            values, rest = np.full(len(time), np.nan), np.ones(len(time), dtype=bool)
+            for (low, high), row in known:
+                near = (time > low) & (time < high)
+                values[near] = between(row, (2.0 * time[near] - low - high) / (high - low))
+                rest &= ~near
+            if rest.any():
+                values[rest] = solved(time[rest])
+            return values
+
+        return found
+
+    def _around_changes(self, signal: Callable[[Any], Floats], of: str) -> list[tuple[Floats, Floats]]:
+        """Ends of the whole pieces around change points, with the signal (POINTS,) in them."""
+        if not len(self.around):
+            return []
+        values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
+        pieces = values.reshape(-1, POINTS)
+        firsts = np.searchsorted(self.edges, self.around[:, 0])
+        return [
+            (ends, pieces[k])
+            for ends, k in zip(self.around, firsts, strict=True)
+            if k < len(pieces) and self.edges[k + 1] == ends[1] and self._centred(ends)
+        ]
+
+    def _centred(self, ends: Floats) -> bool:
+        """Whether a change point lies in the middle, not near the end of the cycle."""
+        middle, changes = 0.5 * float(ends[0] + ends[1]), self.resolver.changes
+        return bool((np.abs(changes - middle) < 1e-9 * (self.end - self.start)).any())
+
+    def limits_at_changes(self, signal: Callable[[Any], Floats], of: str) -> list[tuple[float, float, float]]:
+        """Times of change points, s, with the limits of a signal before and after each."""
+        found = []
+        for rim, values in self._around_changes(signal, of):
+            before, after = sides(values)
+            found.append((0.5 * float(rim[0] + rim[1]), limit(before), limit(after)))
+        return found
 
     @cached_property
     def _solved(self) -> tuple[Floats, Motion | Forces, float]:
@@ -128,12 +205,13 @@ class CycleGrid:
         found by iteration, or near a singular one.
         """
         of = "motion" if self._forces is None else "forces"
-        edges = edges_between(self.start, self.end, PIECES, self._switches())
+        edges = self._edges(self._switches())
         solved = self.resolver.at(nodes(edges).ravel(), of, self._asked)
         before = np.inf
         for _ in range(HALVINGS):
             tail = self._tails(solved, len(edges) - 1)
             rough = (tail > SMOOTH) & (np.diff(edges) > 1e-12 * (self.end - self.start))
+            rough &= ~self._passing(edges)
             level = float(np.median(tail[rough])) if rough.any() else 0.0
             if not 0 < rough.sum() <= _NOISE or level > 0.25 * before:
                 break
@@ -208,11 +286,20 @@ def _twice(curve: Piecewise, period: float) -> Piecewise:
     return Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
 
 
+def _all_passed(resolver: Resolver, motion: Motion) -> bool:
+    """Whether all positions are reached but those that lie on change points."""
+    if motion.ok.all():
+        return True
+    missed = motion.time[~motion.ok]
+    near = np.abs(missed[:, None] - resolver.changes).min(axis=1, initial=np.inf)
+    return bool((near < 1e-9 * (np.ptp(motion.time) or 1.0)).all())
+
+
 def cycle_grid(
     resolver: Resolver, motion: Motion, forces: Forces | None, asked: tuple[str, ...]
 ) -> CycleGrid | None:
     """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
-    if not resolver.possible or motion.steps < 3 or not motion.ok.all():
+    if not resolver.possible or motion.steps < 3 or not _all_passed(resolver, motion):
         return None
     start, positions = float(motion.time[0]), motion.positions
     if positions.closed and positions.period:

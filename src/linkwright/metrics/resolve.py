@@ -55,6 +55,17 @@ class Resolver:
         """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
         return self._between is not None
 
+    @cached_property
+    def changes(self) -> Floats:
+        """Times of the change points that the motion passes, s."""
+        passing = [] if self._between is None else self._between.passing
+        time, positions = self._motion.time, self._motion.positions
+        if positions.closed and positions.period:
+            sense = 1.0 if time[-1] >= time[0] else -1.0
+            time = np.append(time, time[0] + sense * positions.period)
+        places = [p.place for p in passing]
+        return np.asarray(np.interp(places, np.arange(float(len(time))), time)) if places else np.empty(0)
+
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
         if of != "forces":

@@ -40,6 +40,7 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "group is singular.",
     "singularity.near": "group {group} passes close to a singular position at {at}: forces grow very large "
     "there",
+    "unbounded": "grows without bound towards {at}, where it cannot be carried (change or dead point)",
     "stroke.label": "stroke",
     "stroke.meaning": "Travel of a block between its outermost positions.",
     "swing_angle.label": "swing angle",

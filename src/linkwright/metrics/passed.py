@@ -1,0 +1,63 @@
+"""A signal around a change point that the motion passes, from values a little away from it.
+
+At a distance δ from the point the digits of a position are good for ε/δ only, those of an acceleration or a force
+for ε/δ³, so nothing is solved in the middle. What is smooth on a side of the point goes on to it as the polynomial
+through the values on that side; forces that the change point cannot carry grow as 1/δ.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.core.piecewise import NODES, POINTS, Floats
+
+#: Two polynomials, through all values of a side and through all but the outermost, agree to this share of the values.
+AGREE = 1e-6
+#: What grows as 1/δ or 1/δ² does so over the nearest places, and its product with δ or δ² has a limit that is this
+#: many times what is not sure of it.
+_GROWING, _SURE = 4, 1000.0
+_HALF = POINTS // 2
+#: Distances of a side's places from the middle, the nearest first, as shares of the half width.
+_AWAY = NODES[_HALF:]
+
+
+def _weights(away: Floats, x: Floats) -> Floats:
+    """Weights (m, k) of values at distances (k,) in their polynomial's values at x (m,)."""
+    others = away[:, None] - away
+    np.fill_diagonal(others, 1.0)
+    apart = np.repeat((x[:, None] - away)[:, None, :], len(away), axis=1)
+    apart[:, np.arange(len(away)), np.arange(len(away))] = 1.0
+    return np.asarray(apart.prod(axis=2) / others.prod(axis=1))
+
+
+_MIDDLE = np.zeros(1)
+_ALL = _weights(_AWAY, _MIDDLE)[0]
+_BUT_ONE = np.append(_weights(_AWAY[:-1], _MIDDLE)[0], 0.0)
+
+
+def sides(values: Floats) -> tuple[Floats, Floats]:
+    """Values (POINTS,) at the Gauss points of a piece before and after its middle, the nearest first."""
+    return values[:_HALF][::-1], values[_HALF:]
+
+
+def limit(values: Floats) -> float:
+    """The limit of a signal at a change point from the values (k,) of one side; infinite where it grows as 1/δ or
+    1/δ², NaN where no polynomial tells."""
+    found = float(_ALL @ values)
+    if abs(found - float(_BUT_ONE @ values)) <= AGREE * float(np.abs(values).max()):
+        return found
+    if (np.diff(np.abs(values[:_GROWING])) < 0.0).all():
+        for order in (1, 2):
+            scaled = values * _AWAY**order
+            found = float(_ALL @ scaled)
+            unsure = max(abs(found - float(_BUT_ONE @ scaled)), AGREE * float(np.abs(scaled).max()))
+            if abs(found) > _SURE * unsure:
+                return float(np.copysign(np.inf, found))
+    return float("nan")
+
+
+def between(values: Floats, share: Floats) -> Floats:
+    """A signal at shares (m,) of the half width from the middle, -1 to 1, by the polynomials of both sides."""
+    before, after = sides(values)
+    weights = _weights(_AWAY, np.abs(share))
+    return np.where(share < 0.0, weights @ before, weights @ after)

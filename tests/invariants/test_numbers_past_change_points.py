@@ -1,0 +1,89 @@
+"""Design numbers of motions through change points, in closed form and whatever the steps.
+
+A parallelogram copies its crank: no angular acceleration, no torque; its coupler goes round a circle.
+"""
+
+from __future__ import annotations
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.core.piecewise import NODES
+from linkwright.metrics import metrics
+from linkwright.metrics.passed import between, limit, sides
+
+MODEL = """
+format: 1
+name: parallelogram
+frame: {points: {O1: [0 m, 0 m], O2: [2 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 2 m, mass: 2 kg, inertia: 0.7 kg·m²}
+  rocker: {points: [O2, B], length: 1 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 5 rad/s, start: 90 deg}
+"""
+LOADED = MODEL + "loads: {work: {kind: torque, on: rocker, magnitude: 10 N·m}}\n"
+STEPS = [97, 361, 1001, 3601]
+
+
+def numbers(text: str, steps: int, failures: str = "raise") -> lw.MetricsTable:
+    return metrics(lw.solve_forces(lw.solve_motion(lw.loads(text), steps=steps, failures=failures)))
+
+
+@pytest.mark.parametrize("steps", STEPS)
+def test_nothing_is_left_of_rounding(steps: int) -> None:
+    """The pins share the coupler's m r ω² = 50 N; 361 steps have a position 4e-5 rad beside a change point."""
+    table = numbers(MODEL, steps)
+    for name in ("peak_acceleration", "peak_input_torque", "rms_input_torque", "peak_power"):
+        assert table.value(name) == pytest.approx(0.0, abs=1e-7)
+    for pin in ("O1", "O2", "A", "B"):
+        assert table["peak_reaction", pin].value == pytest.approx(25.0, rel=1e-8)
+        assert table["rms_reaction", pin].value == pytest.approx(25.0, rel=1e-8)
+    assert table.value("peak_shaking_force") == pytest.approx(50.0, rel=1e-8)
+    assert table.value("transmission_angle") == 0.0
+    assert table.value("pressure_angle") == pytest.approx(pi / 2, abs=1e-9)
+    assert all(row.exact for row in table if row.metric != "swept_area")
+
+
+@pytest.mark.parametrize("steps", STEPS)
+def test_a_load_that_the_change_point_cannot_carry_has_infinite_reactions(steps: int) -> None:
+    """The coupler's force along itself is T / (r sin θ); the torque is T all the way, the power T ω."""
+    table = numbers(LOADED, steps)
+    for pin in ("O1", "O2", "A", "B"):
+        row = table["peak_reaction", pin]
+        assert row.value == inf and "without bound towards 180°" in row.sentence
+        assert row.at == pytest.approx(pi, abs=1e-6) and row.warnings
+        assert table["rms_reaction", pin].value == inf
+    for name, value in (("peak_input_torque", 10.0), ("rms_input_torque", 10.0), ("mean_power", -50.0)):
+        assert abs(table.value(name)) == pytest.approx(abs(value), rel=1e-8)
+
+
+def test_positions_on_change_points_that_are_marked_hide_nothing_between() -> None:
+    table = numbers(LOADED, 360, "mark")
+    assert table["peak_reaction", "A"].value == inf
+    assert table.value("peak_input_torque") == pytest.approx(10.0, rel=1e-8)
+
+
+def test_limits_of_what_is_smooth_kinked_and_unbounded() -> None:
+    x = 0.3 * NODES  # a piece of 0.6 rad
+    for signal, before, after in (
+        (np.cos(x + 0.3), np.cos(0.3), np.cos(0.3)),
+        (np.abs(np.sin(x)), 0.0, 0.0),
+        (np.where(x < 0, 2.0 + x, np.exp(x)), 2.0, 1.0),
+        (1.0 / x + np.cos(x), -inf, inf),
+        (1.0 / x**2, inf, inf),
+        (np.hypot(1.0 / np.sin(x), 3.0), inf, inf),
+    ):
+        assert [limit(side) for side in sides(signal)] == pytest.approx([before, after], abs=1e-7)
+    jumping = np.random.default_rng(3).normal(size=len(x))
+    assert all(np.isnan(limit(side)) for side in sides(jumping))
+
+
+def test_values_between_follow_each_side() -> None:
+    share = np.linspace(-1.0, 1.0, 41)
+    kinked = np.abs(np.sin(0.4 * NODES)) + NODES
+    np.testing.assert_allclose(between(kinked, share), np.abs(np.sin(0.4 * share)) + share, atol=1e-10)
