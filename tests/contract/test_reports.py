@@ -25,6 +25,7 @@ from linkwright.report.document import Figure, Formula, Heading, Paragraph, Tabl
 from linkwright.report.numbers import typeset, without_rounding
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
+from linkwright.report.sections.reactions import loaded_joints
 from linkwright.report.settings import settings
 from linkwright.words import LANGUAGES, has, say, speaker
 
@@ -248,6 +249,37 @@ def test_results_that_are_nothing_beside_the_largest_of_their_unit_are_zero() ->
     assert found["A on rod.x [N]"].tolist() == [2000.0, 3e-9, 0.0]
     assert found["guide on ram.couple [N·m]"][0] == 3e-10  # the largest of its unit
     assert found["power_residual [W]"][0] == 1e-13
+
+
+def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -> None:
+    """Two of the three planets are idle and all forces keep their size: no table of one number."""
+    found = report("gallery:planetary_two_inputs", sections=["tables", "reactions", "limits"], language="zh")
+    peaks, *_ = [b for b in found.document.blocks if isinstance(b, Table) and b.label == "peaks"]
+    told = {plain(row[0]): row[1:] for row in peaks.rows}
+    assert told["O 对 机架"] == told["sun_2"] == ("0 N", "")  # 3.6e-13 N by rounding
+    assert told["sun_1"][0].startswith("886.8")  # 20 N·m / (24 mm · cos 20°)
+    (numbers,) = [b for b in found.document.blocks if isinstance(b, Table) and b.label == "numbers"]
+    assert not [row for row in numbers.rows if "10^{-1" in row[3 - 1]]
+    said = [b.text for b in found.document.blocks if isinstance(b, Paragraph) and "循环中不变" in b.text]
+    assert any("= 20 N" in each and "= 60 N" in each for each in said)
+    heads = [head for b in found.document.blocks if isinstance(b, Table) for head in b.head]
+    assert not [head for head in heads if head.startswith("$F_")]
+    train = Case(lw.load("gallery:planetary_two_inputs"), settings({}), "en")
+    carrying = [
+        ("O", "sun"),
+        ("O", "ring"),
+        ("O", "carrier"),
+        *((p, f"planet_{k}") for k, p in enumerate("ABC", 1)),
+    ]
+    assert loaded_joints(train) == [*carrying, ("sun_1", "planet_1"), ("ring_1", "ring")]
+
+
+def test_residuals_show_two_digits() -> None:
+    found = report("gallery:geared_fivebar_double", sections=["appendix"])
+    tables = [b for b in found.document.blocks if isinstance(b, Table)]
+    cells = [row[k] for b in tables for k, head in enumerate(b.head) if "Delta" in head for row in b.rows]
+    assert len(cells) == 48
+    assert all(re.fullmatch(r"0|\$?-?\d(\.\d)?(e|\\cdot 10\^\{)-1\d\}?\$?", cell) for cell in cells), cells
 
 
 def test_columns_of_pages_are_aligned_and_the_title_is_there() -> None:

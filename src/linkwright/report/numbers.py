@@ -115,6 +115,11 @@ def column(values: Floats) -> list[str]:
     return [_plain(float(value), place) for value in values]
 
 
+def residual(values: Floats) -> list[str]:
+    """What rounding leaves, of which more than two digits say nothing."""
+    return [small(value, 2) for value in values]
+
+
 def small(value: float, digits: int) -> str:
     """A number of any size with so many digits, a power of ten as ``e-13``; zero as 0."""
     if not math.isfinite(value):

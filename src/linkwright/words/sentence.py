@@ -67,7 +67,9 @@ def in_words(subject: str, language: str) -> str:
     """A subject with the names that the program itself gives (frame, driver, max→min) in a language."""
     if language == "en":
         return subject
-    return _OWN_NAMES.sub(lambda found: say(f"nouns.{found[0]}", language), subject)
+    told = _OWN_NAMES.sub(lambda found: say(f"nouns.{found[0]}", language), subject)
+    joint, on, link = told.partition(" on ")
+    return say("nouns.joint_on_link", language).format(joint=joint, link=link) if on else told
 
 
 def together(items: Sequence[str]) -> str:

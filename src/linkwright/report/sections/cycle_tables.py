@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.numbers import column, without_rounding
+from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import SECTIONS, Section
 
 
@@ -39,9 +39,10 @@ class CycleTables(Section):
             return
         sizes = [name for name in columns if name.endswith((".magnitude [N]", ".couple [N·m]"))]
         efforts = [name for name in columns if ".effort [" in name]
-        yield table(case, say("report.reactions_table"), columns, sizes)
+        yield from varying(case, "report.reactions_table", columns, sizes)
         if efforts:
-            yield table(case, say("report.effort_table"), columns, [*efforts, *_starting(columns, "shaking")])
+            shaking = _starting(columns, "shaking")
+            yield from varying(case, "report.effort_table", columns, [*efforts, *shaking])
 
 
 def _motion_tables(case: Case, columns: Mapping[str, Floats]) -> Iterator[tuple[str, list[str]]]:
@@ -78,13 +79,37 @@ def varies(values: Floats) -> bool:
     return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
 
 
+def varying(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence[str]) -> Iterator[Block]:
+    """What does not change over the cycle in a sentence, the others in a table; all in it without a driver."""
+    moving = [name for name in names if varies(columns[name])] if case.mechanism.drivers else names
+    still = [name for name in names if name not in moving and np.isfinite(columns[name]).any()]
+    if still:
+        yield Paragraph(
+            case.say("report.constant", values=", ".join(_equal(case, columns, each) for each in still))
+        )
+    if moving:
+        yield table(case, case.say(title), columns, moving)
+
+
+def _equal(case: Case, columns: Mapping[str, Floats], name: str) -> str:
+    """What a result that does not change is equal to."""
+    head, factor = case.heads.head(name)
+    quantity, _, unit = head.rpartition("\u00a0/\u00a0")
+    known = columns[name][np.isfinite(columns[name])]
+    value = typeset(f"{faded(float(known[0])) * factor:.6g}")
+    return f"{quantity} = {value} {unit}".replace(" °", "°")
+
+
 def table(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence[str]) -> Table:
     """Columns at the numbered positions, in shown units."""
     numbered = case.numbered
     rows = list(numbered.rows)
     first = case.inputs_of(numbered)
     shown = [case.heads.head(name) for name in names]
-    printed = [column(columns[name][rows] * factor) for name, (_, factor) in zip(names, shown, strict=True)]
+    printed = [
+        (residual if "_residual [" in name else column)(columns[name][rows] * factor)
+        for name, (_, factor) in zip(names, shown, strict=True)
+    ]
     body = tuple((str(k + 1), first[k], *(each[k] for each in printed)) for k in range(len(rows)))
     head = (
         case.say("report.position_number"),

@@ -26,7 +26,7 @@ class Limits(Section):
 
     def blocks(self, case: Case) -> Iterator[Block]:
         say = case.say
-        rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
+        rows = [row for row in case.numbers if row.metric not in ELSEWHERE]
         if not rows:
             raise Missing(Sentence("report.no_numbers"))
         yield Paragraph(say("report.limits_text"))

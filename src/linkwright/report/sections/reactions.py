@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
+import numpy as np
+
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.quantities import shown
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
-from linkwright.report.numbers import faded
+from linkwright.report.numbers import ROUNDING, faded
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.sections.curves import SHARE
 from linkwright.report.sections.curves import TALLEST as SHORT
+from linkwright.words.sentence import in_words
 
 #: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
 #: figures; the height of one of hodographs, mm.
@@ -29,9 +32,9 @@ class Reactions(Section):
     def blocks(self, case: Case) -> Iterator[Block]:
         say, _ = case.say, case.forces
         yield Paragraph(say("report.reactions_text"))
-        peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
+        peaks = [row for row in case.numbers if row.metric == "peak_reaction"]
         rows = tuple(
-            (literal(row.subject), shown(row.value, row.dimension),
+            (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
              "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
         )  # fmt: skip
         if rows:
@@ -42,19 +45,28 @@ class Reactions(Section):
         parts = _parts(case, MOST)
         yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
         parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
-        panels = [sum(joint in part for joint, _ in reaction_pairs(case.mechanism)) for part in parts]
+        panels = [sum(joint in part for joint, _ in loaded_joints(case)) for part in parts]
         yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
 def _parts(case: Case, most: int) -> list[list[str]]:
-    """The joints, as many together as have no more forces than ``most``."""
-    forces = Counter(joint for joint, _ in reaction_pairs(case.mechanism))
-    parts: list[list[str]] = [[]]
+    """The joints that carry something, as many together as have no more forces than ``most``."""
+    forces = Counter(joint for joint, _ in loaded_joints(case))
+    parts: list[list[str]] = [[]] if forces else []
     for joint, count in forces.items():
         if parts[-1] and sum(forces[each] for each in parts[-1]) + count > most:
             parts.append([])
         parts[-1].append(joint)
     return parts
+
+
+def loaded_joints(case: Case) -> list[tuple[str, str]]:
+    """The joint forces, those of joints that carry nothing left out."""
+    peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
+             for pair in reaction_pairs(case.mechanism)}  # fmt: skip
+    least = ROUNDING * max(peaks.values(), default=0.0)
+    carrying = {joint for (joint, _), peak in peaks.items() if peak > least}
+    return [pair for pair in peaks if pair[0] in carrying]
 
 
 def _figures(

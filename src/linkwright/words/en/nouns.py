@@ -4,6 +4,7 @@ WORDS = {
     "pair_revolute": "revolute",
     "pair_prismatic": "prismatic",
     "pair_weld": "weld",
+    "joint_on_link": "{joint} on {link}",
     "pair_gear": "gear",
     "pair_belt": "belt",
     "pair_chain": "chain",

@@ -22,7 +22,7 @@ WORDS = {
     "bad_efficiency": "the efficiency is {efficiency:g}; give a value above 0 and up to 1",
     "bad_margin": "the margin on the motor's power is {margin:g}; give 1 or more",
     "no_work": "the mean torque of {name!r} over its cycle is zero: no work is done, so there is no motor to "
-    "choose and no flywheel to lay out; give the machine a load (loads: …)",
+    "choose and no flywheel to lay out; give the machine a load that does work over a cycle (loads: …)",
     "driven_by_loads": "the mean torque of {name!r} over its cycle is {mean:.6g} N·m: the loads drive the "
     "machine instead of resisting; check the direction of the loads",
     "bad_speed": "the mean speed is {speed:g} rad/s; give a value above zero",

@@ -4,6 +4,7 @@ WORDS = {
     "pair_revolute": "转动副",
     "pair_prismatic": "移动副",
     "pair_weld": "刚性连接",
+    "joint_on_link": "{joint} 对 {link}",
     "pair_gear": "齿轮副",
     "pair_belt": "带传动",
     "pair_chain": "链传动",
