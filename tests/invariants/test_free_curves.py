@@ -13,8 +13,8 @@ from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.kernels import POINT, kernels
 from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
-from linkwright.synthesis.free_curve.moves import with_joint
-from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure
+from linkwright.synthesis.free_curve.moves import with_dyad, with_joint
+from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure, turned_paths
 from linkwright.synthesis.free_curve.target import (
     MIDDLE,
     Target,
@@ -76,6 +76,52 @@ def test_one_more_dyad_leaves_the_curve() -> None:
             own = node_paths(design.nodes, design.x, turn)[1]
             assert least >= 0.999 * min(own, 0.7 * math.sin(target.least) ** 2)
             inserted += each.nodes[-4] != POINT or each.nodes[-3] != design.joints - 1
+
+
+def test_a_dyad_at_the_drawing_point_leaves_the_curve_and_closes() -> None:
+    draw = np.random.default_rng(9)
+    target, turn, hung = Target(FOUR, False, math.radians(20), 6.0), np.linspace(0, 2 * np.pi, 145), 0
+    while hung < 40:
+        nodes = random_structure(2, 7, draw)
+        numbers = np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]])
+        design = Design(nodes, numbers, False)
+        if target.descend(design, 0).value > 1e3:
+            continue
+        each = with_dyad(design, draw, 10)
+        if each is None:
+            continue
+        after, least = node_paths(each.nodes, each.x, turn)
+        assert np.abs(after[-1] - node_paths(nodes, numbers, turn)[0][-1]).max() < 1e-12
+        assert least > 0 and each.links == design.links + 2 and each.joints - design.joints in (2, 3)
+        hung += 1
+
+
+def test_the_paths_of_a_turn_are_those_of_the_formulas() -> None:
+    draw, seen = np.random.default_rng(6), [0, 0]
+    while min(seen) < 10:
+        nodes = random_structure(2, 8, draw)
+        x = draw.normal(0.6, 0.7, len(nodes) // 2 - 4)
+        paths, least = node_paths(nodes, x, np.linspace(0, 2 * np.pi, 145)[:-1])
+        found = turned_paths(nodes, x, 144)
+        if abs(least) < 1e-3:
+            continue
+        assert (found is None) == (least < 0)
+        assert found is None or np.abs(found - paths).max() < 1e-9 * np.abs(paths).max()
+        seen[least > 0] += 1
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_descent_that_goes_on_with_its_curvature_descends(closed: bool) -> None:
+    draw, target, values = np.random.default_rng(12), Target(FOUR, closed, math.radians(20), 6.0), []
+    while len(values) < 12:
+        nodes = random_structure(2, 8, draw)
+        x = np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]])
+        near = target.descend(Design(nodes, x, False), 10)
+        if near.value < 1e3:
+            on = target.descend(near, 20, kept=True)
+            assert on.value == target.descend(on, 0).value <= near.value
+            values.append(on.value / near.value)
+    assert np.mean(values) < 0.95
 
 
 def test_one_more_joint_leaves_the_curve_and_moves_it() -> None:

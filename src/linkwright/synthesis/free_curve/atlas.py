@@ -32,6 +32,7 @@ from linkwright.synthesis.free_curve.nodes import (
     Whole,
     node_paths,
     random_structure,
+    turned_paths,
 )
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
@@ -104,9 +105,11 @@ class Atlas:
         (lag, length), mirror, turn = laid
         structure, row = self.which[i]
         nodes, x = self.structures[structure], self.x[structure][row].astype(float)
-        angle = np.linspace(0, 2 * np.pi, 145)
-        path = node_paths(nodes, x, angle)[0][-1]
-        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path)))]) / np.abs(np.diff(path)).sum()
+        angle, paths = np.linspace(0, 2 * np.pi, 145), turned_paths(nodes, x, 144)
+        if paths is None:
+            paths = node_paths(nodes, x, angle[:-1])[0]
+        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(paths[-1], append=paths[-1, :1])))])
+        along /= along[-1]
         first = float(np.interp(lag / M, along, angle))
         span = WHOLE
         if length < M:

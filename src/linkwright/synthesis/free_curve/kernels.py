@@ -366,17 +366,21 @@ def update(H: Reals, s: Reals, y: Reals, Hy: Reals, d: int) -> int:
 
 def descend(
     nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
-    options: Reals, room: Reals, iterations: int,
+    options: Reals, room: Reals, iterations: int, kept: int,
 ) -> float:  # fmt: skip
-    """Quasi-Newton descent; a weak Wolfe bisection suits the kinks of a distance (Lewis and Overton 2013)."""
+    """Quasi-Newton descent; a weak Wolfe bisection suits the kinks of a distance (Lewis and Overton 2013).
+
+    ``kept`` 1: it begins with the inverse Hessian that the last descent of the same numbers left in ``room``.
+    """
     d = 2 * (count - 2) + 3
     H, g = room, room + d * d
     gn, s, xn, y, Hy, rest = g + d, g + 2 * d, g + 3 * d, g + 4 * d, g + 5 * d, g + 8 * d
     f = deviation(nodes, count, n, N, closed, x, target, m, near, options, rest, g)
     if f >= FAR:
         return f
-    restart(H, g, d, 0.02)
-    first = 1
+    first = 1 - kept
+    if kept == 0:
+        restart(H, g, d, 0.02)
     for _ in range(iterations):
         slope, big = 0.0, 0.0
         for a in range(d):

@@ -15,10 +15,12 @@ from linkwright.synthesis.free_curve.nodes import (
     Node,
     flat,
     links_of,
-    node_paths,
     pivots_of,
+    turned_paths,
 )
 
+#: Positions of a turn at which a new dyad must close.
+TURN = 96
 #: Where a new node comes, which entry of that row then names it (0: none), the node and its two numbers.
 Parting = tuple[int, int, Node, tuple[float, float]]
 
@@ -30,27 +32,31 @@ def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
     pivot or a new point of a link. None where the dyad could not close, or there is no room.
     """
     rows, x, last = design.rows, design.x, design.joints - 1
-    if most - design.joints < 2:
+    paths = turned_paths(design.nodes, x, TURN)
+    if most - design.joints < 2 or paths is None:
         return None
     values: list[float] = []
-    choice, far = int(draw.integers(4 if most - design.joints > 2 else 2)), last + 1
+    choice = int(draw.integers(4 if most - design.joints > 2 else 2))
+    far = last + 1
     if choice == 0:
         far = int(draw.choice(pivots_of(rows)))
+        place = paths[far]
     elif choice == 1:
         far = int(draw.integers(1, last))
+        place = paths[far]
     elif choice == 2:
-        path = node_paths(design.nodes, x, np.linspace(0, 2 * np.pi, 49))[0][last]
+        path = paths[last]
         size = np.abs(path - path.mean()).max() * draw.uniform(0.3, 3)
         place = complex(path.mean() + size * np.exp(1j * draw.uniform(0, 2 * np.pi)))
         rows.append((PIVOT, 0, 0, 1))
         values = [place.real, place.imag]
     else:
-        pairs, place = links_of(rows), draw.uniform(0.2, 2) * np.exp(1j * draw.uniform(0, 2 * np.pi))
-        rows.append((POINT, *pairs[int(draw.integers(len(pairs)))], 1))
-        values = [place.real, place.imag]
-    longer = np.concatenate([x[:-3], values, x[-3:]])
-    paths = node_paths(flat(rows), longer, np.linspace(0, 2 * np.pi, 97))[0]
-    apart = np.abs(paths[last] - paths[far])
+        pairs, ratio = links_of(rows), draw.uniform(0.2, 2) * np.exp(1j * draw.uniform(0, 2 * np.pi))
+        i, j = pairs[int(draw.integers(len(pairs)))]
+        rows.append((POINT, i, j, 1))
+        values = [ratio.real, ratio.imag]
+        place = paths[i] + ratio * (paths[j] - paths[i])
+    apart = np.abs(paths[last] - place)
     low, high = float(apart.min()), float(apart.max())
     if not (low > 0.02 * high and high - low > 1e-6 * high):
         return None

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.free_curve.kernels import DYAD, FAR, PIVOT, POINT
+from linkwright.synthesis.free_curve.kernels import DYAD, FAR, PIVOT, POINT, kernels
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -84,6 +84,18 @@ def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float
             across = np.sqrt(np.maximum(1 - along**2, 0))
             paths[k] = paths[i] + first * span / apart * (along + 1j * branch * across)
     return paths, least
+
+
+def turned_paths(nodes: Whole, x: Floats, count: int) -> Complexes | None:
+    """Positions (joints, count) of all nodes over a turn in even steps from 0; None where a dyad does not close.
+
+    ``count``: a multiple of 8. Fast, and without the care of :func:`node_paths`.
+    """
+    joints = len(nodes) // 4
+    numbers, places = np.append(x, (0.0, 0.0, 0.0)), np.zeros((2, joints, count))
+    addresses = [each.ctypes.data for each in (numbers, *places)]
+    closes = kernels()("place", nodes.ctypes.data, joints, count, count, 1, *addresses) >= 0.0
+    return np.asarray(places[0] + 1j * places[1]) if closes else None
 
 
 def links_of(rows: list[Node]) -> list[tuple[int, int]]:

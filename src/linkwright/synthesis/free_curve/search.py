@@ -43,8 +43,8 @@ POOL, BATCH = 30, 0.2
 PARTED = 0.8
 #: Dyads drawn of which a promising one is taken.
 DRAWS = 96
-#: Share of the attempts that goes on after each of two steps, among this many recent ones.
-GOES_ON, RECENT = (0.6, 0.25), 200
+#: Share of the attempts that close that goes on after each of two steps, among this many recent ones.
+GOES_ON, RECENT = (0.5, 0.25), 200
 #: Designs err alike whose misses have a product above this; as many of them stay in a pool.
 NICHE, CROWD = 0.9, 4
 #: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
@@ -68,28 +68,22 @@ class Pool:
 
     def add(self, design: Design) -> None:
         """Takes a design in where it is good and different enough in structure and in where it errs."""
-        if not design.value < self.worst:
+        better = [one for one in self.designs if one.value <= design.value]
+        if not design.value < self.worst or any(_same(one, design) for one in better):
             return
-        kept: list[Design] = []
+        kept: list[int] = []
         alike: dict[tuple[bytes, bool], int] = {}
-        order = sorted([*self.designs, design], key=lambda one: one.value)
+        worse = [one for one in self.designs[len(better) :] if not _same(design, one)]
+        order = [*better, design, *worse]
         errs = np.array([each.misses for each in order])
-        near = errs @ errs.T > NICHE
-        rows: list[int] = []
+        near = (errs @ errs.T > NICHE).tolist()
         for row, each in enumerate(order):
             key = each.nodes.tobytes(), each.mirror
             most = 12 if each.joints == JOINTS[0] else 3
-            if (
-                alike.get(key, 0) < most
-                and near[row, rows].sum() < CROWD
-                and not any(_same(one, each) for one in kept)
-            ):
-                kept.append(each)
-                rows.append(row)
+            if alike.get(key, 0) < most and sum(near[row][k] for k in kept) < CROWD:
+                kept.append(row)
                 alike[key] = alike.get(key, 0) + 1
-                if len(kept) == POOL:
-                    break
-        self.designs = kept
+        self.designs = [order[row] for row in kept[:POOL]]
 
     @property
     def worst(self) -> float:
@@ -209,28 +203,36 @@ class Search:
         )
         near: list[Design] = []
         while some := list(islice(starts, SOME)):
-            near += self.workers.map(lambda each: self.target.descend(each, 15, COARSE), some)
+            near += self._each(some, lambda each: self.target.descend(each, 15, COARSE))
             if time.perf_counter() > half:
                 break
         self.attempts += len(near)
         near = sorted(near, key=lambda each: each.value)[: max(SOME // 4, HALVED * len(near) // STARTS)]
         nearer = self._best(near, lambda each: self.target.eased(each, 60), CHOSEN)
-        return self._checked(self._best(nearer, lambda each: self.target.eased(each, 150), CHOSEN))
+        return self._each(
+            self._best(nearer, lambda each: self.target.eased(each, 150), CHOSEN), self.target.checked
+        )
 
     def _best(self, designs: list[Design], descent: Callable[[Design], Design], count: int) -> list[Design]:
-        return sorted(self.workers.map(descent, designs), key=lambda each: each.value)[:count]
+        return sorted(self._each(designs, descent), key=lambda each: each.value)[:count]
 
-    def _checked(self, designs: list[Design]) -> Iterable[Design]:
-        return self.workers.map(self.target.checked, designs)
+    def _each(self, designs: list[Design], descent: Callable[[Design], Design]) -> list[Design]:
+        """All designs after a descent, dealt to the workers."""
+        hands = self.workers.map(
+            lambda first: [descent(each) for each in designs[first :: cores()]], range(cores())
+        )
+        return [each for hand in hands for each in hand]
 
     def _attempt(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
         """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
         design = self._next(draw, most, pool, below)
-        design = self.target.descend(self.target.descend(design, 25, COARSE), 10)
-        if pool.promises(0, design.value):
-            design = self.target.eased(design, 60)
+        design = self.target.descend(design, 25, COARSE)
+        if design.value < FAR:
+            design = self.target.descend(design, 10, kept=True)
+        if design.value < FAR and pool.promises(0, design.value):
+            design = self.target.eased(design, 60, kept=True)
             if pool.promises(1, design.value):
-                return self.target.checked(self.target.eased(design, 200))
+                return self.target.checked(self.target.eased(design, 200, kept=True))
         return replace(design, value=FAR)
 
     def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
@@ -265,4 +267,4 @@ class Search:
                 design = self.target.descend(design, 150, FINE, weight=weight, more=more)
             return self.target.checked(design)
 
-        return [each for each in self.workers.map(polish, pool.designs[:6]) if each.value < FAR]
+        return [each for each in self._each(pool.designs[:6], polish) if each.value < FAR]

@@ -71,9 +71,14 @@ class Target:
         return np.concatenate([points.real, points.imag]), np.ascontiguousarray(near, dtype=np.int64)
 
     def descend(
-        self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0
+        self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0,
+        kept: bool = False,
     ) -> Design:  # fmt: skip
-        """The design after a descent; ``weight``: of the penalties, ``more``: angle (rad) above the least one."""
+        """The design after a descent.
+
+        ``weight``: of the penalties; ``more``: angle (rad) above the least one; ``kept``: it begins with the
+        curvature with which the last descent of the same design on this thread ended.
+        """
         points, near = self._tables[fineness.points, design.mirror]
         x = design.x.copy()
         limits = [np.sin(self.least + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
@@ -82,7 +87,7 @@ class Target:
         arrays = [each.ctypes.data for each in (x, points, near, options, _ROOM.array)]
         value = kernels()(
             "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, poses, int(self.closed), *arrays[:2],
-            fineness.points, *arrays[2:], iterations,
+            fineness.points, *arrays[2:], iterations, int(kept),
         )  # fmt: skip
         return replace(design, x=x, value=value)
 
@@ -118,9 +123,10 @@ class Target:
             if gains[k] > 0
         ]
 
-    def eased(self, design: Design, iterations: int) -> Design:
+    def eased(self, design: Design, iterations: int, kept: bool = False) -> Design:
         """The design after a descent that begins smooth, with the objective of ``MIDDLE``."""
-        return self.descend(self.descend(design, iterations // 2, ROUND), iterations - iterations // 2)
+        near = self.descend(design, iterations // 2, ROUND, kept=kept)
+        return self.descend(near, iterations - iterations // 2, kept=near.value < FAR)
 
     def checked(self, design: Design) -> Design:
         """The design with the objective at fine positions; FAR where it does not close well there."""
