@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import linkwright
+from linkwright.words import LANGUAGES, catalogue
 
 ROOT = Path(linkwright.__file__).parent
 #: Errors of the program itself, which no user can do anything about.
@@ -68,3 +69,18 @@ def test_no_english_sentence_stands_where_an_error_is_raised() -> None:
     for path in sorted(ROOT.rglob("*.py")):
         places += [f"{path.relative_to(ROOT)}:{line}" for line in in_place(path.read_text(encoding="utf-8"))]
     assert places == []
+
+
+def test_every_finding_has_its_remedy_in_every_language() -> None:
+    """``finding(node, place, "key", …)`` says ``model.key`` and ``model.key_do``."""
+    keys = {
+        node.args[2].value
+        for path in sorted(ROOT.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "finding"
+        and isinstance(node.args[2], ast.Constant)
+    }  # fmt: skip
+    assert len(keys) > 30
+    for language in LANGUAGES:
+        words = catalogue("model", language)
+        assert not [key for key in keys if key not in words or f"{key}_do" not in words], language

@@ -104,13 +104,7 @@ class Quantity(Field):
         if value is None or limit is None:
             return value
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
-        reader.error(
-            node,
-            place,
-            Sentence("model.is_faulty", shown=shown, fault=self._fault(value)),
-            Sentence("model.give_limit", limit=limit),
-            "range",
-        )
+        reader.finding(node, place, "is_faulty", "range", shown=shown, fault=self._fault(value), limit=limit)
         return None
 
     def _fault(self, value: float) -> str:
@@ -254,13 +248,7 @@ class Count(Field):
         text = reader.text(node, place)
         if text is None or text.strip() == str(self.only):
             return self.only
-        reader.error(
-            node,
-            place,
-            Sentence("model.unknown_version", text=text),
-            Sentence("model.write_version", key_=place.key, only=self.only),
-            "version",
-        )
+        reader.finding(node, place, "unknown_version", "version", text=text, key_=place.key, only=self.only)
         return None
 
     def shape(self) -> Schema:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Sequence
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.files.plain_reader import Place
@@ -38,9 +37,7 @@ class LinkName(Field):
         if name is None or not reader.known(node, place, "link", name, list(reader.names.links)):
             return None
         if self.moving and name == "frame":
-            reader.error(
-                node, place, Sentence("model.frame_at_rest"), Sentence("model.moving_link"), "reference"
-            )
+            reader.finding(node, place, "frame_at_rest", "reference")
             return None
         return name
 

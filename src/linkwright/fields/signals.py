@@ -237,19 +237,13 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     if "input" in values:
         start, end = values["input"]
         if start == end:
-            reader.error(node, place, Sentence("model.phase_empty"), Sentence("model.two_values"), "range")
+            reader.finding(node, place, "phase_empty", "range")
             return None
         return InputPhase(start, end, reader.input_dimension())
     if "moving" in values:
         return MovingPhase(values["moving"], values["direction"])
     if values["from"] == values["to"]:
-        reader.error(
-            node,
-            place,
-            Sentence("model.from_is_to", end=values["from"]),
-            Sentence("model.max_to_min"),
-            "range",
-        )
+        reader.finding(node, place, "from_is_to", "range", end=values["from"])
         return None
     parts = [values[word] for word in PARTS if values.get(word) is not None]
     if len(parts) > 1:

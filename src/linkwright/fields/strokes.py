@@ -88,12 +88,13 @@ class StrokePartField(Field):
         elif 0 < share < 1 or (share == 0 and self.word == "free") or (share == 1 and self.word != "free"):
             return Amount(share, share=True)
         text = node.text if isinstance(node, Scalar) else ""
-        reader.error(
+        reader.finding(
             node,
             place,
-            Sentence("model.no_stroke_part", text=text),
-            Sentence("model.give_stroke_part", example="10 mm" if dimension == "length" else "5 deg"),
+            "no_stroke_part",
             "range",
+            text=text,
+            example="10 mm" if dimension == "length" else "5 deg",
         )
         return None
 

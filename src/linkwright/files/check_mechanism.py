@@ -46,13 +46,13 @@ def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) 
     section = root.get("parameters")
     for name in mechanism.parameters:
         if name not in reader.used and isinstance(section, MappingNode):
-            reader.error(
+            reader.finding(
                 section.get(name),
                 f"parameters.{name}",
-                Sentence("model.parameter_unused", name=name),
-                Sentence("model.use_or_remove"),
+                "parameter_unused",
                 "unused",
                 severity="warning",
+                name=name,
             )
 
 
@@ -66,21 +66,9 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
         key, node = f"links.{name}", _link_node(root, name)
         if not joints:
             points = ", ".join(link.points)
-            reader.error(
-                node,
-                key,
-                Sentence("model.link_unused", name=name, points=points),
-                Sentence("model.share_point"),
-                "unused",
-            )
+            reader.finding(node, key, "link_unused", "unused", name=name, points=points)
         elif len(link.points) == 1 and all(joint.coordinate == "turn" for joint in joints):
-            reader.error(
-                node,
-                key,
-                Sentence("model.lone_point", name=name),
-                Sentence("model.second_point"),
-                "one-point",
-            )
+            reader.finding(node, key, "lone_point", "one-point", name=name)
 
 
 def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -97,12 +85,12 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     apart = [name for name in mechanism.links if name not in reached]
     joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
     if joined:
-        reader.error(
+        reader.finding(
             _link_node(root, joined[0]),
             f"links.{joined[0]}",
-            Sentence("model.unconnected", links=tuple(joined)),
-            Sentence("model.connect"),
+            "unconnected",
             "not-connected",
+            links=tuple(joined),
         )
 
 
@@ -116,13 +104,14 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
         for point in link.points:
             alike = sorted(folded[point.casefold()] - own)
             if alike and reader.names.owners(point) == [name]:
-                reader.error(
+                reader.finding(
                     _link_node(root, name),
                     f"links.{name}.points",
-                    Sentence("model.lone_spelling", point=point, alike=alike[0]),
-                    Sentence("model.write_alike"),
+                    "lone_spelling",
                     "near-name",
                     severity="warning",
+                    point=point,
+                    alike=alike[0],
                 )
 
 

@@ -81,6 +81,22 @@ class PlainReader:
         key = place if isinstance(place, str) else place.key
         self.findings.append(Finding(severity, self.where(node, column), key, message, remedy, code))
 
+    def finding(
+        self,
+        node: Node | None,
+        place: Place | str,
+        key: str,
+        code: str,
+        /,
+        *,
+        severity: Severity = "error",
+        **values: object,
+    ) -> None:
+        """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy ``model.KEY_do``, both
+        with the same ``values``."""
+        problem, remedy = (Sentence(f"model.{each}", **values) for each in (key, f"{key}_do"))
+        self.error(node, place, problem, remedy, code, severity=severity)
+
     def where(self, node: Node | None, column: int = 0) -> str:
         """The place of a node as ``file:line:column``."""
         if self.si:
@@ -93,13 +109,7 @@ class PlainReader:
         """The node if it is a mapping."""
         if isinstance(node, MappingNode):
             return node
-        self.error(
-            node,
-            place,
-            Sentence("model.where_mapping", node=noun(node)),
-            Sentence("model.write_mapping"),
-            "type",
-        )
+        self.finding(node, place, "where_mapping", "type", node=noun(node))
         return None
 
     def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None:
@@ -128,9 +138,7 @@ class PlainReader:
         """The text of a single value."""
         if isinstance(node, Scalar) and not node.empty:
             return node.text
-        self.error(
-            node, place, Sentence("model.where_text", node=noun(node)), Sentence("model.write_name"), "type"
-        )
+        self.finding(node, place, "where_text", "type", node=noun(node))
         return None
 
     def name(self, node: Node, place: Place | str, what: str) -> str | None:
@@ -140,13 +148,7 @@ class PlainReader:
             return text
         right = re.sub(r"[^\w'-]", "_", text).strip("_") or "a"
         right = right if NAME.fullmatch(right) else f"{what[0]}{right}"
-        self.error(
-            node,
-            place,
-            Sentence("model.bad_name", text=text, what=Sentence(f"nouns.{what}")),
-            Sentence("model.name_rule", right=right),
-            "name",
-        )
+        self.finding(node, place, "bad_name", "name", text=text, what=Sentence(f"nouns.{what}"), right=right)
         return None
 
     def word(self, node: Node, place: Place | str, choices: Collection[str]) -> str | None:
@@ -231,12 +233,8 @@ class PlainReader:
             return False
         if not re.fullmatch(r"[+-]?\d+", whole.text) or not re.match(r"\d", rest):
             return False
-        self.error(
-            whole,
-            place.child(before.key.text),
-            Sentence("model.comma_split", whole=whole.text, rest=rest),
-            Sentence("model.write_point", whole=whole.text, rest=rest),
-            "decimal-comma",
+        self.finding(
+            whole, place.child(before.key.text), "comma_split", "decimal-comma", whole=whole.text, rest=rest
         )
         return True
 

@@ -94,13 +94,7 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
     if not turns and not slides:
         reader.unknown_keys(mapping, place, [*every, *SLIDE_FIELDS])
-        reader.error(
-            node,
-            place,
-            Sentence("model.nothing_driven"),
-            Sentence("model.add_turn"),
-            "missing-key",
-        )
+        reader.finding(node, place, "nothing_driven", "missing-key")
         return None
     given = reader.table(mapping, place, every) or {}
     law = _read_law(reader, mapping, place, given, laws, rotary)
@@ -172,12 +166,8 @@ def _revolute(
     if other is None:
         other = "frame" if "frame" in rest else rest[0]
         if other != "frame" and len(rest) > 1:
-            reader.error(
-                node,
-                place.child("relative_to"),
-                Sentence("model.several_on_pin", pin=pin),
-                Sentence("model.add_relative", rest=tuple(rest)),
-                "ambiguous",
+            reader.finding(
+                node, place.child("relative_to"), "several_on_pin", "ambiguous", pin=pin, rest=tuple(rest)
             )
             return None
     elif other not in rest:

@@ -70,13 +70,7 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
         if joint is None or name is None:
             continue
         if name in joints and joint.kind != IMPLIED:
-            reader.error(
-                entry.key,
-                f"joints.{name}",
-                Sentence("model.pin_has_name", name=name),
-                Sentence("model.rename_joint"),
-                "duplicate",
-            )
+            reader.finding(entry.key, f"joints.{name}", "pin_has_name", "duplicate", name=name)
         elif name in links:
             reader.error(
                 entry.key,

@@ -59,13 +59,7 @@ class LinkPoints(Field):
         for index, item in enumerate(node.items):
             name = reader.name(item, place.child(str(index)), "point")
             if name in names:
-                reader.error(
-                    item,
-                    place,
-                    Sentence("model.point_twice", name=name),
-                    Sentence("model.remove_or_rename"),
-                    "duplicate",
-                )
+                reader.finding(item, place, "point_twice", "duplicate", name=name)
             elif name is not None:
                 names[name] = None
         return list(names)
@@ -115,17 +109,11 @@ def scan_points(node: Node | None) -> tuple[str, ...]:
 def read_frame(reader: Reader, node: Node | None) -> Link:
     """The frame with its points."""
     if node is None:
-        reader.error(None, "frame", Sentence("model.no_frame"), Sentence("model.add_frame"), "missing-key")
+        reader.finding(None, "frame", "no_frame", "missing-key")
         return Link("frame", "coordinates", {})
     points = node.get("points") if isinstance(node, MappingNode) else None
     if isinstance(points, Sequence):
-        reader.error(
-            points,
-            "frame.points",
-            Sentence("model.frame_no_coordinates"),
-            Sentence("model.write_points"),
-            "type",
-        )
+        reader.finding(points, "frame.points", "frame_no_coordinates", "type")
         return Link("frame", "coordinates", {})
     found = reader.table(node, Place("frame", "frame"), FRAME_FIELDS) or {}
     placed = {name: place for name, place in (found.get("points") or {}).items() if place is not None}
@@ -146,13 +134,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
             continue
         fixed = frame.points.get(name)
         if fixed is not None and reader.names.owners(name) == ["frame"] and math.dist(fixed, place) > 1e-9:
-            reader.error(
-                value,
-                f"drawing.{name}",
-                Sentence("model.frame_elsewhere", name=name),
-                Sentence("model.leave_out"),
-                "conflict",
-            )
+            reader.finding(value, f"drawing.{name}", "frame_elsewhere", "conflict", name=name)
         drawing[name] = place
     return drawing
 
@@ -160,25 +142,13 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
 def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[str, Vec]) -> dict[str, Link]:
     """All moving links, in the file's order."""
     if node is None:
-        reader.error(
-            None,
-            "links",
-            Sentence("model.no_links"),
-            Sentence("model.add_links"),
-            "missing-key",
-        )
+        reader.finding(None, "links", "no_links", "missing-key")
         return {}
     mapping = reader.mapping(node, "links")
     if mapping is None:
         return {}
     if not mapping.entries:
-        reader.error(
-            node,
-            "links",
-            Sentence("model.no_link"),
-            Sentence("model.add_link"),
-            "missing-key",
-        )
+        reader.finding(node, "links", "no_link", "missing-key")
     if len(mapping.entries) > MOST_LINKS:
         said = Sentence("model.too_many_links", count=len(mapping.entries), most=MOST_LINKS)
         reader.error(node, "links", said, Sentence("model.split_up"), "many")
@@ -188,13 +158,7 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
     for entry in mapping.entries:
         name = reader.name(entry.key, f"links.{entry.key.text}", "link")
         if name in ("frame", "gravity", "loads", "parameters", "cycle"):
-            reader.error(
-                entry.key,
-                f"links.{name}",
-                Sentence("model.link_name", name=name),
-                Sentence("model.other_name"),
-                "name",
-            )
+            reader.finding(entry.key, f"links.{name}", "link_name", "name", name=name)
         elif name is not None:
             link = _read_link(reader, entry.value, name, seen)
             if link is not None:
@@ -211,13 +175,7 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     points = given["points"]
     if not points:
         if reader.error_count == before:
-            reader.error(
-                node,
-                place.child("points"),
-                Sentence("model.no_points"),
-                Sentence("model.list_points"),
-                "missing-key",
-            )
+            reader.finding(node, place.child("points"), "no_points", "missing-key")
         return None
     assert isinstance(node, MappingNode)
     placed = _place_points(reader, node, place, given, drawing) if reader.error_count == before else None
@@ -301,22 +259,10 @@ def _from_drawing(
     missing = [point for point in points if point not in drawing]
     if missing:
         form = Sentence("model.form_length" if len(points) == 2 else "model.form_lengths")
-        reader.error(
-            node,
-            place,
-            Sentence("model.no_dimensions", missing=tuple(missing)),
-            Sentence("model.give_dimensions", form=form, missing=tuple(missing)),
-            "missing-key",
-        )
+        reader.finding(node, place, "no_dimensions", "missing-key", missing=tuple(missing), form=form)
         return None
     if drawing[points[0]] == drawing[points[1]]:
-        reader.error(
-            node,
-            place,
-            Sentence("model.same_in_drawing", first=points[0], second=points[1]),
-            Sentence("model.move_one"),
-            "range",
-        )
+        reader.finding(node, place, "same_in_drawing", "range", first=points[0], second=points[1])
         return None
     return "drawing", from_drawing(points, drawing), ()
 
@@ -325,13 +271,8 @@ def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, V
     seen: dict[Vec, str] = {}
     for name, position in points.items():
         if position is not None and position in seen:
-            reader.error(
-                node,
-                place,
-                Sentence("model.points_same", seen=seen[position], name=name),
-                Sentence("model.different_coordinates"),
-                "coincident",
-                severity="warning",
+            reader.finding(
+                node, place, "points_same", "coincident", severity="warning", seen=seen[position], name=name
             )
         elif position is not None:
             seen[position] = name

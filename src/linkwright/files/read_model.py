@@ -199,13 +199,7 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
     except QuantityError as error:
         later = sorted(waiting.intersection(re.findall(r"\w+", text)))
         if later and error.code == "unknown-name":
-            reader.error(
-                node,
-                place,
-                Sentence("model.defined_below", name=later[0]),
-                Sentence("model.move_above"),
-                "unknown-name",
-            )
+            reader.finding(node, place, "defined_below", "unknown-name", name=later[0])
         else:
             reader.quantity_error(error, node, place, text)
         return None

@@ -106,13 +106,7 @@ class Reader(PlainReader):
             return value
         limit = units.format(largest, dimension)
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
-        self.error(
-            node,
-            place,
-            Sentence("model.beyond", shown=shown),
-            Sentence("model.check_size", limit=limit),
-            "range",
-        )
+        self.finding(node, place, "beyond", "range", shown=shown, limit=limit)
         return None
 
     def _evaluated(self, value: Expression, node: Node, place: Place) -> float | None:
@@ -120,13 +114,7 @@ class Reader(PlainReader):
         if value.names & self.broken:
             return None
         if self._plain:
-            self.error(
-                node,
-                place,
-                Sentence("model.no_parameter", text=value.text, what=self._plain),
-                Sentence("model.number_with_unit"),
-                "expression",
-            )
+            self.finding(node, place, "no_parameter", "expression", text=value.text, what=self._plain)
             return None
         result = value.evaluate(self.values)
         self.expressions[place.address] = value
@@ -224,25 +212,17 @@ class Reader(PlainReader):
     ) -> bool:
         """Whether a table is one: equal counts, two rows or more, x increasing."""
         if len(xs) != len(ys):
-            self.error(
-                node,
-                place,
-                Sentence("model.counts_differ", xs=len(xs), x_name=x_name, ys=len(ys), y_name=y_name),
-                Sentence("model.as_many"),
-                "table",
+            self.finding(
+                node, place, "counts_differ", "table", xs=len(xs), x_name=x_name, ys=len(ys), y_name=y_name
             )
         elif len(xs) < 2:
-            self.error(node, place, Sentence("model.two_rows"), Sentence("model.add_rows"), "table")
+            self.finding(node, place, "two_rows", "table")
         else:
             falling = [index for index in range(1, len(xs)) if xs[index] <= xs[index - 1]]
             if not falling:
                 return True
-            self.error(
-                node,
-                place.child(x_name),
-                Sentence("model.not_larger", place=falling[0] + 1),
-                Sentence("model.increasing", x_name=x_name),
-                "table",
+            self.finding(
+                node, place.child(x_name), "not_larger", "table", place=falling[0] + 1, x_name=x_name
             )
         return False
 
@@ -253,13 +233,7 @@ class Reader(PlainReader):
         owners = self.names.owners(name) if what in ("joint", "pin") else []
         if owners:
             if not self.names.incomplete:
-                self.error(
-                    node,
-                    place,
-                    Sentence("model.lone_pin", name=name, owner=owners[0]),
-                    Sentence("model.name_alike"),
-                    "unknown-name",
-                )
+                self.finding(node, place, "lone_pin", "unknown-name", name=name, owner=owners[0])
             return False
         noun_of = what if isinstance(what, Sentence) else Sentence(f"nouns.{what}")
         self.error(
@@ -278,12 +252,15 @@ class Reader(PlainReader):
             return True
         others = self.names.owners(name)
         if others:
-            self.error(
+            self.finding(
                 node,
                 place,
-                Sentence("model.no_point_on", link=link, name=name),
-                Sentence("model.it_is_on", others=tuple(others), link=link, points=tuple(points)),
+                "no_point_on",
                 "unknown-name",
+                link=link,
+                name=name,
+                others=tuple(others),
+                points=tuple(points),
             )
             return False
         return self.known(node, place, Sentence("model.point_on", link=link), name, points)
@@ -324,12 +301,13 @@ class Reader(PlainReader):
             self.known(node, place, "point", text, everywhere)
             return None
         if len(owners) > 1 and set(owners) - set(self.names.pins.get(text, ())):
-            self.error(
+            self.finding(
                 node,
                 place,
-                Sentence("model.ambiguous", text=text),
-                Sentence("model.write_one_of", names=tuple(f"{owner}.{text}" for owner in owners)),
                 "ambiguous",
+                "ambiguous",
+                text=text,
+                names=tuple(f"{owner}.{text}" for owner in owners),
             )
             return None
         return LinkPoint(owners[0], text)

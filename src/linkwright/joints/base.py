@@ -445,12 +445,14 @@ class JointName(Field):
             return None
         kind = reader.names.joints[name]
         if JOINTS[kind].coordinate not in self.coordinates:
-            reader.error(
+            reader.finding(
                 node,
                 place,
-                Sentence("model.joint_is", name=name, kind=JOINTS[kind].word()),
-                Sentence("model.name_joint", kinds=tuple(JOINTS[each].word() for each in self.kinds)),
+                "joint_is",
                 "reference",
+                name=name,
+                kind=JOINTS[kind].word(),
+                kinds=tuple(JOINTS[each].word() for each in self.kinds),
             )
             return None
         return name
