@@ -11,12 +11,13 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
-from linkwright.machine.equivalent import Equivalent, equivalent, steady_rate
+from linkwright.machine.equivalent import Equivalent, steady_rate
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
-from linkwright.machine.speed import SpeedCurve, SteadyCycle
+from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
@@ -133,13 +134,12 @@ def steady_running(
     The energy fluctuation is that of the driver torque at constant speed, inertia of the links included.
     Raises LinkwrightError for δ ≤ 0, a mean torque of zero, or a cycle that is not closed.
     """
-    reduced = equivalent(forces)
+    reduced, cycle = steady_cycle(forces)
     flywheel_inertia(1.0, reduced.speed, fluctuation)
     mean = reduced.load.mean
     _require_load(mean, forces)
     energy = reduced.energy
     formula = flywheel_inertia(energy.value, reduced.speed, fluctuation, present=reduced.mean_inertia)
-    cycle = SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
     exact = cycle.flywheel(fluctuation, formula)
     return SteadyRunning(
         equivalent=reduced,

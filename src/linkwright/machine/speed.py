@@ -15,7 +15,8 @@ from linkwright.machine.speeds import Speeds, SteadyCycles, in_pieces
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence
 
-#: A machine whose kinetic energy falls below this share of that at its mean speed stops.
+#: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
+#: below this share of the largest has none.
 STOPPED = 1e-9
 #: How often pieces are halved where the speed that was found is not smooth, and it is found again.
 ROUNDS = 8
@@ -94,8 +95,10 @@ class SteadyCycle:
 
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
+        inertia = at_nodes(own, work.edges)
         self._least = Piecewise(work.edges, work.at_nodes).extreme("min").value
-        self._first = self._cycles(work.edges, work.at_nodes, at_nodes(own, work.edges))
+        self._lightest = Piecewise(work.edges, inertia).extreme("min").value
+        self._first = self._cycles(work.edges, work.at_nodes, inertia)
         self._known: dict[float, _Solved] = {}
 
     def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
@@ -138,7 +141,7 @@ class SteadyCycle:
         edges, cycles = self.work.edges, self._first
         for _ in range(ROUNDS):
             found = cycles.at(np.array([flywheel]))
-            energy = self._energy(found)
+            energy = self._energy(found, flywheel)
             speed = self.speed * found.values[0].T
             curve = Piecewise(edges, speed)
             if curve.smooth.all():
@@ -150,13 +153,13 @@ class SteadyCycle:
             cycles = self._at_edges(edges)
         return _Solved(edges, energy, *curve.extremes())
 
-    def _energy(self, found: Speeds) -> float:
+    def _energy(self, found: Speeds, flywheel: float) -> float:
         """The energy at the period's begin, J."""
-        if not found.inertia.min() > 0.0:
+        most, unit = float(found.inertia.max()), 0.5 * self.speed * self.speed
+        if not min(float(found.inertia.min()), flywheel + self._lightest) > STOPPED * most:
             raise LinkwrightError(Sentence("running.no_inertia"))
-        unit = 0.5 * self.speed * self.speed
         energy = unit * float(found.energy[0])
-        if energy + self._least <= STOPPED * unit * float(found.inertia.max()):
+        if energy + self._least <= STOPPED * unit * most:
             raise LinkwrightError(Sentence("running.would_stop"))
         return energy
 

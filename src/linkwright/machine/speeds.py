@@ -13,6 +13,8 @@ from linkwright.core.piecewise import POINTS, TO_LAST, Floats, Peak, largest, we
 LAST = 1e-9
 #: Newton's steps for an energy, and for a flywheel; where these change by less than a share, they are found.
 STEPS, SIZES, FOUND = 200, 40, 1e-13
+#: The error of the slowness' mean as share of its last orders: Gauss points integrate orders twice as high.
+OF_SLOWNESS = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,10 +51,13 @@ class Speeds:
 
     @property
     def rough(self) -> Floats:
-        """How far polynomials are from meeting speed and slowness, as shares of the mean ones, (designs,)."""
+        """How far polynomials are from meeting the speed, as share of the mean one, (designs,).
+
+        Of the slowness, of which the mean alone is taken, a share of that.
+        """
         with np.errstate(invalid="ignore", divide="ignore"):
-            last = (np.abs(TO_LAST.T @ each).max(axis=(1, 2)) for each in (self.values, 1.0 / self.values))
-            return np.asarray(np.maximum(*last))
+            signals = (self.values, OF_SLOWNESS / self.values)
+            return np.asarray(np.maximum(*(np.abs(TO_LAST.T @ each).max(axis=(1, 2)) for each in signals)))
 
     def weights(self, fastest: float, slowest: float) -> Floats:
         """Weights of the speeds at the Gauss points in a sum of the largest and the smallest one."""

@@ -24,6 +24,7 @@ from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
+from linkwright.metrics import true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs, value
 from linkwright.metrics.resolve import Resolver
@@ -135,9 +136,9 @@ class Analysis:
 
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
-        for output in {one(part).output: None for part in parts}:
-            if not output.endswith(".angle"):
-                self._words[words_name(output)] = None
+        for summary in map(one, parts):
+            if summary.kind not in true_speed.KINDS and not summary.output.endswith(".angle"):
+                self._words[words_name(summary.output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -175,6 +176,8 @@ class Analysis:
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind
+        if kind in true_speed.KINDS:
+            return true_speed.of_machine(summary, self)
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
         output, signal = self.output(summary.output), self.signal(summary.output)

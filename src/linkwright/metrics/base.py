@@ -165,6 +165,10 @@ class Metric(ABC):
     def applies(self, result: Result) -> bool:
         """Whether the mechanism has this number, and the result what it takes to find it."""
         analysis = Analysis.of(result)
+        return self.fits(analysis) and self.obstacle(analysis) is None
+
+    def fits(self, analysis: Analysis) -> bool:
+        """The same, but for obstacles that other dimensions of the mechanism may not have."""
         return (analysis.forces is not None or not self.needs_forces) and self.suits(analysis)
 
     def evaluate(self, result: Result) -> tuple[MetricValue, ...]:
@@ -174,6 +178,10 @@ class Metric(ABC):
     def suits(self, analysis: Analysis) -> bool:
         """Whether the mechanism has this number; forces are there if they are needed."""
         return bool(analysis.motion.mechanism.drivers)
+
+    def obstacle(self, analysis: Analysis) -> str | None:
+        """Why the machine has no such number, in a sentence; None where nothing is known against it."""
+        return None
 
     def numbers(self, analysis: Analysis) -> Iterable[Number]:
         """Its values as formulas; ``analysis``: of the machine, or of the one from which designs start."""

@@ -59,4 +59,7 @@ def _refusal(name: str, analysis: Analysis) -> str:
     title = analysis.motion.mechanism.name
     if METRICS[name].needs_forces and analysis.forces is None:
         return Sentence("metrics.needs_forces", name=name, title=title)
+    obstacle = METRICS[name]().obstacle(analysis)
+    if obstacle is not None:
+        return Sentence("cli.about", name=name, cause=obstacle)
     return Sentence("metrics.does_not_apply", name=name, title=title, meaning=METRICS[name]().meaning_in)

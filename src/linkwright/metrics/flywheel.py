@@ -1,8 +1,8 @@
-"""Energy fluctuation of a cycle at constant speed, and the flywheel that it asks for."""
+"""Energy fluctuation of a cycle, the flywheel that it asks for, and the true speed under a constant motor torque."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from math import pi
 from typing import ClassVar
@@ -10,8 +10,11 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.engine.trace import Scalar, maximum, select
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+from linkwright.metrics.true_speed import steady_cycle
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
@@ -27,6 +30,7 @@ class EnergyFluctuation(Metric):
     source = "Shigley, Theory of Machines; Norton, Design of Machinery, sec. 11.11: ∫ (mean - T) dφ"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+    part: ClassVar[str] = "input_torque excess"
 
     def suits(self, analysis: Analysis) -> bool:
         """For one driver that turns at constant speed through whole turns, and does work."""
@@ -43,7 +47,7 @@ class EnergyFluctuation(Metric):
         return bool(steady and torque.mean() > NOTHING * np.abs(torque).max())
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        yield Number(next(iter(analysis.motion.mechanism.drivers)), ("input_torque excess",))
+        yield Number(next(iter(analysis.motion.mechanism.drivers)), (self.part,))
 
 
 @METRICS.register("flywheel")
@@ -68,3 +72,91 @@ def _inertia(
     """The flywheel; NaN where the drivers do no work."""
     needed = maximum(energy / (fluctuation * speed * speed) - own, 0.0)
     return select((mean if speed > 0.0 else -mean) > NOTHING * peak, needed, float("nan"))
+
+
+class TrueSpeed(EnergyFluctuation):
+    """A number of the speed that a constant motor torque gives, with a flywheel for δ or as the machine is."""
+
+    source = "½ J ω² = E0 + ∫ (mean - T) dφ with the mean speed; Wittenbauer, Graphische Dynamik"
+    on_request = True
+    rank = 9
+
+    def __init__(self, fluctuation: float = 0.02) -> None:
+        self.fluctuation = fluctuation
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        part = self.part.format(fluctuation=repr(self.fluctuation))
+        yield Number(next(iter(analysis.motion.mechanism.drivers)), (part,))
+
+    def obstacle(self, analysis: Analysis) -> str | None:
+        """What ``steady_running`` says of a machine that does not run steadily, takes no work, or would stop."""
+        if analysis.forces is None:
+            return None
+        try:
+            self.require(analysis.forces)
+        except LinkwrightError as error:
+            return error.sentence
+        return None
+
+    def require(self, forces: Forces) -> None:
+        """Raises LinkwrightError for a machine without the number."""
+        from linkwright.machine.running import require_steady
+
+        require_steady(forces)
+
+
+@METRICS.register("exact_flywheel")
+class ExactFlywheel(TrueSpeed):
+    """Inertia beyond the machine's own with which the true speed fluctuates by just δ = 0.02, kg·m² on the crank."""
+
+    name = "exact_flywheel"
+    dimension = "inertia"
+    part = "running {fluctuation} size"
+
+
+@METRICS.register("reached_fluctuation")
+class ReachedFluctuation(TrueSpeed):
+    """δ = (ω_max - ω_min)/ω_mean of the true speed with the flywheel that the formula gives for δ = 0.02."""
+
+    name = "reached_fluctuation"
+    dimension = "dimensionless"
+    better = None
+    part = "running {fluctuation} fluctuation"
+
+
+@METRICS.register("speed_fluctuation")
+class SpeedFluctuation(TrueSpeed):
+    """δ = (ω_max - ω_min)/ω_mean of the true speed with the inertia that the machine has, a flywheel the crank's."""
+
+    name = "speed_fluctuation"
+    dimension = "dimensionless"
+    part = "running fluctuation"
+
+    def require(self, forces: Forces) -> None:
+        super().require(forces)
+        steady_cycle(forces)[1].fluctuation(0.0)
+
+
+@METRICS.register("slowest_speed")
+class SlowestSpeed(SpeedFluctuation):
+    """Smallest true speed of the driver with the inertia that the machine has, rad/s."""
+
+    name = "slowest_speed"
+    dimension = "angular_velocity"
+    better = "higher"
+    part = "running slowest"
+
+
+@METRICS.register("fastest_speed")
+class FastestSpeed(SpeedFluctuation):
+    """Largest true speed of the driver with the inertia that the machine has, rad/s."""
+
+    name = "fastest_speed"
+    dimension = "angular_velocity"
+    part = "running fastest"
+
+
+#: Numbers that depend on δ.
+SIZED: Mapping[str, type[Flywheel | ExactFlywheel | ReachedFluctuation]] = {
+    each.name: each for each in (Flywheel, ExactFlywheel, ReachedFluctuation)
+}

@@ -10,6 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
+from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
@@ -65,7 +66,7 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
 def criterion(name: str) -> Criterion:
     """``peak_reaction``, ``peak_reaction O5``, ``flywheel``, or a summary such as ``driver.effort rms``."""
     if name in OWN:
-        forces = name in ("pivot_reaction", "flywheel")
+        forces = name == "pivot_reaction" or name in SIZED
         return Criterion(name, OWN[name][1], lambda each: _own(each, name), forces)
     if is_summary(name):
         return Criterion(name, _better(name), lambda each: _summary(each, name), True)
@@ -91,6 +92,8 @@ def _better(name: str) -> str | None:
 def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     """The value of a subject; of the shared output; else the governing one. None where it does not apply."""
     if not metric.applies(each.analysis):
+        if (why := metric.obstacle(each.analysis)) is not None:
+            each.notes.append(Sentence("cli.about", name=each.label, cause=why))
         return None
     values = metric.evaluate(each.analysis)
     found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
@@ -118,7 +121,7 @@ def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
 
 def _own(each: Alternative, name: str) -> Measured | None:
     """A number of the shared output."""
-    if name == "flywheel" and not each.takes_flywheel:
+    if name in SIZED and not each.takes_flywheel:
         return None
     found = own(name, each.analysis, Asked(each.output, each.fluctuation))
     if found is None:

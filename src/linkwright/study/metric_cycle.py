@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
@@ -28,12 +27,14 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis
+from linkwright.metrics import Analysis, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
 from linkwright.study.limit_stages import STEP, limit_stages
 from linkwright.study.loaded_cycle import along_input, one_turn, with_loads
-from linkwright.study.piece_summaries import SIDES, PieceSummaries, Reduced
+from linkwright.study.piece_summaries import SIDES, PieceSummaries
+from linkwright.study.seen import Seen
+from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
@@ -42,12 +43,10 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Places = NDArray[np.intp]
 
-#: Polynomials whose last orders are below this share of a signal's size meet it.
-SMOOTH = 2e-11
 #: Designs of one call.
 BLOCK = 2048
-#: Designs whose weights of Gauss points are kept at the same time.
-WEIGHED = 256
+#: Designs whose weights of Gauss points are kept at the same time, and whose signals, for the true speed.
+WEIGHED, RUNNING = 256, 512
 VALUE = "value"
 #: Kinds of summaries that are places of an output's limit.
 _PLACES = ("argmax", "argmin")
@@ -90,20 +89,22 @@ def _metric_cycle(
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
     terms = [each for each in offered if each is not None]
-    outputs = [part.output for part in map(one, all_parts(terms)) if part.kind not in _PLACES]
-    program = plain.program(plain.quantities(outputs))
+    program = plain.program(plain.quantities(_outputs(map(one, all_parts(terms)))))
     loads = along_input(plain, addresses, program.fields)
     if loads is None:
         return None
     loads = replace(loads, swinging=tuple(dict.fromkeys((*loads.swinging, *reversing(plain, program)))))
     traced = with_loads(plain, loads)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
+    coarsest = None
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
         found = MetricCycle(traced, gauss, terms, analysis, loads)
-        if found.met(nominal).all():
+        sure, running = found.met(nominal)
+        if running.all():
             return found
-    return None
+        coarsest = coarsest or (found if sure.all() else None)
+    return coarsest
 
 
 _cycles: Recent[Mechanism, MetricCycle | None] = Recent(16)
@@ -138,19 +139,33 @@ def numbers_of(
     failed: dict[int, str] = {}
     for index in designs[~sure[designs]].tolist():
         design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
-        try:
-            analysis = Analysis.of(solve_forces(design))
-            for name in names:
-                if (own := term(name, analysis)) is not None:
-                    values[name][index], dimensions[name] = own.measured(analysis), own.dimension
-        except RequestError:
-            raise
-        except LinkwrightError as error:
-            failed[index] = error.sentence
+        found_alone, why = _alone(design, names)
+        failed |= {index: why} if why else {}
+        for name, (value, dimension) in found_alone.items():
+            values[name][index], dimensions[name] = value, dimension
     idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
     if idle:
         raise RequestError(Sentence("study.objective_metric", names=tuple(idle), name=mechanism.name))
     return values, dimensions, failed
+
+
+def _alone(design: Mechanism, names: Sequence[str]) -> tuple[dict[str, tuple[float, str]], str]:
+    """Values and dimensions of the metrics that one design has, and why it lacks others."""
+    found: dict[str, tuple[float, str]] = {}
+    analysis, why = None, ""
+    for name in names:
+        try:
+            analysis = analysis or Analysis.of(solve_forces(design))
+            if (own := term(name, analysis)) is not None:
+                found[name] = float("nan"), own.dimension
+                found[name] = own.measured(analysis), own.dimension
+        except RequestError:
+            raise
+        except LinkwrightError as error:
+            why = error.sentence
+            if analysis is None:
+                break
+    return found, why
 
 
 @dataclass(frozen=True)
@@ -187,8 +202,9 @@ class MetricCycle:
                 [*loads.outputs, *loads.swinging, *(each for each in places.values() if each is not None)]
             )
         )
-        names = [part.output for text, part in self.parts.items() if text not in self.limited]
-        self.quantities = traced.quantities(names)
+        self.quantities = traced.quantities(
+            _outputs(part for text, part in self.parts.items() if text not in self.limited)
+        )
 
     # values -----------------------------------------------------------------------------------------
     def evaluate(
@@ -205,7 +221,8 @@ class MetricCycle:
             for name, row in zip(self._formulas.output_names, rows, strict=True):
                 values[name][first:end] = row
 
-        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        block = RUNNING if self._running else BLOCK
+        spread_over(designs, block, cores() if threads is None else threads, work)
         return Found(values, certain)
 
     @property
@@ -213,9 +230,11 @@ class MetricCycle:
         """What the terms depend on."""
         return self._forwards.dimensions
 
-    def met(self, columns: Mapping[str, Floats]) -> Mask:
-        """Which designs are certain with these pieces, without finer ones."""
-        return self._found(columns, "auto")[1]
+    def met(self, columns: Mapping[str, Floats]) -> tuple[Mask, Mask]:
+        """Which designs are certain with these pieces alone: but for their true speed, and altogether."""
+        seen, rows = self._read(columns, "auto")
+        found = np.isfinite(rows).all(axis=0)
+        return seen.certain & (found | ~seen.running), seen.sure & found
 
     @cached_property
     def finer(self) -> MetricCycle | None:
@@ -236,15 +255,18 @@ class MetricCycle:
 
     def _found(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Mask, Places]:
         """The same with these pieces alone, and the numbers of those that pass, but are not met."""
+        seen, rows = self._read(columns, backend)
+        sure = seen.sure & np.isfinite(rows).all(axis=0)
+        return rows, sure, np.flatnonzero(seen.passed & ~seen.sure)
+
+    def _read(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Seen, Floats]:
+        """What is seen of the signals with these pieces, and the rows."""
         seen = self._seen(self._table(self._forwards, columns), backend)
         parts = {text: seen.summary(part) for text, part in self.parts.items() if text not in self.limited}
         parts |= {text: seen.values[name] for text, name in self.limited.items()}
-        rows = numpy_program(self._formulas).run((), parts, length=len(seen.certain))
-        with np.errstate(invalid="ignore"):
-            sure = seen.certain & np.isfinite(rows).all(axis=0)
-        return rows, sure, np.flatnonzero(seen.passed & ~seen.certain)
+        return seen, numpy_program(self._formulas).run((), parts, length=len(seen.passed))
 
-    def _seen(self, table: Floats, backend: Backend) -> _Seen:
+    def _seen(self, table: Floats, backend: Backend) -> Seen:
         ((_, known, run),) = self._forwards.blocks(
             table, self._positions, tables=self.loads.tables, threads=1, backend=backend
         )
@@ -256,9 +278,12 @@ class MetricCycle:
                 passed &= np.isfinite(rough)
             for output in self.outputs:
                 passed &= results[f"doubt:{output}"] == 0.0
-        return _Seen(results, found, self.gauss.pieces, passed)
+        (driver,) = self.traced.mechanism.drivers
+        speed = self.gauss.constants[f"{driver}.speed"]
+        steady = SteadyDesigns(self._signals.program, known, run, self.gauss.pieces, speed)
+        return Seen(results, found, steady, self.gauss.pieces, passed)
 
-    def _seen_again(self, table: Floats, backend: Backend) -> _Seen:
+    def _seen_again(self, table: Floats, backend: Backend) -> Seen:
         """The same, kept for the last designs: several gradients are often wanted of them."""
         key, last = (table.tobytes(), backend), self._last.get("seen")
         if last is None or last[0] != key:
@@ -266,7 +291,7 @@ class MetricCycle:
         return last[1]
 
     @cached_property
-    def _last(self) -> dict[str, tuple[tuple[bytes, Backend], _Seen]]:
+    def _last(self) -> dict[str, tuple[tuple[bytes, Backend], Seen]]:
         return {}
 
     @cached_property
@@ -302,7 +327,13 @@ class MetricCycle:
 
     @property
     def _summaries(self) -> list[Summary]:
-        return [part for text, part in self.parts.items() if text not in self.limited]
+        apart = {*self.limited, *self._running}
+        return [part for text, part in self.parts.items() if text not in apart]
+
+    @cached_property
+    def _running(self) -> set[str]:
+        """The parts that the true speed gives."""
+        return {text for text, part in self.parts.items() if part.kind in true_speed.KINDS}
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
@@ -348,14 +379,14 @@ class MetricCycle:
             part = {address: column[first:end] for address, column in columns.items()}
             seen = self._seen_again(self._table(self._forwards, part), backend)
             fields: dict[str, Floats] = {}
-            for summary in self._summaries:
-                fields |= seen.weights(summary)
+            for text, summary in self.parts.items():
+                fields |= {} if text in self.limited else seen.weights(summary)
             table = self._table(backwards.cycle, part)
             found, slope = backwards.evaluate_all(
                 table, self._positions, fields, tables=self.loads.tables, threads=1, backend=backend
             )
-            found[:, ~seen.certain], slope[:, ~seen.certain] = np.nan, np.nan
-            left = np.flatnonzero(seen.passed & ~seen.certain)
+            found[:, ~seen.sure], slope[:, ~seen.sure] = np.nan, np.nan
+            left = np.flatnonzero(seen.passed & ~seen.sure)
             if len(left) and self.finer is not None:
                 rest = {a: c[left] for a, c in part.items()}
                 found[:, left], slope[:, left] = self.finer.gradients(sums, rest, by, backend=backend)
@@ -383,6 +414,10 @@ class MetricCycle:
         sums: dict[str, Scalar] = {}
         for text, part in self.parts.items():
             if text in self.limited:
+                continue
+            if text in self._running:
+                weighted = (trace.field_input(f"{text} {name}") * found[name] for name in SIGNALS)
+                sums[text] = sum(weighted, start=trace.field_input(f"{text} {REST}"))
                 continue
             signal = found[part.output]
             if part.kind in ("mean", "rms"):
@@ -414,8 +449,10 @@ class MetricCycle:
         part = self.parts[text]
         if text in self.limited:
             return t.parameter(self.limited[text])
-        if part.kind in ("mean", "rms"):
-            return t.parameter(text) if part.kind == "mean" else sqrt(t.parameter(text))
+        if part.kind == "mean" or text in self._running:
+            return t.parameter(text)
+        if part.kind == "rms":
+            return sqrt(t.parameter(text))
         if part.kind == "excess":
             return TURN * absolute(
                 t.parameter(f"{text} mean") * t.parameter(f"{text} all") - t.parameter(text)
@@ -426,68 +463,10 @@ class MetricCycle:
         return maximum(absolute(sides[0]), absolute(sides[1])) if part.kind == "peak" else sides[0]
 
 
-class _Seen:
-    """What is found of the signals of some designs, and what is made of it.
-
-    ``passed``: which designs pass the cycle; ``certain``: of which of them all that was asked is met by polynomials.
-    """
-
-    def __init__(self, values: Mapping[str, Floats], found: Reduced, pieces: int, passed: Mask) -> None:
-        self.values, self.found, self.pieces = values, found, pieces
-        self.passed, self.certain = passed, passed.copy()
-
-    def summary(self, part: Summary) -> Floats:
-        """A summary, (designs,)."""
-        if part.kind in ("mean", "rms"):
-            mean, square, rougher = self.found.powers[part.output]
-            if part.kind == "mean":
-                self._met(self.found.bounds[part.output][2], self._size(part.output))
-                return mean
-            self._met(rougher, self._size(part.output) ** 2)
-            return np.sqrt(square)
-        if part.kind == "excess":
-            self._met(self.found.bounds[part.output][2], self._size(part.output))
-            return TURN * np.abs(sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind]))
-        sides = [self._extreme(part.output, side)[2] for side in SIDES[part.kind]]
-        if part.kind == "range":
-            return sides[0] + sides[1]
-        if part.kind == "peak":
-            return np.maximum(np.abs(sides[0]), np.abs(sides[1]))
-        return sides[0] if part.kind == "max" else -sides[0]
-
-    def weights(self, part: Summary) -> dict[str, Floats]:
-        """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
-        means, whose weights are the widths."""
-        self.summary(part)
-        if part.kind == "excess":
-            return {f"{part.output} excess": self._excess(part.output)}
-        found: dict[str, Floats] = {}
-        for side in SIDES.get(part.kind, ()):
-            piece, place = self._extreme(part.output, side)[:2]
-            rows = np.zeros((len(piece), POINTS, self.pieces))
-            rows[np.arange(len(piece)), :, piece] = weights_at(place)
-            found[f"{part.output} {side}"] = rows.reshape(len(piece), -1)
-        return found
-
-    def _extreme(self, output: str, side: str) -> Peak:
-        found = self.found.peaks[output, side]
-        self._met(found[3], self._size(output))
-        return found
-
-    def _size(self, output: str) -> Floats:
-        top, bottom, _ = self.found.bounds[output]
-        return np.maximum(top, -bottom)
-
-    def _excess(self, output: str) -> Floats:
-        """Weights with which widths times a signal's lack of its mean give the largest excess of its integral."""
-        found = np.zeros((len(self.certain), POINTS, self.pieces))
-        rows, pieces = np.arange(len(found)), np.arange(self.pieces)
-        for sign, side in zip((1.0, -1.0), SIDES["excess"], strict=True):
-            piece, place = self.found.peaks[output, side][:2]
-            found += sign * (pieces < piece[:, None])[:, None, :]
-            found[rows, :, piece] += sign * weights_up_to(place) / WEIGHTS
-        return found.reshape(len(found), -1)
-
-    def _met(self, rough: Floats, size: Floats) -> None:
-        with np.errstate(invalid="ignore"):
-            self.certain &= rough <= SMOOTH * size
+def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
+    """The outputs that summaries are found from, but for the places of limits."""
+    for part in parts:
+        if part.kind in true_speed.KINDS:
+            yield from (true_speed.EFFORT, true_speed.INERTIA)
+        elif part.kind not in _PLACES:
+            yield part.output

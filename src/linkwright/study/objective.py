@@ -31,6 +31,7 @@ from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wa
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.terms import refuse_obstacle
 from linkwright.study.traced import CLEAR, VALID, Traced
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
@@ -226,6 +227,8 @@ def of_metrics(
     missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
     if missing:
         raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
+    for name in weights:
+        refuse_obstacle(name, cycle.analysis)
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
 

@@ -137,7 +137,7 @@ class PieceSummaries:
         for name, side in self.sides:
             signal = rows[name]
             if side in SIDES["excess"]:
-                signal = _integral(signal, rows[self.share], powers[name][0])
+                signal = integral(signal, rows[self.share], powers[name][0])
             signal = _SIGNS[side] * signal
             peaks[name, side] = _peak(signal)
         return Reduced(bounds, powers, peaks)
@@ -279,8 +279,9 @@ def _peak(signal: Floats) -> Peak:
     return piece, place, value, np.maximum(rough, np.where(near, last, 0.0).max(axis=1))
 
 
-def _integral(signal: Floats, share: Floats, mean: Floats) -> Floats:
-    """The integral of what a signal lacks of its mean, up to every Gauss point."""
+def integral(signal: Floats, share: Floats, mean: Floats) -> Floats:
+    """The integral over the cycle of what a signal (designs, POINTS, pieces) lacks of its mean, up to every Gauss
+    point; the cycle's length is 1."""
     gained = (mean[:, None, None] - signal) * share
     whole = gained.sum(axis=1)
     return np.asarray((np.cumsum(whole, axis=1) - whole)[:, None, :] + UP_TO @ gained)

@@ -13,7 +13,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.base import Metric, Number
-from linkwright.metrics.flywheel import Flywheel
+from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
@@ -57,6 +57,14 @@ def metric_of(name: str) -> tuple[type[Metric], str] | None:
     return (METRICS[metric], subject) if metric in METRICS else None
 
 
+def refuse_obstacle(name: str, analysis: Analysis) -> None:
+    """Raises RequestError where the machine itself has an obstacle to a metric, as one that would stop."""
+    found = metric_of(name)
+    why = None if found is None else found[0]().obstacle(analysis)
+    if why is not None:
+        raise RequestError(Sentence("cli.about", name=name, cause=why))
+
+
 @dataclass(frozen=True)
 class Asked:
     """What numbers of a machine's own output depend on besides the machine: the ``output`` that it shares with
@@ -67,13 +75,15 @@ class Asked:
 
 
 def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
-    """``travel``, ``output_velocity``, ``output_acceleration``, ``pivot_reaction`` or ``flywheel``; None where the
-    machine has none."""
+    """``travel``, ``output_velocity``, ``output_acceleration``, ``pivot_reaction``, or a number of ``SIZED``.
+
+    None where the machine has none.
+    """
     output, dimension = asked.output, OWN[name][0]
     turning, words = output.kind == "angle", f"{output.owner}.{output.kind}"
     numbers: list[Number] = []
-    if name == "flywheel":
-        metric = Flywheel(asked.fluctuation)
+    if name in SIZED:
+        metric = SIZED[name](asked.fluctuation)
         numbers += metric.numbers(analysis) if metric.applies(analysis) else ()
     elif name == "pivot_reaction":
         joint, link = pivot(analysis.motion.mechanism, output)
@@ -88,13 +98,13 @@ def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
     return Term(name, tuple(numbers), dimension, OWN[name][1]) if numbers else None
 
 
-#: Numbers of the shared output: their dimension and which direction is better.
+#: Numbers of the shared output and of δ: their dimension and which direction is better.
 OWN: Mapping[str, tuple[str, str | None]] = {
     "travel": ("length", None),
     "output_velocity": ("velocity", None),
     "output_acceleration": ("acceleration", "lower"),
     "pivot_reaction": ("force", "lower"),
-    "flywheel": ("inertia", "lower"),
+    **{name: (each.dimension, each.better) for name, each in SIZED.items()},
 }
 
 
@@ -117,8 +127,8 @@ def _nowhere(*parts: Extreme) -> float:
 
 
 def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | None:
-    """A metric, ``peak_reaction`` or ``peak_reaction O5``, as a term; None where it does not apply to the machine, or
-    is no formula of summaries.
+    """A metric, ``peak_reaction`` or ``peak_reaction O5``, as a term; None where it does not fit the machine, or is
+    no formula of summaries.
 
     ``analysis``: of the machine from which designs start; ``asked``: for the numbers of the shared output, which is
     also the subject that counts where none is asked and the metric has it. Raises RequestError for a subject that the
@@ -132,7 +142,7 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     preferred = "" if asked is None else str(asked.output)
     kind, subject = found
     metric = kind()
-    if not metric.applies(analysis):
+    if not metric.fits(analysis):
         return None
     numbers = tuple(metric.numbers(analysis))
     if not numbers:

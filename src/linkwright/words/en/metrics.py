@@ -69,6 +69,21 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "machine takes.",
     "flywheel.label": "flywheel inertia (δ = 0.02)",
     "flywheel.meaning": "Inertia on the crank, beyond the machine's own, that keeps the speed even to δ = 0.02.",
+    "exact_flywheel.label": "exact flywheel inertia (δ = 0.02)",
+    "exact_flywheel.meaning": "Inertia on the crank, beyond the machine's own, with which the true speed under a "
+    "constant motor torque fluctuates by just δ = 0.02.",
+    "reached_fluctuation.label": "speed fluctuation reached (δ = 0.02 by the formula)",
+    "reached_fluctuation.meaning": "Fluctuation of the true speed, as share of the mean, with the flywheel that the "
+    "formula gives for δ = 0.02.",
+    "speed_fluctuation.label": "speed fluctuation",
+    "speed_fluctuation.meaning": "Fluctuation of the true speed under a constant motor torque, as share of the mean, "
+    "with the inertia that the machine has.",
+    "slowest_speed.label": "slowest speed",
+    "slowest_speed.meaning": "Smallest true speed of the driver under a constant motor torque, with the inertia that "
+    "the machine has.",
+    "fastest_speed.label": "fastest speed",
+    "fastest_speed.meaning": "Largest true speed of the driver under a constant motor torque, with the inertia that "
+    "the machine has.",
     "none_reached": "{name!r} reaches none of the positions, so only numbers of its dimensions are known",
     "mean_power.label": "mean power",
     "mean_power.meaning": "Work of the drivers per cycle over the time of the cycle.",

@@ -55,6 +55,8 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "output_acceleration.label": "输出最大加速度",
     "pivot_reaction.label": "输出支座最大反力",
     "flywheel.label": "曲柄轴飞轮",
+    "exact_flywheel.label": "曲柄轴飞轮（精确）",
+    "reached_fluctuation.label": "实际速度不均匀系数",
     "curve.input": "输入转过量",
     "curve.travel": "输出",
     "curve.velocity": "输出速度",

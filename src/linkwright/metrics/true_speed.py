@@ -1,0 +1,61 @@
+"""Parts of design numbers that the true speed over the cycle gives, for one machine.
+
+``running fastest``, ``running slowest`` (rad/s), ``running fluctuation``: with the inertia that the machine has;
+``running 0.02 fluctuation``: with the flywheel that the formula gives for δ = 0.02; ``running 0.02 size``: the
+flywheel with which the true speed fluctuates by just that.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkwright.metrics.summary import Summary
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.forces import Forces
+    from linkwright.machine.equivalent import Equivalent
+    from linkwright.machine.speed import SteadyCycle
+    from linkwright.metrics.analysis import Analysis, Extreme
+
+#: Kinds of these parts, and the outputs that the true speed follows from.
+KINDS = ("fastest", "slowest", "fluctuation", "size")
+EFFORT, INERTIA = "input_torque", "equivalent_inertia"
+
+
+def required(part: Summary) -> float | None:
+    """The coefficient of speed fluctuation for which a flywheel is there; None without one."""
+    _, _, number = part.output.partition(" ")
+    return float(number) if number else None
+
+
+def of_machine(part: Summary, analysis: Analysis) -> Extreme:
+    """Such a part of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
+    from linkwright.machine.flywheel import flywheel_inertia
+    from linkwright.metrics.analysis import Extreme
+
+    assert analysis.forces is not None
+    reduced, cycle = steady_cycle(analysis.forces)
+    size, fluctuation, nan = 0.0, required(part), float("nan")
+    if fluctuation is not None:
+        energy, own = reduced.energy.value, reduced.mean_inertia
+        size = flywheel_inertia(energy, reduced.speed, fluctuation, present=own)
+        if part.kind == "size":
+            return Extreme(cycle.flywheel(fluctuation, size), nan, nan, True)
+    if part.kind == "fluctuation":
+        return Extreme(cycle.fluctuation(size), nan, nan, True)
+    place, value = getattr(cycle.curve(size, motor_torque=reduced.load.mean), part.kind)
+    return Extreme(value, nan, reduced.input_at(place), True)
+
+
+def steady_cycle(forces: Forces) -> tuple[Equivalent, SteadyCycle]:
+    """The machine reduced to its input, and its cycles of steady running, found once; raises as ``equivalent``."""
+    from linkwright.machine.equivalent import equivalent
+    from linkwright.machine.speed import SteadyCycle
+    from linkwright.metrics.analysis import Analysis
+
+    kept = Analysis.of(forces).kept
+    if ("running", "") not in kept:
+        reduced = equivalent(forces)
+        kept["running", ""] = reduced, SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
+    found: tuple[Equivalent, SteadyCycle] = kept["running", ""]
+    return found

@@ -1,0 +1,99 @@
+"""What is found of the signals of some designs at Gauss points, and the summaries and weights that follow."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.piecewise import POINTS, WEIGHTS, Floats, Peak, weights_at, weights_up_to
+from linkwright.loads.phases import TURN
+from linkwright.metrics import true_speed
+from linkwright.metrics.summary import Summary
+from linkwright.study.piece_summaries import SIDES, Reduced
+from linkwright.study.steady_designs import SMOOTH, SteadyDesigns
+
+Mask = NDArray[np.bool_]
+
+
+class Seen:
+    """What is found of the signals of some designs, and what is made of it.
+
+    ``passed``: which designs pass the cycle; ``certain``: of which of them all that was asked is met by polynomials,
+    but for the true speed; ``running``: of which that is met.
+    """
+
+    def __init__(
+        self, values: Mapping[str, Floats], found: Reduced, steady: SteadyDesigns, pieces: int, passed: Mask
+    ) -> None:
+        self.values, self.found, self.steady, self.pieces = values, found, steady, pieces
+        self.passed, self.certain = passed, passed.copy()
+        self.running = np.ones(len(passed), dtype=np.bool_)
+
+    @property
+    def sure(self) -> Mask:
+        """Of which designs all that was asked is met."""
+        return self.certain & self.running
+
+    def summary(self, part: Summary) -> Floats:
+        """A summary, (designs,)."""
+        if part.kind in true_speed.KINDS:
+            value, met = self.steady.number(part)
+            self.running &= met
+            return value
+        if part.kind in ("mean", "rms"):
+            mean, square, rougher = self.found.powers[part.output]
+            if part.kind == "mean":
+                self._met(self.found.bounds[part.output][2], self._size(part.output))
+                return mean
+            self._met(rougher, self._size(part.output) ** 2)
+            return np.sqrt(square)
+        if part.kind == "excess":
+            self._met(self.found.bounds[part.output][2], self._size(part.output))
+            return TURN * np.abs(sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind]))
+        sides = [self._extreme(part.output, side)[2] for side in SIDES[part.kind]]
+        if part.kind == "range":
+            return sides[0] + sides[1]
+        if part.kind == "peak":
+            return np.maximum(np.abs(sides[0]), np.abs(sides[1]))
+        return sides[0] if part.kind == "max" else -sides[0]
+
+    def weights(self, part: Summary) -> dict[str, Floats]:
+        """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
+        means, whose weights are the widths."""
+        self.summary(part)
+        if part.kind in true_speed.KINDS:
+            return self.steady.weights(part)
+        if part.kind == "excess":
+            return {f"{part.output} excess": self._excess(part.output)}
+        found: dict[str, Floats] = {}
+        for side in SIDES.get(part.kind, ()):
+            piece, place = self._extreme(part.output, side)[:2]
+            rows = np.zeros((len(piece), POINTS, self.pieces))
+            rows[np.arange(len(piece)), :, piece] = weights_at(place)
+            found[f"{part.output} {side}"] = rows.reshape(len(piece), -1)
+        return found
+
+    def _extreme(self, output: str, side: str) -> Peak:
+        found = self.found.peaks[output, side]
+        self._met(found[3], self._size(output))
+        return found
+
+    def _size(self, output: str) -> Floats:
+        top, bottom, _ = self.found.bounds[output]
+        return np.maximum(top, -bottom)
+
+    def _excess(self, output: str) -> Floats:
+        """Weights with which widths times a signal's lack of its mean give the largest excess of its integral."""
+        found = np.zeros((len(self.certain), POINTS, self.pieces))
+        rows, pieces = np.arange(len(found)), np.arange(self.pieces)
+        for sign, side in zip((1.0, -1.0), SIDES["excess"], strict=True):
+            piece, place = self.found.peaks[output, side][:2]
+            found += sign * (pieces < piece[:, None])[:, None, :]
+            found[rows, :, piece] += sign * weights_up_to(place) / WEIGHTS
+        return found.reshape(len(found), -1)
+
+    def _met(self, rough: Floats, size: Floats) -> None:
+        with np.errstate(invalid="ignore"):
+            self.certain &= rough <= SMOOTH * size
