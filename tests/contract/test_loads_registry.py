@@ -175,7 +175,7 @@ class FreeSite:
         return self.load.dimensions()[f"loads.load.{field}"]
 
     def magnitude(self) -> Any:
-        own = self.load.from_cycle(self)
+        own = self.load.traced(self)
         return self.load.magnitude if own is None else own
 
     def direction(self, angle: float) -> Vec:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,17 @@ from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.table import Table
-from linkwright.engine.trace import Trace, select
+from linkwright.engine.trace import (
+    Scalar,
+    Trace,
+    absolute,
+    floor,
+    maximum,
+    minimum,
+    power,
+    select,
+    sign,
+)
 
 
 def test_a_traced_value_has_no_truth_and_belongs_to_one_trace() -> None:
@@ -85,3 +96,22 @@ def test_straight_tables_that_repeat_rise_by_their_drift(drift: float | None, ri
     table = Table.linear([0.0, 1.0, 2.0], [0.0, 1.0, 3.0], periodic=True, drift=drift)
     found = program.run([], {"x": np.array([0.5, 1.5, 2.5, 5.5, -0.5])}, tables={"way": table})[0]
     assert found == pytest.approx([0.5, 2.0, 0.5 + rise, 2.0 + 2 * rise, 2.0 - rise], rel=1e-15)
+
+
+def test_a_formula_over_arrays_is_the_one_over_numbers() -> None:
+    """Selection, functions and logic: arrays, numbers one by one, and a program of the same lines."""
+
+    def formula(x: Scalar, y: Scalar) -> Scalar:
+        inside = (x > -1.0) & (True & (y <= 0.5)) | (x > y + 1.0)
+        return select(inside, minimum(x, y) + sign(x) * power(y, 2.5), maximum(absolute(x), floor(y)))
+
+    x, y = np.linspace(-2.0, 2.0, 41), np.cos(np.arange(41.0))
+    arrays: Any = (x, y)
+    t = Trace()
+    program = NumpyProgram(Program.of(t, {"f": formula(t.position("x"), t.position("y"))}))
+    with np.errstate(invalid="ignore"):
+        found: Any = formula(*arrays)
+    assert 0 < np.count_nonzero(np.isnan(found)) < 30
+    np.testing.assert_array_equal(found, program.run([], {"x": x, "y": y})[0])
+    singly = [formula(float(a), float(b)) for a, b in zip(x, y, strict=True)]
+    np.testing.assert_allclose(found, singly, rtol=1e-15, equal_nan=True)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from linkwright import units
-from linkwright.core.expressions import array_functions, parse, parse_quantity
+from linkwright.core.expressions import parse, parse_quantity
 from linkwright.errors import QuantityError
 
 LENGTH, TIME, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["time"], units.NONE
@@ -140,5 +140,5 @@ def test_derivatives_agree_with_differences(text: str) -> None:
 def test_arrays_give_the_same_as_floats(text: str) -> None:
     expression = parse(text, ["t"])
     t = np.linspace(0.2, 0.9, 5)
-    found = expression.evaluate({"t": t}, array_functions())
+    found = expression.over({"t": t})
     assert np.allclose(found, [expression.evaluate({"t": float(each)}) for each in t], rtol=1e-14, atol=0)

@@ -301,3 +301,17 @@ def test_loads_that_follow_a_point(axis: str) -> None:
     assert size(f"{force}, {table}") == pytest.approx(4 * at + 12, abs=1e-12)
     moving = f"magnitude: 7 N, phase: {{moving: {place}, direction: increasing}}"
     assert size(f"{force}, {moving}").tolist() == np.where(rate > 0, 7.0, 0.0).tolist()
+
+
+@pytest.mark.parametrize(
+    "function", ["min(2, sqrt(sin(input)))", "max(sqrt(sin(input)), 1)", "step(log(sin(input)))"]
+)
+def test_an_expression_is_refused_where_a_part_of_it_has_no_value(function: str) -> None:
+    with pytest.raises(lw.LinkwrightError, match=r"no finite real value at input = 18\d°"):
+        torque(slider(f'kind: torque, on: crank, magnitude: "1 N·m*{function}"'))
+
+
+def test_a_machine_whose_load_goes_by_its_motion_alone_is_prepared() -> None:
+    """A torque of 5 N·m/(2 + sin x), which divides by what varies, on a crank without masses."""
+    prepared = lw.prepare(slider('kind: torque, on: crank, magnitude: "5 N·m/(2 + sin(crank))"'), steps=60)
+    np.testing.assert_allclose(prepared.solve({}).input_torque, -5 / (2 + np.sin(THETA)), rtol=1e-12)

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
-from linkwright.loads.phases import activity
+from linkwright.loads.force import Force
+from linkwright.loads.over_cycle import Activity, evaluate
+from linkwright.loads.over_cycle import activity as activity_of
 from linkwright.loads.signals import Limit, Whole
-from linkwright.loads.tables import interpolated
 
 JAW = Output("angle", "jaw", "jaw")
 PERIOD = 2.0
@@ -34,7 +35,7 @@ class Turning:
         self.rate = speed * 2 * np.pi / PERIOD
         self.time = self.input / self.rate
         self.whole = Whole(PERIOD, 2 * np.pi * self.heading)
-        self.mechanism: Any = SimpleNamespace(drivers={"driver": None})
+        self.mechanism: Any = SimpleNamespace(drivers={"driver": None}, parameters={})
 
     def output(self, output: Output) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         phase = self.input - self.lag
@@ -51,6 +52,18 @@ class Turning:
 
     def angle_between(self, a: str, b: str, near: float) -> NDArray[np.float64]:
         raise AssertionError
+
+
+def activity(phase: Any, signals: Any, *, ramp: bool = False) -> Activity:
+    """When a force with this phase acts."""
+    sizes = {"ramp": (0.0, 1.0)} if ramp else {"magnitude": 1.0}
+    return activity_of(Force(name="load", on="jaw", at="P", direction=0.0, phase=phase, **sizes), signals)
+
+
+def interpolated(table: Table, signals: Turning, ok: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Values of a force with this table at the positions that are solved."""
+    signals.ok = ok
+    return evaluate(Force(name="load", on="jaw", at="P", direction=0.0, table=table), signals)
 
 
 def on(signals: Turning, phase: Any) -> list[bool]:
@@ -80,7 +93,6 @@ def test_an_interval_downwards_follows_a_clockwise_input() -> None:
     signals = Turning([-89, -91, -180, -271, -273, -451], speed=-1.0)
     found = activity(degrees(-90, -272), signals)
     assert list(found.where) == [False, True, True, True, False, True]
-    assert found.share is not None
     np.testing.assert_allclose(found.share[[1, 2, 3, 5]], np.array([1, 90, 181, 1]) / 182)
 
 
@@ -109,7 +121,6 @@ def test_a_swing_ramps_from_limit_to_limit(speed: float, lag: float, lap: int) -
     signals = Turning(lag + np.sign(speed) * gone + 360 * lap, speed=speed, lag=lag)
     found = activity(SwingPhase(JAW, "max", "min"), signals, ramp=True)
     assert list(found.where) == [False, True, True, True, True, False, False, False]
-    assert found.share is not None
     np.testing.assert_allclose(found.share[1:5], gone[1:5] / 180, rtol=1e-12)
     back = activity(SwingPhase(JAW, "min", "max"), signals, ramp=True)
     assert list(back.where) == [not each for each in found.where]

@@ -1,6 +1,7 @@
-"""Magnitudes as traced values against magnitudes over arrays of positions, for crank turned either way.
+"""Magnitudes at one position against magnitudes over arrays of positions, for cranks turned either way.
 
-The two are separate formulas: sweeps and gradients take the traced one, single machines the other.
+The formulas are the same; how a stroke is found is not: by limits of the input in one turn, or by times. The numbers
+of the formulas stand in ``test_load_phases`` and ``test_load_magnitudes``, from closed forms.
 """
 
 from __future__ import annotations
@@ -14,11 +15,20 @@ from tests.unit.test_load_phases import Turning
 
 import linkwright as lw
 from linkwright.core.expressions import parse
+from linkwright.engine.trace import Mask, Scalar
 from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase, Table
 from linkwright.fields.strokes import Amount, StrokePart
-from linkwright.loads.along_input import constants, followed, magnitude, outputs_of, part_ends
 from linkwright.loads.force import Force
-from linkwright.loads.magnitude import evaluate
+from linkwright.loads.magnitude import (
+    constants,
+    followed,
+    magnitude,
+    moving_of_turn,
+    outputs_of,
+    part_ends,
+    stroke_of_turn,
+)
+from linkwright.loads.over_cycle import evaluate
 
 JAW = Output("angle", "jaw", "jaw")
 PLACE = Output("x", "jaw.P", "jaw.P")
@@ -39,8 +49,18 @@ class One:
         return float(self.signals.input[self.index])
 
     @property
-    def speed(self) -> float:
+    def rotary(self) -> bool:
+        return True
+
+    @property
+    def heading(self) -> float:
         return float(self.signals.rate)
+
+    def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
+        return stroke_of_turn(self, phase)
+
+    def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
+        return moving_of_turn(self, phase)
 
     def named(self, name: str) -> float:
         return float(self.signals.time[self.index]) if name == "t" else self.input

@@ -29,7 +29,6 @@ from linkwright.core.expression_tree import (
     scalar_functions,
 )
 from linkwright.engine import trace
-from linkwright.engine.trace import Scalar
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence
@@ -72,18 +71,18 @@ class Expression:
     tree: Node = field(compare=False, repr=False)
     names: frozenset[str] = field(compare=False, repr=False)
 
-    def evaluate(
-        self, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None
-    ) -> Any:
-        """Value in SI for the given values of the free names.
+    def over(self, values: Mapping[str, Any]) -> Any:
+        """Value in SI over arrays or traced values of the free names; NaN or infinite where there is none.
 
-        Without ``functions`` the values are floats; with the functions of another kind of value
-        (``array_functions()`` for NumPy) the same expression runs on that kind.
-        Raises QuantityError where a float result does not exist (a division by zero, the root of a
-        negative number).
+        Raises ZeroDivisionError where a number in the text is divided by zero.
         """
-        if functions is not None:
-            return evaluate(self.tree, values, functions)
+        return evaluate(self.tree, values, ON_VALUES)
+
+    def evaluate(self, values: Mapping[str, float]) -> float:
+        """Value in SI for the given numbers of the free names.
+
+        Raises QuantityError where the result does not exist (a division by zero, the root of a negative number).
+        """
         try:
             value = float(evaluate(self.tree, values, scalar_functions()))
         except ZeroDivisionError:
@@ -114,30 +113,6 @@ class Expression:
 
     def __str__(self) -> str:
         return self.text
-
-
-def array_functions() -> Mapping[str, Callable[..., Any]]:
-    """The functions of the language on NumPy arrays."""
-    import numpy as np
-
-    return {
-        "sin": np.sin,
-        "cos": np.cos,
-        "tan": np.tan,
-        "asin": np.arcsin,
-        "acos": np.arccos,
-        "atan": np.arctan,
-        "atan2": np.arctan2,
-        "sqrt": np.sqrt,
-        "abs": np.abs,
-        "exp": np.exp,
-        "log": np.log,
-        "min": np.minimum,
-        "max": np.maximum,
-        "sign": np.sign,
-        "step": lambda x: np.heaviside(x, 1.0),
-        "pow": np.power,
-    }
 
 
 def parse(text: str, variables: Collection[str] = ()) -> Expression:
@@ -439,7 +414,8 @@ class _Parser:
         return Call(name, tuple(arguments), column)
 
 
-_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+#: The functions of the language on arrays and traced values.
+ON_VALUES: Mapping[str, Callable[..., Any]] = {
     "sin": trace.sin,
     "cos": trace.cos,
     "tan": trace.tan,
@@ -451,15 +427,9 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "abs": trace.absolute,
     "exp": trace.exp,
     "log": trace.log,
-    "min": trace.minimum,
-    "max": trace.maximum,
+    "min": lambda a, b: trace.select(a < b, a, trace.select(b <= a, b, a + b)),
+    "max": lambda a, b: trace.select(a > b, a, trace.select(b >= a, b, a + b)),
     "sign": trace.sign,
-    "step": lambda x: trace.select(x >= 0.0, 1.0, 0.0),
+    "step": lambda x: trace.select(x >= 0.0, 1.0, trace.select(x < 0.0, 0.0, trace.stop(x))),
     "pow": trace.power,
 }
-
-
-def traced(expression: Expression, value: Callable[[str], Scalar]) -> Scalar:
-    """The expression over traced values of its names."""
-    result: Scalar = expression.evaluate({name: value(name) for name in expression.names}, _FUNCTIONS)
-    return result

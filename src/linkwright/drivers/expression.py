@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression, array_functions
+from linkwright.core.expressions import Expression
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Formula
 
@@ -37,8 +37,8 @@ class ExpressionLaw(Law):
         return write.expression(self.expression.tree, self.parameters)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
-        values, functions = {**self.parameters, "t": t}, array_functions()
-        q, qd, qdd = (each.evaluate(values, functions) + 0.0 * t for each in self._derivatives)
+        values = {**self.parameters, "t": t}
+        q, qd, qdd = (each.over(values) + 0.0 * t for each in self._derivatives)
         return q, qd, qdd
 
     def with_dimensions(

@@ -2,7 +2,7 @@
 
 A kernel is a plain Python function over values that know ``+ - * /``, the functions of
 :mod:`~linkwright.engine.functions`, selection and look-ups in tables.
-Called with numbers it computes; called with values of a :class:`Trace` it is written down.
+Called with numbers or arrays of them it computes; called with values of a :class:`Trace` it is written down.
 Equal operations on equal arguments are recorded once, and what is known at tracing time
 (zeros, ones, constants) is folded away.
 """
@@ -12,10 +12,11 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Iterable, Mapping
 from dataclasses import field
-from typing import overload
+from typing import Any, overload
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
+from linkwright.engine.late import numpy as np
 from linkwright.engine.node import COMMUTATIVE, Entry, Node, needed
 
 Number = float | int
@@ -79,8 +80,12 @@ class Value:
     def __and__(self, other: Mask) -> Mask:
         return self.trace.logic("and", self, other)
 
+    __rand__ = __and__
+
     def __or__(self, other: Mask) -> Mask:
         return self.trace.logic("or", self, other)
+
+    __ror__ = __or__
 
     def __invert__(self) -> Mask:
         return self.trace.negate(self)
@@ -356,7 +361,11 @@ def _apply(op: str, *args: Scalar) -> Scalar:
     for x in args:
         if isinstance(x, Value):
             return x.trace.function(op, *args)
-    return FUNCTIONS[op].value(*args)
+    function = FUNCTIONS[op]
+    if all(isinstance(x, float | int) for x in args):
+        return function.value(*args)
+    found: float = getattr(np, function.ufunc)(*args)
+    return found
 
 
 def sqrt(x: Scalar) -> Scalar:
@@ -431,7 +440,7 @@ def power(a: Scalar, b: Scalar) -> Scalar:
     for x in (a, b):
         if isinstance(x, Value):
             return x.trace.power(a, b)
-    return FUNCTIONS["pow"].value(a, b)
+    return _apply("pow", a, b)
 
 
 def lookup(table: str, x: Value, order: int = 0) -> Scalar:
@@ -452,6 +461,10 @@ def select(condition: Mask, a: Scalar, b: Scalar) -> Scalar:
     """``a`` where the condition holds, else ``b``."""
     if isinstance(condition, Value):
         return condition.trace.select(condition, a, b)
+    if getattr(condition, "shape", ()):
+        choices: Any = a, b
+        chosen: float = np.where(condition, *choices)
+        return chosen
     return a if condition else b
 
 

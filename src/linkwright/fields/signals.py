@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from linkwright.files.reader import Reader
 
 
+Limit = Literal["max", "min"]
+
+
 @dataclass(frozen=True)
 class Output:
     """A motion of the mechanism: a link's angle, a point's x or y, a prismatic joint's displacement.
@@ -154,14 +157,24 @@ class MovingPhase:
     output: Output
     direction: Literal["increasing", "decreasing"]
 
+    @property
+    def start(self) -> Limit:
+        """The limit at which that begins."""
+        return "min" if self.direction == "increasing" else "max"
+
+    @property
+    def end(self) -> Limit:
+        """The limit at which it ends."""
+        return "max" if self.direction == "increasing" else "min"
+
 
 @dataclass(frozen=True)
 class SwingPhase:
     """While an output goes from one of its limits to the other, both found by the program; ``part`` of that."""
 
     output: Output
-    start: Literal["max", "min"]
-    end: Literal["max", "min"]
+    start: Limit
+    end: Limit
     part: StrokePart | None = None
 
 

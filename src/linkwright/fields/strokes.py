@@ -46,15 +46,6 @@ class StrokePart:
     word: PartWord
     amounts: tuple[Amount, ...]
 
-    def ends(self, stroke: float) -> tuple[float, float]:
-        """Where it begins and ends: ways from the beginning of a stroke (m or rad)."""
-        ways = [amount.way(stroke) for amount in self.amounts]
-        if self.word == "first":
-            return 0.0, ways[0]
-        if self.word == "last":
-            return stroke - ways[0], stroke
-        return ways[0], stroke - ways[-1]
-
     def written(self, dimension: str) -> dict[str, Any]:
         """Key and value for a file."""
         found = [amount.written(dimension) for amount in self.amounts]

@@ -45,8 +45,6 @@ class Dimensions:
 
     def _from_expression(self, address: str) -> Scalar:
         """The traced value of an expression; parameters that follow others are traced in their order, once."""
-        from linkwright.core.expressions import traced
-
         expressions = self.mechanism.expressions
         waiting, needed = [address], set[str]()
         while waiting:
@@ -56,9 +54,14 @@ class Dimensions:
                 ):
                     needed.add(name)
                     waiting.append(name)
-        for name in filter(needed.__contains__, self.mechanism.parameters if needed else ()):
-            self._parameters[name] = traced(expressions[name], self._parameter)
-        return traced(expressions[address], self._parameter)
+        following = filter(needed.__contains__, self.mechanism.parameters if needed else ())
+        found: Scalar = 0.0
+        for name in (*following, address):
+            given = expressions[name]
+            found = given.over({each: self._parameter(each) for each in given.names})
+            if name in needed:
+                self._parameters[name] = found
+        return found
 
     def _parameter(self, name: str) -> Scalar:
         return self._parameters[name] if name in self._parameters else self(name)

@@ -18,7 +18,7 @@ from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.site import of_cycle
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
-from linkwright.loads.along_input import followed_by
+from linkwright.loads.magnitude import followed_by
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.friction_stage import SolvedFriction, Wrenches

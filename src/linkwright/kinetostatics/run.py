@@ -153,7 +153,7 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
 
 def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -> dict[str, Floats]:
     """Load magnitudes that depend on the position; friction starts from zero."""
-    from linkwright.loads.magnitude import evaluate
+    from linkwright.loads.over_cycle import evaluate
 
     fields: dict[str, Floats] = {}
     for name in names:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
-from linkwright.fields.signals import Output
+from linkwright.fields.signals import MovingPhase, Output, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
@@ -73,7 +73,7 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 class TracedSite:
     """One load's view; see :class:`linkwright.loads.site.Site`.
 
-    ``along_input``: the magnitude is traced over the input (see ``loads.along_input``), with ``phase_known`` all but
+    ``along_input``: the magnitude is traced over the input (see ``loads.magnitude``), with ``phase_known`` all but
     its phase; else one that varies is an input of the program per position.
     """
 
@@ -106,13 +106,11 @@ class TracedSite:
         return self.motion.dimensions(f"loads.{self.load.name}.{field}")
 
     def magnitude(self) -> Scalar:
-        from linkwright.loads.magnitude import is_constant
+        from linkwright.loads.magnitude import is_constant, magnitude
 
         if is_constant(self.load):
             return self.dimension("magnitude")
         if self.along_input:
-            from linkwright.loads.along_input import magnitude
-
             return magnitude(self.load, self)
         return self.motion.trace.field_input(f"load:{self.load.name}")
 
@@ -122,7 +120,12 @@ class TracedSite:
         return self.motion.trace.position("input")
 
     @property
-    def speed(self) -> Scalar:
+    def rotary(self) -> bool:
+        """Whether it is an angle."""
+        return next(iter(self.motion.mechanism.drivers.values())).law.rotary
+
+    @property
+    def heading(self) -> Scalar:
         """Its constant rate."""
         return self.motion.trace.parameter(f"{next(iter(self.motion.mechanism.drivers))}.speed")
 
@@ -152,6 +155,18 @@ class TracedSite:
             return None
         acts, share = (self.motion.trace.field_input(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
         return acts > 0.5, share
+
+    def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
+        """Whether an output goes from one limit to the other, and the share of that way."""
+        from linkwright.loads.magnitude import stroke_of_turn
+
+        return stroke_of_turn(self, phase)
+
+    def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
+        """The same without its ends."""
+        from linkwright.loads.magnitude import moving_of_turn
+
+        return moving_of_turn(self, phase)
 
     def constant(self, field: str) -> Scalar:
         """A number of the load that is no dimension."""

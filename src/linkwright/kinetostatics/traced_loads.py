@@ -20,11 +20,10 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name, middle_name, value_name
-from linkwright.loads.along_input import angles_of, followed, magnitude
-from linkwright.loads.along_input import constants as of_load
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators
-from linkwright.loads.magnitude import is_constant
+from linkwright.loads.magnitude import angles_of, followed, is_constant, magnitude
+from linkwright.loads.magnitude import constants as of_load
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.mechanism.mechanism import Mechanism
 

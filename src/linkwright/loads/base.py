@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from linkwright.files.plain_reader import Place
     from linkwright.files.reader import Reader
     from linkwright.kinematics.motion import Motion
-    from linkwright.loads.along_input import Course
+    from linkwright.loads.magnitude import Course
     from linkwright.loads.marks import Mark
     from linkwright.loads.signals import Array, Signals
     from linkwright.loads.site import Site, Wrench
@@ -111,15 +111,17 @@ class Load:
         raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
 
     def from_cycle(self, signals: Signals) -> Array | None:
-        """What ``site.magnitude()`` gives at each position, (n,), where the kind finds it in a way of its
-        own.
+        """What ``site.magnitude()`` gives at each position, (n,), where no formula of :meth:`traced` can.
 
-        None for kinds whose magnitude is a number, an expression, a ramp or a table.
+        Such a load goes one design at a time in sweeps.
         """
         return None
 
     def traced(self, course: Course) -> Scalar | None:
-        """The same as a traced value; None for kinds without ``from_cycle``, and for those that do not trace it."""
+        """What ``site.magnitude()`` gives, where the kind has a formula of its own; traced, or over arrays.
+
+        None for kinds whose magnitude is a number, an expression, a ramp or a table.
+        """
         return None
 
     @property

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
-from linkwright.core.expressions import Expression, array_functions
+from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.signals import Output, resolve_output
@@ -25,28 +25,21 @@ _LARGEST = LARGEST["torque"]
 _APART = 0.5
 
 
-def calculated(expression: Expression, signals: Signals, where: Mask) -> Array:
-    """Values of an expression of parameters, ``t``, ``input`` and outputs, (n,).
-
-    Raises LinkwrightError where it has no finite value ``where`` it is needed, at a position or between two.
-    """
-    columns = {name: _column(name, signals) for name in sorted(expression.names)}
-    with np.errstate(all="ignore"):
-        try:
-            found = column(expression.evaluate(columns, array_functions()), len(where))
-        except ZeroDivisionError:
-            found = np.full(len(where), np.nan)
+def refuse_formula(expression: Expression, signals: Signals, where: Mask, found: Array) -> None:
+    """Raises LinkwrightError where the values ``found`` (n,) of an expression are not finite ``where`` they are
+    needed, at a position or between two."""
+    columns = {name: column(named_column(name, signals), len(where)) for name in sorted(expression.names)}
     bad = np.flatnonzero(where & ~(np.abs(found) <= _LARGEST))
     if len(bad):
         raise LinkwrightError(_refusal(expression, columns, signals, int(bad[0])))
     _no_poles_between(expression, columns, signals, where)
-    return found
 
 
-def _column(name: str, signals: Signals) -> Array:
-    mechanism, count = signals.mechanism, len(signals.time)
+def named_column(name: str, signals: Signals) -> Any:
+    """Values, a number or (n,), of a parameter, ``t``, ``input`` or an output in an expression."""
+    mechanism = signals.mechanism
     if name in mechanism.parameters:
-        return column(mechanism.parameters[name], count)
+        return mechanism.parameters[name]
     if name in ("t", "input"):
         return signals.time if name == "t" else signals.input
     found = output_named(name, signals.mechanism)
@@ -85,7 +78,7 @@ def _no_poles_between(
     both = where[:-1] & where[1:] & _neighbours(signals)
     for divisor in divisors:
         with np.errstate(all="ignore"):
-            values = column(evaluate(divisor, columns, array_functions()), len(where))
+            values = column(evaluate(divisor, columns, ON_VALUES), len(where))
         for index in np.flatnonzero(both & (values[:-1] * values[1:] < 0)):
             share = _zero(divisor, columns, int(index))
             if share is not None:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase
-from linkwright.fields.strokes import StrokePart
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
 from linkwright.words.sentence import Sentence
 
@@ -20,14 +19,6 @@ if TYPE_CHECKING:
 TURN = 2 * math.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
 NEAR = 1e-9
-
-
-@dataclass(frozen=True)
-class Activity:
-    """``where`` (n,) a load acts; ``share`` (n,) of its phase that is passed, 0 to 1, linear in the input."""
-
-    where: Mask
-    share: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -42,65 +33,20 @@ class Stretch:
     values: tuple[float, float]
 
 
-def activity(phase: Phase | None, signals: Signals, *, ramp: bool = False) -> Activity:
-    """When a phase is on, and its share where a ``ramp`` asks for it.
+def strokes(phase: MovingPhase | SwingPhase, signals: Signals) -> list[Stretch]:
+    """The ways of a phase: of what moves between all its reversals, else between the outermost ones.
 
-    Raises LinkwrightError where the phase does not exist in the cycle.
+    Raises LinkwrightError where the cycle has none.
     """
-    match phase:
-        case None:
-            return Activity(np.ones(len(signals.time), dtype=bool))
-        case InputPhase():
-            return _input(phase, signals)
-        case MovingPhase():
-            return _moving(phase, signals, ramp)
-    swings = _swings(phase, signals)
-    if phase.part is not None:
-        return _in_part(phase.part, swings, signals, phase.output)
-    return _along(swings, signals, phase.output, ramp)
+    limits = signals.limits(phase.output)
+    if not limits:
+        raise LinkwrightError(Sentence("loads.never_reverses", output=phase.output))
+    if isinstance(phase, SwingPhase):
+        return _swings(phase, limits, signals)
+    return stretches(limits, phase.start, phase.end, signals.whole)
 
 
-def _input(phase: InputPhase, signals: Signals) -> Activity:
-    """Closed interval of the input; of angles modulo one turn.
-
-    With ``start`` above ``end`` a turning input goes from start to end in its own direction of motion.
-    """
-    start, end, q = phase.start, phase.end, signals.input
-    if not signals.rotary:
-        inside = (q >= min(start, end) - NEAR) & (q <= max(start, end) + NEAR)
-        return Activity(inside, np.clip((q - start) / (end - start), 0.0, 1.0))
-    length = end - start
-    if length < 0 and signals.heading == 0:
-        raise LinkwrightError(
-            Sentence("loads.phase_to_and_fro", start=shown(start, "angle"), end=shown(end, "angle"))
-        )
-    if length < 0 and signals.heading > 0:
-        length = length % TURN or TURN
-    if abs(length) > TURN + NEAR:
-        raise LinkwrightError(
-            Sentence("loads.phase_too_long", start=shown(start, "angle"), end=shown(end, "angle"))
-        )
-    gone = (q - min(start, start + length)) % TURN
-    gone = np.where(gone > TURN - NEAR, gone - TURN, gone)
-    share = np.clip(gone / abs(length), 0.0, 1.0)
-    return Activity(gone <= abs(length) + NEAR, share if length > 0 else 1.0 - share)
-
-
-def _moving(phase: MovingPhase, signals: Signals, ramp: bool) -> Activity:
-    """While the exact rate has the asked sign; a ramp goes from each reversal to the next."""
-    rate = signals.output(phase.output)[1]
-    rising = phase.direction == "increasing"
-    where = rate > 0 if rising else rate < 0
-    if not ramp:
-        return Activity(where)
-    limits = _some(signals.limits(phase.output), phase.output)
-    ends = ("min", "max") if rising else ("max", "min")
-    found = _along(stretches(limits, *ends, signals.whole), signals, phase.output, ramp)
-    return Activity(where & found.where, found.share)
-
-
-def _swings(phase: SwingPhase, signals: Signals) -> list[Stretch]:
-    limits = _some(signals.limits(phase.output), phase.output)
+def _swings(phase: SwingPhase, limits: Sequence[Limit], signals: Signals) -> list[Stretch]:
     extreme = outermost(limits)
     found = stretches(extreme, phase.start, phase.end, signals.whole)
     if found:
@@ -122,12 +68,6 @@ def _swings(phase: SwingPhase, signals: Signals) -> list[Stretch]:
             places=places,
         )
     )
-
-
-def _some(limits: Sequence[Limit], output: Output) -> Sequence[Limit]:
-    if limits:
-        return limits
-    raise LinkwrightError(Sentence("loads.never_reverses", output=output))
 
 
 def outermost(limits: Sequence[Limit]) -> list[Limit]:
@@ -159,60 +99,17 @@ def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> li
     return found
 
 
-def _along(found: Sequence[Stretch], signals: Signals, output: Output, ramp: bool) -> Activity:
-    where = np.zeros(len(signals.time), dtype=bool)
-    share = np.zeros(len(signals.time))
-    for stretch in found:
-        inside, gained = _within(stretch, signals)
-        rise = stretch.end[1] - stretch.begin[1]
-        if ramp and abs(rise) < NEAR * (1.0 + abs(stretch.end[1])):
-            raise LinkwrightError(Sentence("loads.ramp_without_length", output=output))
-        where |= inside
-        if ramp:
-            share = np.where(inside, np.clip(gained / rise, 0.0, 1.0), share)
-    return Activity(where, share if ramp else None)
-
-
-def _in_part(part: StrokePart, found: Sequence[Stretch], signals: Signals, output: Output) -> Activity:
-    """Where the output itself is in a part of its stroke; the share grows with the output's way."""
-    where = np.zeros(len(signals.time), dtype=bool)
-    share = np.zeros(len(signals.time))
-    value = signals.output(output)[0]
-    for stretch in found:
-        start, stroke = stretch.values[0], stretch.values[1] - stretch.values[0]
-        begin, end = part.ends(abs(stroke))
-        slack = NEAR * abs(stroke)
-        if not -slack <= begin < end <= abs(stroke) + slack:
-            raise LinkwrightError(
-                Sentence(
-                    "loads.part_too_long",
-                    part=Sentence(f"loads.part_{part.word}"),
-                    amounts=" + ".join(
-                        shown(each.way(abs(stroke)), output.dimension) for each in part.amounts
-                    ),
-                    output=output,
-                    stroke=shown(abs(stroke), output.dimension),
-                )
-            )
-        gone = (value - start) * np.sign(stroke)
-        if output.kind == "angle" and abs(stroke) < TURN:
-            gone = gone - TURN * np.floor((gone + (TURN - abs(stroke)) / 2) / TURN)
-        inside = _within(stretch, signals)[0] & (gone >= begin - slack) & (gone <= end + slack)
-        where |= inside
-        share = np.where(inside, np.clip((gone - begin) / (end - begin), 0.0, 1.0), share)
-    return Activity(where, share)
-
-
-def _within(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
-    """Where the positions lie in a stretch, and what the input has gained since its beginning."""
-    length = stretch.end[0] - stretch.begin[0]
+def place_on(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
+    """Where the positions lie in a stretch, ends included, and the share of the input's way that is passed; (n,)
+    each."""
+    length, rise = stretch.end[0] - stretch.begin[0], stretch.end[1] - stretch.begin[1]
     since, gained = signals.time - stretch.begin[0], signals.input - stretch.begin[1]
     whole = signals.whole
     slack = NEAR * (whole.period or length)
     if whole.period is not None:
         laps = np.floor((since + slack) / whole.period)
         since, gained = since - laps * whole.period, gained - laps * whole.drift
-    return (since >= -slack) & (since <= length + slack), gained
+    return (since >= -slack) & (since <= length + slack), np.clip(gained / rise, 0.0, 1.0)
 
 
 def switch_times(load: Load, signals: Signals) -> tuple[Array, bool]:

@@ -8,11 +8,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
-from linkwright.loads.signals import Array, Signals
 from linkwright.loads.site import Site, Wrench
 
 if TYPE_CHECKING:
-    from linkwright.loads.along_input import Course
+    from linkwright.loads.magnitude import Course
     from linkwright.worked.load_formulas import LoadFormulas
     from linkwright.worked.page import Step
     from linkwright.worked.terms import Term
@@ -43,12 +42,8 @@ class TorsionSpring(Load):
     def twist(self) -> tuple[tuple[str, str], float]:
         return self.links, self.free_angle
 
-    def from_cycle(self, signals: Signals) -> Array:
-        """Angle φ of link b against link a, (n,) rad."""
-        return signals.angle_between(*self.links, near=self.free_angle)
-
     def traced(self, course: Course) -> Scalar:
-        """The same, traced."""
+        """Angle φ of link b against link a, rad."""
         return course.angle_between(*self.links)
 
     def wrenches(self, site: Site) -> list[Wrench]:

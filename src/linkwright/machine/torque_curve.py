@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression, array_functions, parse
+from linkwright.core.expressions import Expression, parse
 from linkwright.core.piecewise import Floats, Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.words.sentence import Sentence
@@ -148,7 +148,7 @@ def _linear(x: Floats, y: Floats, theta: Floats) -> Floats:
 
 
 def _expressed(expression: Expression, theta: Floats) -> Floats:
-    return _given(lambda angle: expression.evaluate({"theta": angle}, array_functions()), theta)
+    return _given(lambda angle: expression.over({"theta": angle}), theta)
 
 
 def _given(function: Callable[[Floats], ArrayLike], theta: Floats) -> Floats:

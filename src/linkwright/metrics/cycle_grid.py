@@ -25,12 +25,13 @@ from linkwright.core.piecewise import (
 from linkwright.core.search import ends
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import Phase
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import NEAR, activity, switch_times
+from linkwright.loads.base import Load
+from linkwright.loads.over_cycle import activity
+from linkwright.loads.phases import NEAR, switch_times
 from linkwright.metrics.passed import between, limit, sides
 from linkwright.metrics.resolve import Resolver
 
@@ -253,7 +254,7 @@ class CycleGrid:
             known, complete = switch_times(load, signals)
             found.append(known)
             if phase is not None and not complete:
-                switched = self._bisected(phase, signals)
+                switched = self._bisected(load, signals)
                 apart = np.abs(switched[:, None] - known).min(axis=1, initial=np.inf)
                 found.append(switched[apart > 2.0 * NEAR * (self.end - self.start)])
             reversing = load.reverses(self._motion.mechanism)
@@ -268,16 +269,16 @@ class CycleGrid:
             times = self.start + (times - self.start) % period
         return increasing(times[np.isfinite(times)])
 
-    def _bisected(self, phase: Phase, signals: MotionSignals) -> Floats:
-        """Times at which a phase switches, by halving the steps in which it does."""
-        where, time = activity(phase, signals).where, self._motion.time
+    def _bisected(self, load: Load, signals: MotionSignals) -> Floats:
+        """Times at which a load begins or ends to act, by halving the steps in which it does."""
+        where, time = activity(load, signals).where, self._motion.time
         if signals.closes is not None:
             where, time = np.append(where, where[0]), np.append(time, time[0] + signals.closes[0])
         steps = np.flatnonzero(where[:-1] != where[1:])
         if not len(steps):
             return np.empty(0)
         before = where[steps]
-        return ends(lambda at: self.resolver.active(phase, at) == before, time[steps], time[steps + 1])
+        return ends(lambda at: self.resolver.active(load, at) == before, time[steps], time[steps + 1])
 
 
 def _twice(curve: Piecewise, period: float) -> Piecewise:

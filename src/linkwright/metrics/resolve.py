@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import Output, Phase
+from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import activity
+from linkwright.loads.base import Load
+from linkwright.loads.over_cycle import activity
 from linkwright.loads.signals import Limit, Whole
 
 
@@ -121,9 +122,9 @@ class Resolver:
         assert known is not None
         return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals))
 
-    def active(self, phase: Phase, time: Floats) -> NDArray[np.bool_]:
-        """Whether a load of this phase acts at some times, (n,)."""
-        return activity(phase, _SameCycle(self.motion(time), self._signals)).where
+    def active(self, load: Load, time: Floats) -> NDArray[np.bool_]:
+        """Whether a load acts at some times, (n,)."""
+        return activity(load, _SameCycle(self.motion(time), self._signals)).where
 
     @cached_property
     def _signals(self) -> MotionSignals:

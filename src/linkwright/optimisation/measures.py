@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import units
-from linkwright.core.expressions import Expression, array_functions, parse
+from linkwright.core.expressions import Expression, parse
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Scalar
@@ -218,7 +218,7 @@ class Measures:
         if expression is None:
             return found[names[""]]
         with np.errstate(all="ignore"):
-            return np.asarray(expression.evaluate({n: found[m] for n, m in names.items()}, array_functions()))
+            return np.asarray(expression.over({n: found[m] for n, m in names.items()}))
 
     # gradients ---------------------------------------------------------------------------------------
     def with_slopes(
@@ -248,7 +248,7 @@ class Measures:
         total = np.zeros_like(next(iter(slopes.values())))
         for name, number in names.items():
             with np.errstate(all="ignore"):
-                rate = np.asarray(expression.diff(name).evaluate(values, array_functions()))
+                rate = np.asarray(expression.diff(name).over(values))
             total = total + np.broadcast_to(rate, len(total))[:, None] * slopes[number]
         return total
 

@@ -16,9 +16,9 @@ from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhas
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
-from linkwright.loads.along_input import outputs_of
 from linkwright.loads.base import Load
-from linkwright.loads.phases import activity
+from linkwright.loads.magnitude import has_formula, outputs_of
+from linkwright.loads.over_cycle import activity
 
 Plain = dict[str, Any]
 Floats = NDArray[np.float64]
@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 def found_again(load: Load, motion: Motion) -> bool:
     """Whether a page finds it: its kind traces its magnitude, and limits that it takes lie in a steady cycle."""
-    if type(load).from_cycle is not Load.from_cycle and type(load).traced is Load.traced:
+    if not has_formula(load):
         return False
     phase = getattr(load, "phase", None)
     limits = isinstance(phase, SwingPhase) or (isinstance(phase, MovingPhase) and _ramp(load))
@@ -61,7 +61,7 @@ def phases(loads: Iterable[Load], motion: Motion, point_key: Callable[[str], str
     for load in loads:
         phase = getattr(load, "phase", None)
         if isinstance(phase, MovingPhase):
-            ends = ("min", "max") if phase.direction == "increasing" else ("max", "min")
+            ends = (phase.start, phase.end)
             found.append({**_rows(load, phase.output, point_key), "moving": True, "part": None, "ends": ends})
         elif isinstance(phase, SwingPhase):
             part = phase.part and {
@@ -114,8 +114,8 @@ def fields(loads: Iterable[Load], motion: Motion) -> dict[str, Floats]:
         if not _phase_per_position(load, motion):
             continue
         acts = share = np.zeros(motion.positions.count)
-        if isinstance(phase := load.phase, InputPhase):  # type: ignore[attr-defined]
-            active = activity(phase, signals, ramp=_ramp(load))
-            acts, share = active.where.astype(float), share if active.share is None else active.share
+        if isinstance(load.phase, InputPhase):  # type: ignore[attr-defined]
+            active = activity(load, signals)
+            acts, share = active.where.astype(float), active.share
         found |= {f"{ACTS}:{load.name}": acts, f"share:{load.name}": share}
     return found

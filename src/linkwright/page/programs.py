@@ -23,8 +23,8 @@ from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.site import TracedSite, guide_state
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.along_input import magnitude
 from linkwright.loads.base import Load
+from linkwright.loads.magnitude import magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, fields, found_again, phases, traced_names

@@ -24,9 +24,9 @@ from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.along_input import angles_of
 from linkwright.loads.base import Load
-from linkwright.loads.phases import activity
+from linkwright.loads.magnitude import angles_of, has_formula
+from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import one_turn, still_rates
@@ -71,7 +71,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     named = [name.removeprefix("load:") for name in given if name.startswith("load:")]
     loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
-        if type(load).from_cycle is not Load.from_cycle and type(load).traced is Load.traced:
+        if not has_formula(load):
             raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
     signals = MotionSignals(plain.nominal)
     known = _middles(plain.mechanism, loads, signals)
@@ -143,6 +143,5 @@ def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
     phase, ramp = getattr(load, "phase", None), getattr(load, "ramp", None)
     if ramp is not None and not isinstance(phase, InputPhase):
         raise LinkwrightError(Sentence("study.ramp_slope", name=load.name))
-    active = activity(phase, signals, ramp=ramp is not None)
-    share = np.zeros(len(active.where)) if active.share is None else active.share
-    return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": share}
+    active = activity(load, signals)
+    return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": active.share}

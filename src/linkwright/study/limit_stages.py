@@ -16,8 +16,8 @@ from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, sele
 from linkwright.fields.signals import Output, SwingPhase
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
-from linkwright.loads.along_input import part_ends, turned
 from linkwright.loads.base import Load
+from linkwright.loads.magnitude import part_ends, turned
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.study.traced import VALID, Traced
 

@@ -20,7 +20,7 @@ from linkwright.kinetostatics.friction_stage import can_be_traced, still_name
 from linkwright.kinetostatics.run import STILL, joint_rate
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.along_input import followed
+from linkwright.loads.magnitude import followed
 from linkwright.loads.phases import TURN
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.traced import VALID, Traced

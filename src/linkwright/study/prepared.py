@@ -116,7 +116,7 @@ class Prepared:
     def _evaluator(self, backend: Backend) -> Callable[[Floats], Floats]:
         arrays = {name: self.positions.arrays[name] for name in self.program.positions}
         if backend != "numpy":
-            able = bool(self.program.positions) and not self.program.states
+            able = bool(self.program.positions) and not (self.program.states or self.program.fields)
             compiled = compile_program(self.program) if able else None
             if compiled is not None:
                 return compiled.repeated(arrays, tables=self._loads.tables)

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression, array_functions
+from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
 from linkwright.parts.base import Floats
 from linkwright.words.sentence import Sentence
@@ -50,7 +50,7 @@ class Formula:
 
     def _evaluated(self, expression: Expression, point: Mapping[str, Floats]) -> Floats:
         with np.errstate(all="ignore"):
-            found = expression.evaluate({**self.constants, **point}, array_functions())
+            found = expression.over({**self.constants, **point})
         return np.broadcast_to(np.asarray(found, dtype=float), next(iter(point.values())).shape)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression, array_functions, parse
+from linkwright.core.expressions import Expression, parse
 from linkwright.errors import Finding, QuantityError, RequestError
 from linkwright.fields.base import Quantity
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -51,7 +51,7 @@ class ExpressionLaw(MotionLaw):
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         with np.errstate(all="ignore"):
-            found = [each.evaluate({"u": u}, array_functions()) + 0.0 * u for each in self._derivatives]
+            found = [each.over({"u": u}) + 0.0 * u for each in self._derivatives]
         s, v, a, j = (np.nan_to_num(each) for each in found)
         return s, v, a, j
 

@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import Output
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import activity
+from linkwright.loads.over_cycle import activity
 from linkwright.metrics.analysis import Kind
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import Source
@@ -70,11 +70,10 @@ def acting(source: Source) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_
     found = {}
     signals = MotionSignals(source.motion)
     for name, load in source.mechanism.loads.items():
-        phase = getattr(load, "phase", None)
-        if phase is None:
+        if getattr(load, "phase", None) is None:
             continue
         try:
-            where = activity(phase, signals).where
+            where = activity(load, signals).where
         except LinkwrightError:
             continue
         found[name] = source.closed(where.astype(float)) > 0.5
