@@ -21,7 +21,6 @@ from linkwright.kinematics.change_points import (
     is_way,
     mark_singular,
     nearness,
-    notes,
     parts,
     passages,
     signs,
@@ -29,6 +28,7 @@ from linkwright.kinematics.change_points import (
     way,
 )
 from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.explain import passage_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Cycle
@@ -127,15 +127,17 @@ def test_positions_on_a_change_point_are_singular() -> None:
 def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
     along = row(8)
     twice = [replace(passage(1, share=0.0), at=np.pi / 3), replace(passage(1, share=0.0), at=np.pi / 3)]
-    (said,) = notes(twice, along)
+    (said,) = passage_notes(twice, along)
     assert "a, b" in said and "driver = 60°" in said
-    assert "driver = 0.25 m" in notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
-    assert "driver = 0°" in notes([replace(passage(1), at=-1e-13)], along)[0]
-    kinds = [str(notes([passage(1, kind)], along)[0]) for kind in ("change", "meeting", "gap", "pole")]
+    assert "driver = 0.25 m" in passage_notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
+    assert "driver = 0°" in passage_notes([replace(passage(1), at=-1e-13)], along)[0]
+    kinds = [
+        str(passage_notes([passage(1, kind)], along)[0]) for kind in ("change", "meeting", "gap", "pole")
+    ]
     assert len(set(kinds)) == 4
-    assert len(notes([passage(1)], row(8, closed=True))) == 2
-    assert len(notes([passage(1), passage(2)], row(8, closed=True))) == 2
-    assert len(notes([passage(1)], along)) == 1
+    assert len(passage_notes([passage(1)], row(8, closed=True))) == 2
+    assert len(passage_notes([passage(1), passage(2)], row(8, closed=True))) == 2
+    assert len(passage_notes([passage(1)], along)) == 1
 
 
 PUSHED = """

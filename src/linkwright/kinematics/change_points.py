@@ -4,7 +4,8 @@ Between two positions of a cycle the square under a dyad's root may touch zero w
 parallelogram on the frame line. The motion goes on smoothly, the sign of the mode changes. The same happens
 where the outer pins of a dyad with two equal links meet. Where the square falls below zero the mechanism
 cannot pass: what lies beyond is another circuit (Suh & Radcliffe, Kinematics and Mechanisms Design, ch. 4;
-Erdman & Sandor, Mechanism Design, ch. 3).
+Erdman & Sandor, Mechanism Design, ch. 3). Groups without closed form are followed with a proof that fails where a
+dyad on which they hang is singular: for them the way ends at its change point.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum
+from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Floats, Positions, at_times
 from linkwright.kinematics.passing import FINE, NEAR, measures, modal
@@ -29,7 +31,6 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
-from linkwright.words.sentence import Sentence
 
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
 #: as share of the largest one.
@@ -44,14 +45,15 @@ SAMPLES, MOST = 720, 40_000
 #: From so many groups that pass change points on, the signs of all groups are inputs: their motion is traced once.
 MANY = 3
 
-Kind = Literal["change", "meeting", "gap", "pole"]
+Kind = Literal["change", "meeting", "end", "gap", "pole"]
 Way = Callable[[Floats], Positions]
 
 
 @dataclass(frozen=True)
 class Passage:
     """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
-    (``gap``), or infinitely far as its guides become parallel (``pole``).
+    (``gap``), or infinitely far as its guides become parallel (``pole``). An ``end`` is one of the first two beneath
+    a group without closed form, which cannot be followed through it.
 
     It lies at ``share`` of the step from the position ``before`` to the position ``after``, ``at`` the first driver's
     coordinate (rad or m); ``quality`` is the least square of the sine of the group's transmission angle there.
@@ -75,7 +77,12 @@ class Passage:
     @property
     def barred(self) -> bool:
         """Whether the group cannot be assembled there, though it can be before and after."""
-        return not self.touches
+        return self.kind in ("gap", "pole")
+
+    @property
+    def singular(self) -> bool:
+        """Whether its modes or its outer pins meet."""
+        return self.touches or self.kind == "end"
 
     @property
     def place(self) -> float:
@@ -202,6 +209,7 @@ class _Search:
         self.positions = positions
         self.followed = followed
         self.parts = parts
+        self.beneath = _beneath_followed(solver)
         self.passing: list[Passage] = []
         self.flipping: dict[str, list[Passage]] = {}
 
@@ -322,7 +330,8 @@ class _Search:
         for low, high in self._valleys(rows[quality], NEAR):
             place, least = self._lowest(quality, low, high)
             if abs(least) <= TOUCH:
-                found.append(self._passage(group, self._centred(quality, place), least, "change"))
+                kind: Kind = "end" if group in self.beneath else "change"
+                found.append(self._passage(group, self._centred(quality, place), least, kind))
             elif least < 0:
                 found.append(self._passage(group, place, least, "gap"))
         for name in distance:
@@ -334,7 +343,8 @@ class _Search:
                 if at < -TOUCH and self._alone(place, rows[quality], found):
                     found.append(self._passage(group, place, float(at), "gap"))
                 elif least <= MEETING * largest and min(beside) > TOUCH:
-                    found.append(self._passage(group, place, float(min(beside)), "meeting"))
+                    kind = "end" if group in self.beneath else "meeting"
+                    found.append(self._passage(group, place, float(min(beside)), kind))
         return sorted(found, key=lambda p: p.place)
 
     def _alone(self, place: float, quality: Floats, found: Sequence[Passage]) -> bool:
@@ -405,6 +415,13 @@ class _Search:
         return _sign(self.flipping.get(group, ()), group, self.base.assembly.modes[group], place)
 
 
+def _beneath_followed(solver: MotionSolver) -> frozenset[str]:
+    """Names of the groups on which groups without closed form hang, and of these."""
+    if not solver.motion.next_states:
+        return frozenset()
+    return frozenset(group.name for group in upstream(solver.structure, solver.mechanism))
+
+
 def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) -> Floats:
     sign = np.full(len(place), mode)
     for p in passing:
@@ -463,23 +480,5 @@ def mark_singular(codes: Floats, passing: Sequence[Passage], structure: Structur
     """Makes the outcome of positions at which a group's modes or outer pins meet singular, in place."""
     numbers = {group.name: number for number, group in enumerate(structure.groups, 1)}
     for p in passing:
-        if p.touches and p.place.is_integer():
+        if p.singular and p.place.is_integer():
             codes[int(p.place) % len(codes)] = -numbers[p.group]
-
-
-def notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, ...]:
-    """What the user should know about change points and gaps between positions."""
-    said = [_note(p, positions) for p in passing]
-    if positions.closed and not closes(passing):
-        said.append(Sentence("cycle.two_cycles"))
-    return tuple(dict.fromkeys(said))
-
-
-def _note(p: Passage, positions: Positions) -> Sentence:
-    name = next(iter(positions.coordinates))
-    where = f"{name} = " + (
-        f"{round(np.degrees(p.at), 9) + 0.0:.6g}°"
-        if positions.rotary[name]
-        else f"{round(p.at, 12) + 0.0:.6g} m"
-    )
-    return Sentence(f"cycle.{p.kind}", links=tuple(p.group.split("+")), where=where)

@@ -1,14 +1,16 @@
-"""Sentences for positions that cannot be reached."""
+"""Sentences for positions that cannot be reached, and for what a motion passes or not."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kinematics.change_points import Passage, closes
 from linkwright.kinematics.closed_loops import iterated
-from linkwright.kinematics.cycle import cycle_turns, not_back
+from linkwright.kinematics.cycle import Positions, cycle_turns, not_back
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
 #: A position this near (rad, m) to where a way ends is itself singular.
 ON_LIMIT = 1e-6
+#: Digits, of rad or m, to which the end of a way that is followed is told.
+KNOWN = 6
 
 
 def explain(motion: Motion) -> list[Outcome]:
@@ -82,6 +86,24 @@ def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
     return tuple(said)
 
 
+def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, ...]:
+    """What the user should know about change points and gaps between positions."""
+    said = [_passage_note(p, positions) for p in passing]
+    if positions.closed and not closes(passing):
+        said.append(Sentence("cycle.two_cycles"))
+    return tuple(dict.fromkeys(said))
+
+
+def _passage_note(p: Passage, positions: Positions) -> Sentence:
+    name = next(iter(positions.coordinates))
+    where = f"{name} = " + (
+        f"{round(np.degrees(p.at), 9) + 0.0:.6g}°"
+        if positions.rotary[name]
+        else f"{round(p.at, 12) + 0.0:.6g} m"
+    )
+    return Sentence(f"cycle.{p.kind}", links=tuple(p.group.split("+")), where=where)
+
+
 class _Facts:
     """Numbers of the failing groups at the failed positions."""
 
@@ -130,7 +152,8 @@ class _Facts:
         if (np.abs(here - stop.inputs) < ON_LIMIT).all():
             return Outcome(False, _of("singular", group), group.name, "singular")
         where = ", ".join(
-            _shown(name, float(q), rows.rotary[name]) for name, q in zip(names, stop.inputs, strict=True)
+            _shown(name, float(q), rows.rotary[name])
+            for name, q in zip(names, np.round(stop.inputs, KNOWN) + 0.0, strict=True)
         )
         return Outcome(False, _of("stopped", group, where=where), group.name, "unreachable")
 

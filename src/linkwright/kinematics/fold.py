@@ -13,10 +13,14 @@ from linkwright.kinematics.solver import MotionSolver
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.
 CLOSED = 1e-12
 STEPS = 25
+#: What rounding leaves of the equations.
+ROUNDED = 2e-15
 
 
-def fold(solver: MotionSolver, positions: Positions, driver: str) -> float | None:
+def fold(solver: MotionSolver, positions: Positions, driver: str) -> tuple[float, float] | None:
     """The driver's coordinate (rad or m) at the fold nearest to the last of some positions; None if not found.
+
+    With it the error that is left, which is larger where two folds almost meet.
 
     Newton's method on the joints, the other drivers' coordinates, J v = 0 and |v| = 1, in the coordinates x of
     all links and the direction v in which they can still move while all drivers stand still (Govaerts, Numerical
@@ -29,14 +33,17 @@ def fold(solver: MotionSolver, positions: Positions, driver: str) -> float | Non
         return None
     start = coordinates(motion, -1)
     search = _Fold(ConstraintSystem(solver.mechanism), driver, start)
-    x = search.solve(start)
-    if x is None:
+    found = search.solve(start)
+    if found is None:
         return None
+    x, unsure = found
     value = float(search.coordinate(driver, x))
-    if not positions.rotary[driver]:
-        return value * search.system.size
-    near = float(positions.coordinates[driver][0][-1])
-    return value + 2 * math.pi * round((near - value) / (2 * math.pi))
+    if positions.rotary[driver]:
+        near, unit = float(positions.coordinates[driver][0][-1]), 1.0
+        value += 2 * math.pi * round((near - value) / (2 * math.pi))
+    else:
+        unit = search.system.size
+    return value * unit, (unsure + ROUNDED * (1.0 + abs(value))) * unit
 
 
 class _Fold:
@@ -49,8 +56,8 @@ class _Fold:
         """A driver's coordinate; lengths over the size."""
         return float(np.real(self.system.driver_row(driver, x).value))
 
-    def solve(self, start: Floats) -> Floats | None:
-        """Coordinates of all links at the fold."""
+    def solve(self, start: Floats) -> tuple[Floats, float] | None:
+        """Coordinates of all links at the fold, and what rounding leaves of them."""
         x = start
         v = np.linalg.svd(self._jacobian(x))[2][-1]
         normal = v.copy()
@@ -63,7 +70,10 @@ class _Fold:
             if np.abs(step).max() < 1e-13:
                 break
         left = max(np.abs(self._position(x)).max(), np.abs(self._jacobian(x) @ v).max())
-        return x if left < CLOSED else None
+        if left > CLOSED:
+            return None
+        least = float(np.linalg.svd(self._derivative(x, v, normal), compute_uv=False)[-1])
+        return x, float(np.abs(step).max()) + ROUNDED / least
 
     def _position(self, x: Floats) -> Floats:
         held = [self.system.driver_row(name, x).value - q for name, q in self.held.items()]

@@ -34,6 +34,9 @@ COARSE = 1e-6
 #: What the search leaves: where a square comes to zero, and where continuation stalls near a singular Jacobian.
 ROUNDED = 4e-16
 CONTINUED = 1e-9
+#: How exactly a change point is known, rad or share of the size, and how much less for every unit of the sine (root
+#: of the quality) that lengths with roundings leave there.
+CHANGED, TOUCHED = 1e-8, 10.0
 #: How far before an end Newton's method for it begins, rad or share of the size.
 AHEAD = 1e-5
 
@@ -139,7 +142,8 @@ def range_sentence(mechanism: Mechanism) -> str:
 class _Stop:
     """Between the coordinates ``good`` and ``bad``; unknowns of the closed loops (n,), signs of modes at ``good``.
 
-    ``group``: the one that becomes singular at ``good``, where that is known.
+    ``group``: the one that becomes singular at ``good``, where that is known; ``change``: the one whose change point
+    ``bad`` is, beneath a group without closed form, with its quality there.
     """
 
     good: float
@@ -147,6 +151,8 @@ class _Stop:
     modes: Mapping[str, float]
     unknowns: Floats | None = None
     group: str | None = None
+    change: str | None = None
+    quality: float = 0.0
 
 
 class _Search:
@@ -207,17 +213,23 @@ class _Search:
         stop = self._stop(direction)
         if stop is None:
             return None
-        stop = self._to_singular(stop)
         unit = 1.0 if self.rotary else self.size
+        change, place = stop.change, stop.bad
+        stop = self._to_singular(stop)
+        reached = stop.good if stop.group else stop.bad
+        if change and stop.group in (None, change) and abs(reached - place) < AHEAD * unit:
+            group = next(each for each in self.solver.structure.groups if each.name == change)
+            precision = (CHANGED + TOUCHED * math.sqrt(abs(stop.quality))) * unit
+            return _range_end(place, group, Sentence("range.change"), precision)
         rough = COARSE * unit
         good, bad = (stop.good, stop.bad) if stop.group else self._narrowed(stop, rough)
         group, how = self._reason(stop, good, bad)
-        value = None
+        known = None
         if stop.unknowns is not None:
             way = self._towards(stop, good - direction * AHEAD * unit)
-            value = fold(self.solver, self.positions(way), self.driver)
-        if value is not None and min(good, bad) - rough <= value <= max(good, bad) + rough:
-            precision = 1e-14 * (1.0 + abs(value))
+            known = fold(self.solver, self.positions(way), self.driver)
+        if known is not None and min(good, bad) - rough <= known[0] <= max(good, bad) + rough:
+            value, precision = known
         elif stop.group:
             value, precision = good, 2.0 * FLOOR * unit
         else:
@@ -226,12 +238,7 @@ class _Search:
             )
             rounding = ROUNDED if stop.unknowns is None else CONTINUED
             value, precision = good, abs(bad - good) + rounding * (1.0 + abs(good))
-        return RangeEnd(
-            value,
-            Sentence("range.group", signature=group.signature, links=tuple(group.links)),
-            how,
-            precision,
-        )
+        return _range_end(value, group, how, precision)
 
     def _to_singular(self, stop: _Stop) -> _Stop:
         """Where the closed loops become singular before ``bad``: there, unless a dyad ends before."""
@@ -266,17 +273,20 @@ class _Search:
         codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
         mark_singular(codes, found, self.solver.structure)
         fine = (codes <= 0) & _finite(states, len(q))
-        gaps = [(p.before, float(np.interp(p.place, np.arange(len(q)), q))) for p in found if p.barred]
         last = int(np.argmin(fine)) - 1 if not fine.all() else len(q) - 1
         bad = q[last + 1] if last < len(q) - 1 else None
-        for before, place in gaps:
-            if before <= last and (bad is None or abs(place - self.begin) < abs(bad - self.begin)):
-                last, bad = before, place
+        change, quality = None, 0.0
+        for p in found:
+            place = float(np.interp(p.place, np.arange(len(q)), q))
+            way = abs(place - self.begin)
+            if not p.touches and p.before <= last and (bad is None or way <= abs(bad - self.begin)):
+                last, bad = p.before, place
+                change, quality = (p.group, p.quality) if p.kind == "end" else (None, 0.0)
         if bad is None:
             return None
         unknowns = None if followed is None else followed.coordinates[last]
         signs_there = {name: float(row[last]) for name, row in modes.items()}
-        return _Stop(float(q[last]), float(bad), signs_there, unknowns)
+        return _Stop(float(q[last]), float(bad), signs_there, unknowns, change=change, quality=quality)
 
     def _solver(self, modes: Mapping[str, object]) -> MotionSolver:
         return self.solver.with_flips(name.removeprefix("mode:") for name in modes) if modes else self.solver
@@ -362,6 +372,11 @@ class _Search:
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
         return groups[stuck], told(dict(zip(facts, map(float, row), strict=True)))
+
+
+def _range_end(value: float, group: Group, how: str, precision: float) -> RangeEnd:
+    said = Sentence("range.group", signature=group.signature, links=tuple(group.links))
+    return RangeEnd(value, said, how, precision)
 
 
 def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

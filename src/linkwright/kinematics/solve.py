@@ -13,13 +13,12 @@ from linkwright.kinematics.change_points import (
     Passage,
     cut_off,
     mark_singular,
-    notes,
     passages,
     signs,
     signs_of_passages,
 )
 from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle, time_span
-from linkwright.kinematics.explain import branch_notes, refusal, turn_notes
+from linkwright.kinematics.explain import branch_notes, passage_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import clear_of_zero
 from linkwright.kinematics.solver import MotionSolver
@@ -106,6 +105,7 @@ class MotionRun:
         if modes:
             self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
         breaks = frozenset() if followed is None else followed.breaks
+        breaks |= {p.before for p in found if p.kind == "end"}
         names = stored or self.solver.outputs.standard
         motion = self._evaluate(states, modes, found, breaks, names)
         motion.followed = followed
@@ -164,7 +164,7 @@ class MotionRun:
             states=states,
             modes=modes,
             rows=Rows(values, {name: i for i, name in enumerate(names)}),
-            notes=notes(found, self.positions),
+            notes=passage_notes(found, self.positions),
             barred=barred,
         )
 
@@ -203,4 +203,4 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
         count = sum(p.group == name.removeprefix("mode:") and p.touches for p in passing)
         if count % 2:
             row[turns % 2 == 1] *= -1.0
-    return found, notes(passing, turn)
+    return found, passage_notes(passing, turn)

@@ -7,6 +7,8 @@ WORDS = {
     "change": "change point of group ({links}) at {where}: the motion goes on smoothly",
     "meeting": "the outer pins of group ({links}) meet at {where}, where it could turn freely: the motion "
     "goes on smoothly",
+    "end": "change point of group ({links}) at {where}: the groups without closed form that hang on it cannot be "
+    "followed through it, so the motion ends there",
     "pole": "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there, and "
     "positions beyond it are not reached",
     "gap": "group ({links}) cannot be assembled in a short stretch at {where}, between two positions: the "

@@ -20,4 +20,5 @@ WORDS = {
     "perpendicular": "has its link perpendicular to the guide",
     "closest": "has its outer pins as close as the offset of the guide allows",
     "parallel": "has its guides parallel",
+    "change": "has a change point, through which the groups without closed form cannot be followed",
 }
