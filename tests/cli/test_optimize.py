@@ -42,3 +42,24 @@ def test_what_cannot_be_met_and_misuse(capsys: pytest.CaptureFixture[str]) -> No
     assert "不能同时满足" in told.err and "不满足" in told.out
     assert main([*SEARCH, "--minimize", "flywheel", "--keep", "jaw"]) == 2
     assert main(["optimize", "gallery:jaw_crusher_sixbar"]) == 2
+    assert (
+        main([*SEARCH, "--minimize", "flywheel", "--vary", "crank.length=1..2m", "crank.length=2..3m"]) == 2
+    )
+    assert "crank.length is given twice" in capsys.readouterr().err
+
+
+def test_an_interruption_before_the_first_population_says_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("linkwright.optimisation.task.Task.judge", stop)
+    assert main([*SEARCH, "--minimize", "flywheel"]) == 130
+    assert "Nothing had been computed yet" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+    (tmp_path / "state.json").write_text("{}")
+    monkeypatch.setattr("linkwright.optimisation.optimize.optimize", stop)
+    assert main([*SEARCH, "--minimize", "flywheel", "--state", "state.json", "--lang", "zh"]) == 130
+    assert "state.json" in capsys.readouterr().err

@@ -8,6 +8,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.optimisation.evolution import crowding
+from linkwright.optimisation.measures import Measures
 from linkwright.optimisation.optimum import hypervolume
 
 SLIDER = """\
@@ -96,6 +97,63 @@ def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_p
     assert dict(rest.best.values) == dict(whole.best.values)
     with pytest.raises(lw.LinkwrightError, match="another problem"):
         lw.optimize(press, evaluations=800, seed=4, state=state)
+    loaded = SLIDER + "loads: {work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 2 kN}}\n"
+    changed = press.with_name("changed.yaml")
+    for text in (loaded, SLIDER.replace("120 rpm", "121 rpm"), SLIDER.replace("B: forward", "B: backward")):
+        changed.write_text(text)
+        with pytest.raises(lw.LinkwrightError, match="another problem"):
+            lw.optimize(changed, evaluations=800, seed=3, state=state)
+
+
+def test_an_interruption_says_from_which_file_it_goes_on(
+    press: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(press.parent)
+
+    def stop(done: int, most: int) -> None:
+        raise KeyboardInterrupt
+
+    files = [lw.optimize(press, evaluations=200, progress=stop).state for _ in range(2)]
+    assert [each and each.name for each in files] == ["Press.search.json", "Press_2.search.json"]
+    assert all(each is not None and each.exists() for each in files)
+
+
+def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first_population(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, judged, measured = tmp_path / "state.json", list[float](), Measures._measured
+
+    def one(self: Measures, dimensions: dict[str, float]) -> tuple[float, ...]:
+        if len(judged) == 5:
+            raise KeyboardInterrupt
+        judged.append(dimensions["count"])
+        return measured(self, dimensions)
+
+    settings = {
+        "vary": {"count": {"whole": "45..60"}}, "minimize": "count", "keep": {"peak_input_torque": "at most 15 N·m"},
+    }  # fmt: skip
+    whole = lw.optimize(lw.loads(GEARS), **settings, evaluations=60)
+    monkeypatch.setattr(Measures, "_measured", one)
+    with pytest.raises(KeyboardInterrupt, match=r"--state .*state\.json"):
+        lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
+    first = judged[:]
+    judged.append(0.0)
+    rest = lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
+    assert len(set(first)) == 5 and set(first) & set(judged[6:]) == {40.0}  # the start is measured first
+    assert rest.history == whole.history and dict(rest.best.values) == dict(whole.best.values)
+
+
+def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> None:
+    with pytest.raises(
+        lw.LinkwrightError, match="no design of Press within the bounds passes the whole cycle"
+    ):
+        lw.optimize(press, vary={"crank.length": "300..400 mm", "rod.length": "100..200 mm"}, evaluations=200)
+    for goals in (["flywheel"], ["r", "flywheel"]):  # the ram only swings to and fro: no work in a cycle
+        with pytest.raises(lw.LinkwrightError, match="has a value of flywheel") as caught:
+            lw.optimize(press, minimize=goals, keep={}, evaluations=200)
+        assert "没有一个设计有 flywheel 的值" in caught.value.say("zh")
+    with pytest.raises(lw.LinkwrightError, match='"flywheel" is an inertia'):
+        lw.optimize(press, keep={"flywheel": "at most 1 kg"}, evaluations=200)
 
 
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:

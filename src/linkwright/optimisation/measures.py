@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -39,7 +39,8 @@ FEW = 4
 class Measures:
     """The quantities of a problem: texts of goals and demands, each a design number or an expression of some.
 
-    ``side_by_side``: designs go together, with exact gradients; else one after the other, without.
+    ``side_by_side``: designs go together, with exact gradients; else one after the other, without. ``judged``: the
+    numbers of these by the values of the addresses, in the order of the problem's.
     """
 
     def __init__(self, problem: Problem) -> None:
@@ -57,8 +58,7 @@ class Measures:
         self.backend: Backend = "llvm" if available() else "numpy"
         self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
         self.evaluations = 0
-        self._order: tuple[str, ...] = ()
-        self._judged: dict[tuple[tuple[str, ...], tuple[float, ...]], tuple[float, ...]] = {}
+        self.judged: dict[tuple[float, ...], tuple[float, ...]] = {}
 
     @cached_property
     def _dimensions(self) -> Mapping[str, float]:
@@ -146,6 +146,9 @@ class Measures:
             angle = summary.kind in ("argmin", "argmax")
             return units.DIMENSIONS["angle" if angle else self.cycle.quantities[summary.output].dimension]
         found = criterion(name).measure(self._alternative(self.mechanism))
+        if found is None and not is_summary(name):
+            metric = metric_of(name)
+            return units.DIMENSIONS[OWN[name][0] if metric is None else metric[0].dimension]
         return units.DIMENSIONS[found.dimension] if found is not None else units.NONE
 
     def __call__(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -162,19 +165,20 @@ class Measures:
             with np.errstate(all="ignore"):
                 seen = self.cycle.evaluate(columns, backend=self.backend)
             return {name: np.where(seen.certain, seen.values[name], np.nan) for name in self.numbers}
+        designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
+        new = [each for each in dict.fromkeys(designs) if each not in self.judged]
         client = current()
-        if client is not None and count > 1:
-            return self._shared(client, columns, count)
-        self._order = tuple(columns)
-        rows = [self._alone(tuple(each)) for each in np.column_stack(list(columns.values())).tolist()]
+        if client is None or len(new) < 2:
+            self.judge_alone(tuple(columns), new)
+        else:
+            self._shared(client, tuple(columns), new)
+        rows = [self.judged[each] for each in designs]
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
 
-    def _alone(self, design: tuple[float, ...]) -> tuple[float, ...]:
-        """Numbers of one design, kept: whole numbers and catalogues come again."""
-        key = self._order, design
-        if key not in self._judged:
-            self._judged[key] = self._measured(dict(zip(self._order, design, strict=True)))
-        return self._judged[key]
+    def judge_alone(self, addresses: tuple[str, ...], designs: Sequence[tuple[float, ...]]) -> None:
+        """Numbers of designs, one after the other, kept: whole numbers and catalogues come again."""
+        for each in designs:
+            self.judged[each] = self._measured(dict(zip(addresses, each, strict=True)))
 
     def _measured(self, dimensions: dict[str, float]) -> tuple[float, ...]:
         try:
@@ -184,14 +188,13 @@ class Measures:
             raise
         except LinkwrightError:
             return (np.nan,) * len(self.numbers)
-        return tuple(np.nan if number is None else number.value for number in found)
+        return tuple(np.nan if number is None else float(number.value) for number in found)
 
-    def _shared(self, client: Any, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+    def _shared(self, client: Any, addresses: tuple[str, ...], designs: list[tuple[float, ...]]) -> None:
         """The same, a few designs at a time on a cluster."""
-        firsts = range(0, count, FEW)
-        tasks = [(self.problem, {a: np.array(c[k : k + FEW]) for a, c in columns.items()}) for k in firsts]
-        found = dict(in_turn(client, _designs, tasks))
-        return {name: np.concatenate([found[k][name] for k in range(len(tasks))]) for name in self.numbers}
+        parts = [designs[first : first + FEW] for first in range(0, len(designs), FEW)]
+        for _, found in in_turn(client, _designs, [(self.problem, addresses, part) for part in parts]):
+            self.judged |= found
 
     def _alternative(self, design: Mechanism) -> Alternative:
         asked = self._asked
@@ -266,9 +269,13 @@ class Measures:
         return values, slopes
 
 
-def _designs(problem: Problem, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+def _designs(
+    problem: Problem, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
+) -> dict[tuple[float, ...], tuple[float, ...]]:
     """Numbers of some designs, on a worker of a cluster."""
-    return Measures(problem)._found(columns, len(next(iter(columns.values()))))
+    measures = Measures(problem)
+    measures.judge_alone(addresses, designs)
+    return measures.judged
 
 
 def _is_metric(name: str) -> bool:

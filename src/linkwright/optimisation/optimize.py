@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import count
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import RequestError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
+from linkwright.files.write import dump
+from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.evolution import (
     State,
@@ -31,7 +36,7 @@ from linkwright.optimisation.evolution import (
     taken,
 )
 from linkwright.optimisation.front import Scale, nearest, picked, spread
-from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, hypervolume
+from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, SearchInterrupted, hypervolume
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
 from linkwright.optimisation.task import Judged, Task
@@ -93,6 +98,8 @@ def optimize(
     Raises:
         OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least.
         ModelError: settings that cannot be read, with all findings.
+        KeyboardInterrupt: stopped before the first designs were known; of a machine whose designs go one by one it is
+            a ``SearchInterrupted`` with the file ``state`` that holds those that were.
         LinkwrightError: a state of another problem; nothing moves.
     """
     mechanism, document, given = _source(source, settings)
@@ -121,10 +128,17 @@ def _source(
 
 
 def _digest(asked: Any, given: Mapping[str, Any]) -> str:
-    """What a state must agree with: the settings and the machine's dimensions."""
-    known = sorted(asked.mechanism.dimensions().items())
-    plain = {key: value for key, value in given.items() if key not in ("evaluations",)}
-    return hashlib.blake2b(repr((plain, known)).encode(), digest_size=12).hexdigest()
+    """What a state must agree with: the machine and the settings but for the number of evaluations."""
+    machine = dump(replace(asked.mechanism, optimize={}))
+    plain = {key: value for key, value in given.items() if key != "evaluations"}
+    return hashlib.blake2b(repr((plain, machine)).encode(), digest_size=12).hexdigest()
+
+
+def _free(name: str) -> Path:
+    """A file of the working directory that is not there yet, for the state of a machine's search."""
+    stem = re.sub(r"[^\w-]+", "_", name).strip("_") or "machine"
+    names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.search.json") for k in count(1))
+    return next(each for each in names if not each.exists())
 
 
 def _apart(judged: Judged) -> Judged:
@@ -151,8 +165,8 @@ class _Run:
         leading: Callable[[Optimum], None] | None,
     ) -> None:
         self.task, self.size, self.most, self.path = task, size, most, path
-        self.progress, self.digest, self.stopped = progress, digest, False
-        self.document, self.leading = document, leading
+        self.progress, self.digest, self.document, self.leading = progress, digest, document, leading
+        self.stopped: Path | None = None
         self.polish = Polish(task)
         alone = not task.measures.side_by_side
         self.best, self.places = (POLISHED_ALONE, FRONT_ALONE) if alone else (POLISHED, FRONT)
@@ -162,9 +176,7 @@ class _Run:
         state, judged = self._searched()
         chosen = self._chosen(judged)
         if not np.isfinite(chosen.violations).all():
-            raise RequestError(
-                Sentence("optimize.nothing_moves", name=partial(title_said, self.task.problem.mechanism.name))
-            )
+            raise RequestError(self._nothing(judged))
         found = self._made(chosen, state, made=True)
         if not (judged.total == 0).any():
             raise OptimizeError(self._failing(found), found)
@@ -191,9 +203,9 @@ class _Run:
 
     def _searched(self) -> tuple[State, Judged]:
         """The search's end, and its designs, polished but where it was stopped."""
-        snapshot, saved = dict[str, Any](), time.monotonic()
+        snapshot, saved = self._kept(), time.monotonic()
         try:
-            state = self._begun()
+            state = self._begun(snapshot)
             snapshot = state.data()
             self._tell(state)
             while state.evaluations < self.most and not idle(state):
@@ -207,24 +219,35 @@ class _Run:
                 self._save(snapshot)
             return state, self._polished(state.judged)
         except KeyboardInterrupt:
-            if not snapshot:
+            if not snapshot and not self.task.measures.judged:
                 raise
-            self.stopped = True
-            if self.path is None:
-                self.path = Path(f"{self.task.problem.mechanism.name.replace(' ', '_')}.search.json")
+            self.path = self.stopped = self.path or _free(self.task.problem.mechanism.name)
             self._save(snapshot)
+            if not snapshot:
+                raise SearchInterrupted(self.path) from None
             state = resumed(self.task, snapshot)
             return state, state.judged
 
-    def _begun(self) -> State:
+    def _kept(self) -> dict[str, Any]:
+        """The state in the file; empty where there is none, or none but the numbers of designs."""
         if self.path is None or not self.path.exists():
-            return self._fresh()
+            return {}
         try:
             data = json.loads(self.path.read_text(encoding="utf-8"))
-            if data["problem"] != self.digest:
+            if data.pop("problem") != self.digest:
                 raise RequestError(Sentence("optimize.other_state", path=self.path))
-            return resumed(self.task, data)
-        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            for design, numbers in data.pop("judged"):
+                self.task.measures.judged[tuple(map(float, design))] = tuple(map(float, numbers))
+            return dict(data)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
+
+    def _begun(self, kept: dict[str, Any]) -> State:
+        if not kept:
+            return self._fresh()
+        try:
+            return resumed(self.task, kept)
+        except (ValueError, KeyError, TypeError):
             raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
 
     def _fresh(self) -> State:
@@ -236,7 +259,9 @@ class _Run:
         better = self._descended(state.judged, spread(goals, STARTS), STARTS, APART, FEW)
         judged = joined(state.judged, better, _NO_ROWS, np.arange(len(better.x)))
         distance = nearest(judged, Scale.of(judged), spread(goals, self.size))
-        state.judged = taken(judged, np.array(picked(judged, distance, self.size, 0.0), dtype=np.intp))
+        rows = picked(judged, distance, self.size, 0.0)
+        rows += np.setdiff1d(np.arange(len(judged.x)), rows)[: self.size - len(rows)].tolist()
+        state.judged = taken(judged, np.array(rows, dtype=np.intp))
         return state
 
     def _descended(self, judged: Judged, points: Floats, count: int, apart: float, steps: int) -> Judged:
@@ -260,7 +285,8 @@ class _Run:
 
     def _save(self, snapshot: dict[str, Any]) -> None:
         assert self.path is not None
-        write_whole(self.path, json.dumps({"problem": self.digest, **snapshot}).encode())
+        judged = [*self.task.measures.judged.items()]
+        write_whole(self.path, json.dumps({"problem": self.digest, "judged": judged, **snapshot}).encode())
 
     def _polished(self, judged: Judged) -> Judged:
         """The population with its best designs polished; of several objectives the front, evenly filled."""
@@ -299,6 +325,8 @@ class _Run:
     @staticmethod
     def _bettered(judged: Judged, better: Judged) -> Judged:
         """The designs with the better ones, without those that these beat."""
+        if not len(better.x):
+            return judged
         size = len(judged.x)
         values = {text: np.concatenate([each, better.values[text]]) for text, each in judged.values.items()}
         both = Judged(
@@ -341,6 +369,23 @@ class _Run:
             state.generation, tuple(state.history), share, task.measures.side_by_side, self.stopped, idle,
             self.document,
         )  # fmt: skip
+
+    def _nothing(self, judged: Judged) -> Sentence:
+        """Why no design has all numbers: none of them moves, or some numbers have no value for any."""
+        name = partial(title_said, self.task.problem.mechanism.name)
+        none = tuple(text for text, each in judged.values.items() if not np.isfinite(each).any())
+        if none and self._moves(judged.x[0]):
+            return Sentence("optimize.no_values", name=name, numbers=none)
+        return Sentence("optimize.nothing_moves", name=name)
+
+    def _moves(self, x: Floats) -> bool:
+        """Whether the design at a place (k,) passes its cycle."""
+        addresses = [each.address for each in self.task.problem.variables]
+        design = dict(zip(addresses, self.task.place(x[None])[0].tolist(), strict=True))
+        with suppress(LinkwrightError):
+            solve_motion(self.task.problem.mechanism.with_dimensions(design), steps=self.task.problem.steps)
+            return True
+        return False
 
     def _failing(self, found: Optimum) -> Sentence:
         """Which demands the nearest design misses, and by how much."""

@@ -52,7 +52,7 @@ class Optimum(Frozen):
         hypervolume: share of the box between the front's best values and its worst (or the start's) that the front
             beats; None for one objective.
         exact: gradients were exact.
-        interrupted: the search was stopped before its end.
+        state: the file from which a search goes on that was stopped before its end; None: it came to its end.
         without_effect: variables that change none of the numbers.
     """
 
@@ -66,7 +66,7 @@ class Optimum(Frozen):
     history: tuple[float, ...]
     hypervolume: float | None = None
     exact: bool = True
-    interrupted: bool = False
+    state: Path | None = None
     without_effect: tuple[str, ...] = ()
     document: Document | None = field(default=None, repr=False)
 
@@ -74,6 +74,11 @@ class Optimum(Frozen):
     def best(self) -> Choice:
         """The first design."""
         return self.choices[0]
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the search was stopped before its end."""
+        return self.state is not None
 
     def __iter__(self) -> Iterator[Choice]:
         return iter(self.choices)
@@ -128,6 +133,7 @@ class Optimum(Frozen):
             "generations": self.generations,
             "exact_gradients": self.exact,
             "interrupted": self.interrupted,
+            "state": None if self.state is None else str(self.state),
             "without_effect": list(self.without_effect),
         }  # fmt: skip
 
@@ -151,6 +157,14 @@ class OptimizeError(LinkwrightError):
 
     def __reduce__(self) -> tuple[type[OptimizeError], tuple[Any, ...]]:
         return OptimizeError, (self.args[0], self.nearest)
+
+
+class SearchInterrupted(KeyboardInterrupt):
+    """A search stopped before its first designs were all known; it goes on from the file ``state``."""
+
+    def __init__(self, state: Path) -> None:
+        self.state = state
+        super().__init__(str(Sentence("optimize.interrupted", path=state)))
 
 
 def hypervolume(goals: Floats, worst: Floats) -> float:

@@ -64,6 +64,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)
+    except KeyboardInterrupt as stopped:
+        session.tell(_stopped(stopped, options.state, session.say))
+        raise
     _show(found, options, session)
     return 0
 
@@ -77,8 +80,21 @@ def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
         name, sign, value = text.partition("=")
         if not sign or not name.strip() or not value.strip():
             raise UsageError(say("optimize.bad_pair", text=text))
+        if name.strip() in found:
+            raise UsageError(say("optimize.given_twice", name=name.strip()))
         found[name.strip()] = value.strip()
     return found
+
+
+def _stopped(stopped: KeyboardInterrupt, state: str | None, say: Say) -> str:
+    """What an interruption before the first population leaves."""
+    from linkwright.optimisation.optimum import SearchInterrupted
+
+    if isinstance(stopped, SearchInterrupted):
+        return say("optimize.interrupted", path=stopped.state)
+    if state is not None and Path(state).exists():
+        return say("optimize.nothing_new", path=state)
+    return say("optimize.nothing_yet")
 
 
 def _unmet(error: OptimizeError, session: Session) -> int:

@@ -24,6 +24,9 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "output_help": "write the model file with the best values (a front: NAME_2 … as well)",
     "plot_help": "draw the front, or the search's progress, in a .svg, .pdf or .png file",
     "bad_pair": '"{text}" is no setting; write NAME=VALUE, such as crank.length=80..120mm',
+    "given_twice": "{name} is given twice; write one setting for it, such as {name}=90..100mm",
+    "nothing_yet": "Nothing had been computed yet, so there is nothing to go on from; run the command again.",
+    "nothing_new": 'Nothing new had been computed; "{path}" is as it was: run the command again to go on from it.',
     "searching": "searching",
     "title": "{name}: {goals}",
     "least": "least {number}",
@@ -44,7 +47,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "differences": "This machine's designs go one after the other, and the last steps followed differences: slower, "
     "and less exact.",
     "made": "{share} % of the machines made within the tolerances meet all demands (512 samples).",
-    "interrupted": "The search was interrupted; run it again with the same --state to go on.",
+    "interrupted": "The search was interrupted; run the same command with --state {path} to go on.",
     "picture": "Optimisation of {name}",
     "legend.front": "front",
     "legend.start": "start",
@@ -79,6 +82,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "derived": '"{name}" follows from parameters; name the parameters in the expression instead',
     "nothing_moves": "no design of {name} within the bounds passes the whole cycle; widen the bounds, or start from "
     "a machine that moves",
+    "no_values": "no design of {name} within the bounds has a value of {numbers}; name another number, or give "
+    "the machine what the number needs (a flywheel, for one, needs work that the drivers do)",
     "failing": "the demands cannot be met together; the nearest design misses {demands}: change these demands, or "
     "widen the bounds",
     "other_state": 'the state "{path}" belongs to another problem; name another file, or remove it',
