@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -11,10 +11,14 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state
 from linkwright.loads.site import Wrench
 from linkwright.mechanism.mechanism import Mechanism
+
+#: Share of a joint's largest rate below which it stands still.
+STILL = 1e-12
 
 
 @dataclass(frozen=True)
@@ -81,8 +85,21 @@ class FrictionTerms:
         return [Wrench(term.b, force, place), Wrench(term.a, -force, place)]
 
 
-def friction_sizes(
-    terms: tuple[FrictionTerm, ...], reactions: Mapping[str, Floats], rates: Mapping[str, Floats]
-) -> dict[str, Floats]:
-    """Friction from the size of each reaction and the sign of each joint's rate."""
-    return {term.field: -np.sign(rates[term.field]) * term.arm * reactions[term.field] for term in terms}
+def still_name(term: FrictionTerm) -> str:
+    """Name of the parameter that holds the rate of a joint, rad/s or m/s, below which it stands still."""
+    return f"still:{term.joint}|{term.b}"
+
+
+def still_rates(motion: Motion, terms: Iterable[FrictionTerm]) -> dict[str, float]:
+    """These parameters in a motion."""
+    return {
+        still_name(term): STILL * float(np.nanmax(np.abs(joint_rate(motion, term)), initial=0.0))
+        for term in terms
+    }
+
+
+def joint_rate(motion: Motion, term: FrictionTerm) -> Floats:
+    """Rate of link b against link a, (n,) rad/s, or of the block along the guide, m/s."""
+    if term.slides:
+        return motion.joint(term.joint).velocity
+    return np.asarray(motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity)

@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import product, solution
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
 from linkwright.engine.vector import Vec
-from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms
+from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, still_name
 from linkwright.kinetostatics.site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.loads.site import Wrench
@@ -32,11 +32,6 @@ Wrenches = Mapping[str, list[Wrench]]
 def can_be_traced(mechanism: Mechanism, terms: int) -> bool:
     """Whether the joint forces are linear in the friction, and its terms not too many."""
     return not terms or (terms <= MOST and not any(joint.higher for joint in mechanism.joints.values()))
-
-
-def still_name(term: FrictionTerm) -> str:
-    """Name of the parameter that holds the rate of a joint, rad/s or m/s, below which it stands still."""
-    return f"still:{term.joint}|{term.b}"
 
 
 @dataclass(frozen=True)
@@ -68,6 +63,12 @@ def solved_friction(friction: FrictionTerms, forces_of: Callable[[Wrenches], For
     certain = motion.trace.logic("and", gap <= LEFT * largest, _bound(gains) < 1.0)
     held = {term.field: size * c for term, size, c in zip(terms, sizes, factors, strict=True)}
     return SolvedFriction(held, certain)
+
+
+def caused(friction: FrictionTerms, forces: ForceTrace, field: str) -> Scalar:
+    """The friction, by the name of its field, that joint forces cause."""
+    (term,) = (each for each in friction.terms if each.field == field)
+    return _length(_pressing(forces, term)) * _factor(friction, term)
 
 
 def _factor(friction: FrictionTerms, term: FrictionTerm) -> Scalar:

@@ -25,12 +25,19 @@ if TYPE_CHECKING:
 
 #: Before an output in words among the names of outputs.
 _WORDS = "words:"
+#: Before the field of a friction that is not taken but found.
+_CAUSED = "caused:"
 _OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa", "quality", "fact", "outcome"})
 
 
 def words_name(words: str) -> str:
     """The name under which programs know an output in the user's words (see :class:`Named`)."""
     return _WORDS + words
+
+
+def caused_name(field: str) -> str:
+    """The name under which programs know the friction that the joint forces cause, by its field."""
+    return _CAUSED + field
 
 
 def _no_angle(link: str) -> float:
@@ -120,6 +127,10 @@ class ForcePrograms:
     def _value(self, name: str) -> Scalar:
         if name.startswith(_WORDS):
             return self.named.quantity(name.removeprefix(_WORDS)).value
+        if name.startswith(_CAUSED):
+            from linkwright.kinetostatics.friction_stage import caused
+
+            return caused(self._terms, self.forces, name.removeprefix(_CAUSED))
         if name.startswith("load:"):
             return traced_magnitude(self.motion.motion, name.removeprefix("load:"))
         of_motion = name.split(":", maxsplit=1)[0] in _OF_MOTION

@@ -13,7 +13,8 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.friction import FrictionTerm, friction_sizes
+from linkwright.kinetostatics.friction import FrictionTerm, still_rates
+from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import traced_loads
@@ -24,8 +25,6 @@ from linkwright.words.sentence import Sentence, together
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400
 FRICTION_CHANGE = 1e-12
-#: Share of a joint's largest rate below which it stands still.
-STILL = 1e-12
 
 
 class FrictionError(LinkwrightError):
@@ -166,56 +165,27 @@ def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -
 
 
 def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats]) -> dict[str, Floats]:
-    """Friction that agrees with the reactions it causes, by fixed-point iteration."""
-    terms = solver.friction.terms
-    rates = {term.field: _rate(motion, term) for term in terms}
-    previous = np.inf
-    growing = 0
+    """Friction that agrees with the reactions it causes, by fixed-point iteration; exact to the largest reaction."""
+    terms, ok = solver.friction.terms, motion.ok
+    names = [term.field for term in terms]
+    reactions = [name for name in solver.outputs.standard if name.startswith("r:")]
+    wanted = (*(caused_name(name) for name in names), *reactions)
+    still, most = still_rates(motion, terms), max(term.arm for term in terms)
+    previous, growing = np.inf, 0
     for _ in range(FRICTION_STEPS):
-        forces = _evaluated(motion, solver, fields, False)
-        sizes = friction_sizes(terms, {t.field: _pressing(forces, t) for t in terms}, rates)
-        change = _change(fields, sizes, motion)
-        fields = {**fields, **sizes}
-        if change <= FRICTION_CHANGE * max(term.arm for term in terms) * _largest(forces):
+        values = solver.evaluate(wanted, motion, fields, still)
+        values[:, ~ok] = np.nan
+        sizes = values[: len(names)]
+        gap = np.abs(sizes - [fields[name] for name in names])[:, ok]
+        change = float(np.max(gap, initial=0.0))
+        fields = {**fields, **dict(zip(names, sizes, strict=True))}
+        if change <= FRICTION_CHANGE * most * float(np.max(np.abs(values[len(names) :, ok]), initial=0.0)):
             return fields
         growing = growing + 1 if change > previous else 0
         if growing > 25 or not np.isfinite(change):
             break
         previous = change
     raise FrictionError(_locked(motion, terms, fields))
-
-
-def joint_rate(motion: Motion, term: FrictionTerm) -> Floats:
-    """Rate of link b against link a, (n,) rad/s, or of the block along the guide, m/s."""
-    if term.slides:
-        return motion.joint(term.joint).velocity
-    return np.asarray(motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity)
-
-
-def _rate(motion: Motion, term: FrictionTerm) -> Floats:
-    """The same, zero where the joint stands still."""
-    rate = joint_rate(motion, term)
-    scale = np.nanmax(np.abs(rate), initial=0.0)
-    return np.where(np.abs(rate) < STILL * scale, 0.0, rate)
-
-
-def _pressing(forces: Forces, term: FrictionTerm) -> Floats:
-    """Size of the force that presses the two parts together."""
-    force = forces.reaction(term.joint, on=term.b)
-    if not term.slides:
-        return np.hypot(force[:, 0], force[:, 1])
-    n = forces.guide_direction(term.joint)
-    return np.abs(n[:, 0] * force[:, 1] - n[:, 1] * force[:, 0])
-
-
-def _change(old: dict[str, Floats], new: dict[str, Floats], motion: Motion) -> float:
-    return max(float(np.max(np.abs(new[k] - old[k])[motion.ok], initial=0.0)) for k in new)
-
-
-def _largest(forces: Forces) -> float:
-    """Size of the largest reaction: what friction is exact to, also where a joint carries next to nothing."""
-    rows = [forces.rows.row(name, forces.evaluate) for name in forces.rows.index if name.startswith("r:")]
-    return max(float(np.max(np.abs(row)[forces.motion.ok], initial=0.0)) for row in rows)
 
 
 def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, Floats]) -> str:

@@ -74,10 +74,12 @@ class ForceSolver:
         names: tuple[str, ...],
         motion: Motion,
         fields: Mapping[str, Floats],
+        numbers: Mapping[str, float] | None = None,
     ) -> Floats:
-        """Outputs by name, shape (names, n)."""
+        """Outputs by name, shape (names, n); ``numbers``: parameters that are no dimensions."""
         program = self.program(names)
-        values = [motion.design.parameters[name] for name in program.program.parameters]
+        known = {**motion.design.parameters, **(numbers or {})}
+        values = [known[name] for name in program.program.parameters]
         positions, states = motion.positions, motion.states
         arrays = {**positions.arrays, **motion.modes}
         given = {name: fields[name] for name in program.program.fields}

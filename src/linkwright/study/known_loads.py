@@ -19,6 +19,7 @@ from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, Output
+from linkwright.kinetostatics.friction import still_rates
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
@@ -29,7 +30,7 @@ from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.loaded_cycle import one_turn, still_rates
+from linkwright.study.loaded_cycle import one_turn
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
@@ -84,7 +85,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
                 known |= _phase(load, signals)
         moving = {}, {}
-    numbers = {**along.constants, **moving[0], **still_rates(plain, terms)}
+    numbers = {**along.constants, **moving[0], **still_rates(plain.nominal, terms)}
     return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
 
 

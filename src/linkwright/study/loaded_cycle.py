@@ -15,9 +15,8 @@ from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import Output
-from linkwright.kinetostatics.friction import FrictionTerm, Swinging
-from linkwright.kinetostatics.friction_stage import can_be_traced, still_name
-from linkwright.kinetostatics.run import STILL, joint_rate
+from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joint_rate, still_rates
+from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.magnitude import followed
@@ -89,7 +88,7 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     terms = traced.forces.friction.terms if rubbing else ()
     if len(names) + len(terms) < len(given) or not can_be_traced(mechanism, len(terms)):
         return None
-    still = still_rates(traced, terms)
+    still = still_rates(traced.nominal, terms)
     swinging = dict.fromkeys(_swinging(term) for term in terms if _swings(traced, term))
     plain = AlongInput(frozenset(), constants=still, rubbing=rubbing, swinging=tuple(swinging))
     if not names:
@@ -124,12 +123,6 @@ def friction_doubt(traced: Traced) -> Scalar:
     """1 where the traced friction is not certain, as a traced value."""
     friction = traced.forces.programs.friction
     return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
-
-
-def still_rates(traced: Traced, terms: Iterable[FrictionTerm]) -> dict[str, float]:
-    """Rates below which joints with friction stand still."""
-    rates = {still_name(term): np.abs(joint_rate(traced.nominal, term)) for term in terms}
-    return {name: STILL * float(np.nanmax(rate, initial=0.0)) for name, rate in rates.items()}
 
 
 def loaded_cycle(
