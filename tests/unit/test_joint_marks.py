@@ -188,7 +188,6 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
     bare, any_ = Bare("j"), SimpleNamespace(mechanism=None)
     calls = {
         "fields": Bare.fields,
-        "written": bare.written,
         "constrain": lambda: bare.constrain(any_),
         "connections": lambda: bare.connections(any_, frozenset()),
         "hang": lambda: bare.hang(any_, any_),

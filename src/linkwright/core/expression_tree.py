@@ -12,23 +12,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.words.sentence import Sentence
 
-ARITY: Mapping[str, int] = {
-    "sin": 1,
-    "cos": 1,
-    "tan": 1,
-    "asin": 1,
-    "acos": 1,
-    "atan": 1,
-    "atan2": 2,
-    "sqrt": 1,
-    "abs": 1,
-    "exp": 1,
-    "log": 1,
-    "min": 2,
-    "max": 2,
-    "sign": 1,
-    "step": 1,
-}
+_OF_TWO = ("atan2", "min", "max")
+_OF_ONE = ("sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "abs", "exp", "log", "sign", "step")
+ARITY: Mapping[str, int] = {**dict.fromkeys(_OF_ONE, 1), **dict.fromkeys(_OF_TWO, 2)}
 _FROM_ANGLE, _TO_ANGLE, _PURE = ("sin", "cos", "tan"), ("asin", "acos", "atan"), ("exp", "log")
 _ANGLE = units.DIMENSIONS["angle"]
 
@@ -83,24 +69,14 @@ Node = Number | Variable | Negative | Binary | Call
 @cache
 def scalar_functions() -> Mapping[str, Callable[..., Any]]:
     """The functions of the language on floats; ``step(x)`` is 1 from x = 0 on."""
-    return {
-        "sin": math.sin,
-        "cos": math.cos,
-        "tan": math.tan,
-        "asin": math.asin,
-        "acos": math.acos,
-        "atan": math.atan,
-        "atan2": math.atan2,
-        "sqrt": math.sqrt,
-        "abs": abs,
-        "exp": math.exp,
-        "log": math.log,
-        "min": min,
-        "max": max,
-        "sign": lambda x: (x > 0) - (x < 0),
-        "step": lambda x: 1.0 if x >= 0 else 0.0,
-        "pow": pow,
-    }
+    own: dict[str, Callable[..., Any]] = {"abs": abs, "min": min, "max": max, "pow": pow}
+    own |= {"sign": lambda x: (x > 0) - (x < 0), "step": lambda x: 1.0 if x >= 0 else 0.0}
+    return functions_of(math, own)
+
+
+def functions_of(module: object, own: Mapping[str, Callable[..., Any]]) -> Mapping[str, Callable[..., Any]]:
+    """The functions of the language, and ``pow`` of powers: ``own`` ones, else those of a module."""
+    return {name: own.get(name) or getattr(module, name) for name in (*ARITY, "pow")}
 
 
 def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field
 from typing import Any
 
@@ -26,6 +26,7 @@ from linkwright.core.expression_tree import (
     derivative,
     dimension_of,
     evaluate,
+    functions_of,
     scalar_functions,
 )
 from linkwright.engine import trace
@@ -415,21 +416,14 @@ class _Parser:
 
 
 #: The functions of the language on arrays and traced values.
-ON_VALUES: Mapping[str, Callable[..., Any]] = {
-    "sin": trace.sin,
-    "cos": trace.cos,
-    "tan": trace.tan,
-    "asin": trace.asin,
-    "acos": trace.acos,
-    "atan": trace.atan,
-    "atan2": trace.angle,
-    "sqrt": trace.sqrt,
-    "abs": trace.absolute,
-    "exp": trace.exp,
-    "log": trace.log,
-    "min": lambda a, b: trace.select(a < b, a, trace.select(b <= a, b, a + b)),
-    "max": lambda a, b: trace.select(a > b, a, trace.select(b >= a, b, a + b)),
-    "sign": trace.sign,
-    "step": lambda x: trace.select(x >= 0.0, 1.0, trace.select(x < 0.0, 0.0, trace.stop(x))),
-    "pow": trace.power,
-}
+ON_VALUES = functions_of(
+    trace,
+    {
+        "atan2": trace.angle,
+        "abs": trace.absolute,
+        "min": lambda a, b: trace.select(a < b, a, trace.select(b <= a, b, a + b)),
+        "max": lambda a, b: trace.select(a > b, a, trace.select(b >= a, b, a + b)),
+        "step": lambda x: trace.select(x >= 0.0, 1.0, trace.select(x < 0.0, 0.0, trace.stop(x))),
+        "pow": trace.power,
+    },
+)

@@ -13,7 +13,7 @@ from linkwright.fields.nodes import Node
 from linkwright.fields.references import LinkName
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
-from linkwright.joints.base import JointName
+from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
 from linkwright.words.sentence import Sentence, together
 
@@ -36,14 +36,14 @@ def scan_input(reader: Reader, root: MappingNode) -> None:
     reader.input_rotary = not (isinstance(node, MappingNode) and node.get("slide") is not None)
 
 
-def read_drivers(reader: Reader, root: MappingNode) -> dict[str, Driver]:
+def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint]) -> dict[str, Driver]:
     """The drivers by name; a single one is named ``driver``."""
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
         reader.error(several, "drivers", Sentence("model.both_drivers"), Sentence("model.keep_one"), "choice")
     found: dict[str, Driver] = {}
     if one is not None:
-        _add(reader, found, one, "driver", Place("driver", "driver"))
+        _add(reader, found, joints, one, "driver", Place("driver", "driver"))
     mapping = None if several is None else reader.mapping(several, "drivers")
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"drivers.{entry.key.text}", "driver")
@@ -56,12 +56,14 @@ def read_drivers(reader: Reader, root: MappingNode) -> dict[str, Driver]:
                 "duplicate",
             )
         elif name is not None:
-            _add(reader, found, entry.value, name, Place(f"drivers.{name}", name))
+            _add(reader, found, joints, entry.value, name, Place(f"drivers.{name}", name))
     return found
 
 
-def _add(reader: Reader, found: dict[str, Driver], node: Node, name: str, place: Place) -> None:
-    driver = _read_driver(reader, node, name, place)
+def _add(
+    reader: Reader, found: dict[str, Driver], joints: Mapping[str, Joint], node: Node, name: str, place: Place
+) -> None:
+    driver = _read_driver(reader, joints, node, name, place)
     if driver is None:
         return
     for other in found.values():
@@ -79,7 +81,9 @@ def _add(reader: Reader, found: dict[str, Driver], node: Node, name: str, place:
     found[name] = driver
 
 
-def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver | None:
+def _read_driver(
+    reader: Reader, joints: Mapping[str, Joint], node: Node, name: str, place: Place
+) -> Driver | None:
     mapping = reader.mapping(node, place)
     if mapping is None:
         return None
@@ -101,8 +105,9 @@ def _read_driver(reader: Reader, node: Node, name: str, place: Place) -> Driver 
     joint: tuple[str, str, str] | None = None
     if rotary:
         joint = _revolute(reader, mapping, place, given)
-    elif given.get("slide") is not None:
-        joint = given["slide"], "", ""
+    elif given.get("slide") in joints:
+        guide, block = joints[given["slide"]].joined
+        joint = given["slide"], block, guide
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
@@ -229,14 +234,3 @@ def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: La
         problem, remedy, code = Sentence("model.wrong_way"), "exchange_or_turn", "range"
     if problem is not None:
         reader.error(node, "cycle", problem, Sentence(f"model.{remedy}"), code)
-
-
-def complete(drivers: Mapping[str, Driver], ends: Mapping[str, tuple[str, str]]) -> dict[str, Driver]:
-    """The drivers with block and guide of their prismatic joints filled in; ``ends`` gives (block, guide)."""
-    from dataclasses import replace
-
-    return {
-        name: replace(driver, link=ends[driver.joint][0], relative_to=ends[driver.joint][1])
-        if driver.joint in ends else driver
-        for name, driver in drivers.items()
-    }  # fmt: skip

@@ -17,7 +17,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.plain_reader import Place, TooManyFindings
-from linkwright.files.read_drivers import complete, read_cycle, read_drivers, scan_input
+from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.files.reader import Reader
@@ -83,12 +83,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     drawn = read_drawing(reader, root.get("drawing"), frame)
     links = read_links(reader, root.get("links"), frame, drawn)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
-    ends = {
-        name: (joint.joined[1], joint.joined[0])
-        for name, joint in joints.items()
-        if joint.coordinate == "slide"
-    }
-    drivers = complete(read_drivers(reader, root), ends)
+    drivers = read_drivers(reader, root, joints)
     mechanism = Mechanism(
         name=header.get("name") or os.path.splitext(os.path.basename(source))[0],
         frame=frame,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
@@ -238,8 +238,15 @@ class Joint(ABC):
         return None
 
     def written(self) -> dict[str, Any]:
-        """Values of the keys that a file needs, as plain data or as numbers in SI."""
-        raise self.lacks("written")
+        """Values of the keys that a file needs, as plain data or as numbers in SI: those that must be there, and
+        those that are neither zero nor the default."""
+        usual = {each.name: each.default for each in fields(self)}
+        values = {key: (field, getattr(self, key)) for key, field in self.fields().items()}
+        return {
+            key: value
+            for key, (field, value) in values.items()
+            if field.required or (value and value != usual[key])
+        }
 
     # structure --------------------------------------------------------------------------------
     @property

@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Iterable, Mapping, Sequence
 from math import asin
 from math import sqrt as sqrt_of
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, maximum, reciprocal, sqrt
@@ -85,14 +85,6 @@ class BeltPair(WheelPair):
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
         both = first + second
         return both * both < (b - a).square
-
-    def written(self) -> dict[str, Any]:
-        found = super().written()
-        if self.sense < 0:
-            found["run"] = "crossed"
-        if self.pretension:
-            found["pretension"] = self.pretension
-        return found
 
     def dimensions(self) -> Mapping[str, float]:
         own = {f"{self.name}.pretension": self.pretension} if self.pretension else {}

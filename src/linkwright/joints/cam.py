@@ -190,23 +190,11 @@ class CamJoint(HigherPair):
             report("base_radius", Sentence("joints.cam_reach"), Sentence("joints.cam_reach_remedy"))
 
     def written(self) -> dict[str, Any]:
-        keys = (
-            "cam",
-            "follower",
-            "at",
-            "touch",
-            "turn",
-            "side",
-            "closure",
-            "base_radius",
-            "roller_radius",
-            "phase",
-        )
-        found: dict[str, Any] = {key: value for key in keys if (value := getattr(self, key))}
-        if self.program is not None:
-            field = ProgramField("angle" if self.side else "length", "angle")
-            return {**found, "program": field.written(self.program)}
-        return {**found, "angles": self.angles, "lifts": self.lifts}
+        found = super().written()
+        if self.program is None:
+            return found
+        program = ProgramField("angle" if self.side else "length", "angle").written(self.program)
+        return {**found, "program": program}
 
     def dimensions(self) -> Mapping[str, float]:
         found = {"base_radius": self.base_radius, "phase": self.phase}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
@@ -61,10 +61,6 @@ class ChainPair(BeltPair):
             return super().pitch_radii()
         a, b = self.teeth
         return a * self.pitch / (2 * pi), b * self.pitch / (2 * pi)
-
-    def written(self) -> dict[str, Any]:
-        found = super().written()
-        return found if self.pitch is None else {**found, "pitch": self.pitch}
 
     def dimensions(self) -> Mapping[str, float]:
         own = {} if self.pitch is None else {f"{self.name}.pitch": self.pitch}

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import atan, atan2, pi
 from math import cos as cos_of
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
@@ -115,14 +115,6 @@ class GearPair(RollingPair):
         off = square * reciprocal(wanted * wanted) - 1.0
         rounded = select(absolute(off) <= 2.0 * FITS * (1.0 + FITS), off, 0.0)
         return sqrt(maximum((1.0 + off - stop(rounded)) * reciprocal(root * root) - 1.0, 0.0))
-
-    def written(self) -> dict[str, Any]:
-        found = super().written()
-        if self.module is not None:
-            found["module"] = self.module
-        if self.pressure_angle != STANDARD:
-            found["pressure_angle"] = self.pressure_angle
-        return found
 
     def dimensions(self) -> Mapping[str, float]:
         own = {f"{self.name}.pressure_angle": self.pressure_angle}

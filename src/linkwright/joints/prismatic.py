@@ -107,12 +107,8 @@ class PrismaticJoint(SlidingJoint):
         return True
 
     def written(self) -> dict[str, Any]:
-        values: dict[str, Any] = {key: getattr(self, key) for key in ("guide", "through", "block", "at")}
-        values["direction"] = list(self.direction_points) if self.direction_points else self.direction
-        values |= {
-            key: value for key in ("offset", "block_angle", "friction") if (value := getattr(self, key))
-        }
-        return values
+        points = self.direction_points
+        return {**super().written(), "direction": list(points) if points else self.direction}
 
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:

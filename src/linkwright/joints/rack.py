@@ -187,18 +187,9 @@ class RackPair(HigherPair):
         return replace(self, phase=pinion - rack + self.side * along.real / self.radius)
 
     def written(self) -> dict[str, Any]:
-        found: dict[str, Any] = {"pinion": self.pinion, "rack": self.rack}
-        found |= {"through": self.through, "centre": self.centre}
-        if self.direction:
-            found["direction"] = self.direction
-        found |= (
-            {"radius": self.radius} if self.module is None else {"teeth": self.teeth, "module": self.module}
-        )
-        if self.phase:
-            found["phase"] = self.phase
-        if self.pressure_angle != STANDARD:
-            found["pressure_angle"] = self.pressure_angle
-        return found
+        """Teeth of a module tell the radius."""
+        told = "" if self.module is None else "radius"
+        return {key: value for key, value in super().written().items() if key != told}
 
     def dimensions(self) -> Mapping[str, float]:
         size = {"radius": self.radius}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
@@ -48,9 +48,6 @@ class RevoluteJoint(TurningJoint):
             entry.reader.known(entry.node, entry.place, "pin", entry.name, list(pins))
             return None
         return cls(entry.name, pins[entry.name], **entry.values)
-
-    def written(self) -> dict[str, Any]:
-        return {key: value for key in ("pin_radius", "friction") if (value := getattr(self, key))}
 
     # structure --------------------------------------------------------------------------------
     @property

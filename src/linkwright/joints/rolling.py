@@ -127,8 +127,9 @@ class RollingPair(WheelPair):
         return absolute(wanted * wanted - square) <= 2.0 * FITS * square
 
     def written(self) -> dict[str, Any]:
-        found = super().written()
-        return {**found, "mesh": self.mesh} if self.mesh == "internal" and self.ratio is None else found
+        """A ratio tells the mesh by its sign."""
+        told = "" if self.ratio is None else "mesh"
+        return {key: value for key, value in super().written().items() if key != told}
 
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         points, i = mechanism.link(self.carrier).points, self.transmission

@@ -120,14 +120,6 @@ class WheelPair(HigherPair):
             return replace(self, phase=0.0)
         return replace(self, phase=(b - c) - self.transmission * (a - c))
 
-    def written(self) -> dict[str, Any]:
-        found: dict[str, Any] = {"links": list(self.links), "carrier": self.carrier}
-        for key in ("teeth", "radii", "ratio", "phase"):
-            value = getattr(self, key)
-            if value:
-                found[key] = value
-        return found
-
     def dimensions(self) -> Mapping[str, float]:
         found: dict[str, float] = {}
         for key in ("teeth", "radii"):

@@ -13,6 +13,7 @@ from linkwright.fields.references import LinkNames
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.lower import RigidJoint
 from linkwright.joints.pose import Pose, Rotor, State
+from linkwright.joints.revolute import Pin
 
 if TYPE_CHECKING:
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
@@ -54,9 +55,6 @@ class WeldJoint(RigidJoint):
         at, links = given.get("at"), given.get("links")
         return (at, links) if at and isinstance(links, list) and len(links) == 2 else None
 
-    def written(self) -> dict[str, Any]:
-        return {"links": list(self.links), "at": self.at, "angle": self.angle}
-
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:
         graph.hold_rotation(self.name, *self.links)
@@ -90,23 +88,17 @@ class WeldJoint(RigidJoint):
 
 
 @dataclass(frozen=True)
-class Fixed:
-    """A weld of a chain: no coordinate."""
+class Fixed(Pin):
+    """A weld of a chain: a pin that turns with the parent, no coordinate."""
 
-    on_parent: Vec
-    on_child: Vec
     turned: Vec
 
     def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
         rotor = Rotor(parent.rotor.now, parent.rotor.local.turn(self.turned))
         return Pose(self.on_child, parent.point(self.on_parent), rotor)
 
-    def normal(self, parent: Pose) -> Vec:
-        raise TypeError("no displacement")
-
     def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        return State(pose, parent.velocity_of(self.on_parent), parent.omega)
+        return super().rates(parent, pose, parent.omega)
 
     def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        acceleration = parent.acceleration_of(self.on_parent)
-        return State(child.pose, child.velocity, child.omega, acceleration, parent.alpha)
+        return super().accelerate(parent, child, rate, parent.alpha)

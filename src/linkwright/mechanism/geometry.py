@@ -90,19 +90,6 @@ def _middle(a: Any, b: Any) -> Any:
     return 0.5 * (a + b)
 
 
-def geometry_addresses(link: Link) -> list[str]:
-    """Addresses of every dimension that places the link's points, in order."""
-    found: list[str] = []
-
-    def note(address: str) -> float:
-        if address not in found:
-            found.append(address)
-        return 0.0
-
-    local_points(link, note, lambda angle: angle, lambda angle: angle)
-    return found
-
-
 def mechanism_size(mechanism: Mechanism) -> float:
     """A power of two in metres, not below the largest coordinate, offset or stroke.
 
