@@ -67,6 +67,7 @@ class Geared(Multibody):
         super()._arrange()
         self.first = self.rows
         self.rows += len(self.rolling)
+        self.pattern = np.concatenate([self.pattern, np.zeros((len(self.rolling), 3 * self.count))])
         self.constant = np.append(self.constant, [c.value for c in self.rolling])
         self.selection = np.concatenate([self.selection, np.zeros((len(self.rolling), self.drivers))])
 

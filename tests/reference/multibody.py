@@ -150,12 +150,40 @@ class Multibody:
         self.row_angle = 2 * self.np + np.arange(self.na)
         self.row_line = 2 * self.np + self.na + np.arange(self.nl)
         single: list[Angle | Line] = [*angles, *lines]
+        self._arrange_vectors()
         self.constant: Array = np.array([0.0] * (2 * self.np) + [c.value for c in single])
         self.selection = np.zeros((self.rows, self.drivers))
         for row, c in zip([*self.row_angle, *self.row_line], single, strict=True):
             if c.driver is not None:
                 self.selection[row, c.driver] = 1.0
         self.order = {id(c): k for group in (pins, angles, lines) for k, c in enumerate(group)}
+
+    def _arrange_vectors(self) -> None:
+        """What turns with the bodies, one after the other, and where its parts stand in the Jacobian."""
+        a, b, (x, y) = self.line_a, self.line_b, (self.row_x, self.row_x + 1)
+        locals_ = (self.pin_pa, self.pin_pb, self.line_w, self.line_t, self.line_p)
+        self.local = np.concatenate(locals_)
+        self.body = np.concatenate([self.pin_a, self.pin_b, a, a, b])
+        ends = np.cumsum([0, *map(len, locals_)]).tolist()
+        self.parts = [slice(*ends[k : k + 2]) for k in range(len(locals_))]
+        self.pattern = np.zeros((self.rows, 3 * self.count))
+        for sign, body in ((1.0, self.pin_a), (-1.0, self.pin_b)):
+            self.pattern[x, 3 * body] = sign
+            self.pattern[y, 3 * body + 1] = sign
+        self.pattern[self.row_angle, 3 * self.angle_b + 2] = 1.0
+        self.pattern[self.row_angle, 3 * self.angle_a + 2] = -1.0
+        turning = [3 * self.pin_a + 2, 3 * self.pin_a + 2, 3 * self.pin_b + 2, 3 * self.pin_b + 2]
+        sliding = [3 * b, 3 * b + 1, 3 * a, 3 * a + 1, 3 * b + 2, 3 * a + 2]
+        self.moving = np.concatenate([x, y, x, y, *[self.row_line] * 6]), np.concatenate([*turning, *sliding])
+
+    def _turned(self, q: Array) -> list[Array]:
+        """Arms of the pins' two points, directions, and arms of the lines' two points, in the frame's axes."""
+        c, s = np.cos(q[..., 2])[..., self.body], np.sin(q[..., 2])[..., self.body]
+        x, y = self.local.T
+        turned = np.empty((*c.shape, 2))
+        turned[..., 0] = c * x - s * y
+        turned[..., 1] = s * x + c * y
+        return [turned[..., part, :] for part in self.parts]
 
     def constraint_rows(self, c: Constraint) -> list[int]:
         k = self.order[id(c)]
@@ -164,59 +192,42 @@ class Multibody:
         return [int(self.row_angle[k] if isinstance(c, Angle) else self.row_line[k])]
 
     def residual(self, q: Array, u: Array) -> Array:
-        c, s = np.cos(q[..., 2]), np.sin(q[..., 2])
+        ra, rb, w, t, p = self._turned(q)
         out = np.empty((*q.shape[:-2], self.rows))
-        ra = _turned(c, s, self.pin_a, self.pin_pa)
-        rb = _turned(c, s, self.pin_b, self.pin_pb)
         gap = q[..., self.pin_a, :2] + ra - q[..., self.pin_b, :2] - rb
         out[..., : 2 * self.np] = gap.reshape(*gap.shape[:-2], 2 * self.np)
         out[..., self.row_angle] = q[..., self.angle_b, 2] - q[..., self.angle_a, 2]
-        w, d, _, _ = self._line_vectors(q, c, s)
-        out[..., self.row_line] = (w * d).sum(-1)
+        out[..., self.row_line] = (w * self._along_lines(q, t, p)).sum(-1)
         out -= self.constant + u @ self.selection.T
         turns = out[..., self.row_angle]
         out[..., self.row_angle] = turns - 2 * pi * np.round(turns / (2 * pi))
         return out
 
-    def _line_vectors(self, q: Array, c: Array, s: Array) -> tuple[Array, Array, Array, Array]:
-        w = _turned(c, s, self.line_a, self.line_w)
-        t = _turned(c, s, self.line_a, self.line_t)
-        p = _turned(c, s, self.line_b, self.line_p)
-        d = q[..., self.line_b, :2] + p - q[..., self.line_a, :2] - t
-        return w, d, t, p
+    def _along_lines(self, q: Array, t: Array, p: Array) -> Array:
+        """P - T of every line."""
+        along: Array = q[..., self.line_b, :2] + p - q[..., self.line_a, :2] - t
+        return along
 
     def jacobian(self, q: Array) -> Array:
         """C_q of all bodies, the frame first, shape (..., rows, 3 * bodies)."""
-        c, s = np.cos(q[..., 2]), np.sin(q[..., 2])
-        jac = np.zeros((*q.shape[:-2], self.rows, 3 * self.count))
-        for sign, body, local in ((1.0, self.pin_a, self.pin_pa), (-1.0, self.pin_b, self.pin_pb)):
-            r = _turned(c, s, body, local)
-            jac[..., self.row_x, 3 * body] = sign
-            jac[..., self.row_x + 1, 3 * body + 1] = sign
-            jac[..., self.row_x, 3 * body + 2] = -sign * r[..., 1]
-            jac[..., self.row_x + 1, 3 * body + 2] = sign * r[..., 0]
-        jac[..., self.row_angle, 3 * self.angle_b + 2] = 1.0
-        jac[..., self.row_angle, 3 * self.angle_a + 2] = -1.0
-        w, d, t, p = self._line_vectors(q, c, s)
-        a, b = self.line_a, self.line_b
-        for k in (0, 1):
-            jac[..., self.row_line, 3 * b + k] = w[..., k]
-            jac[..., self.row_line, 3 * a + k] = -w[..., k]
-        jac[..., self.row_line, 3 * b + 2] = _cross(p, w)
-        jac[..., self.row_line, 3 * a + 2] = _cross(w, d) - _cross(t, w)
+        ra, rb, w, t, p = self._turned(q)
+        turning = [-ra[..., 1], ra[..., 0], rb[..., 1], -rb[..., 0]]
+        arm = _cross(w, self._along_lines(q, t, p)) - _cross(t, w)
+        sliding = [w[..., 0], w[..., 1], -w[..., 0], -w[..., 1], _cross(p, w), arm]
+        jac = np.empty((*q.shape[:-2], self.rows, 3 * self.count))
+        jac[...] = self.pattern
+        rows, columns = self.moving
+        jac[..., rows, columns] = np.concatenate([*turning, *sliding], axis=-1)
         return jac
 
     def quadratic(self, q: Array, qd: Array) -> Array:
         """The part of d2C/dt2 that is quadratic in the velocities, shape (..., rows)."""
-        c, s = np.cos(q[..., 2]), np.sin(q[..., 2])
+        ra, rb, w, t, p = self._turned(q)
         square = qd[..., 2, None] ** 2
         out = np.zeros((*q.shape[:-2], self.rows))
-        ra = _turned(c, s, self.pin_a, self.pin_pa)
-        rb = _turned(c, s, self.pin_b, self.pin_pb)
         gap = square[..., self.pin_b, :] * rb - square[..., self.pin_a, :] * ra
         out[..., : 2 * self.np] = gap.reshape(*gap.shape[:-2], 2 * self.np)
-        w, d, t, p = self._line_vectors(q, c, s)
-        a, b = self.line_a, self.line_b
+        d, a, b = self._along_lines(q, t, p), self.line_a, self.line_b
         wa, wb = qd[..., a, 2, None], qd[..., b, 2, None]
         rate = qd[..., b, :2] + wb * _left(p) - qd[..., a, :2] - wa * _left(t)
         bend = wa**2 * t - wb**2 * p
@@ -385,14 +396,6 @@ class Forces:
         system = self.motion.system
         c = next(c for c in system.constraints if c.name == name)
         return -self.lam[:, system.constraint_rows(c)[0]]
-
-
-def _turned(c: Array, s: Array, body: NDArray[np.int_], local: Array) -> Array:
-    cb, sb = c[..., body], s[..., body]
-    out = np.empty((*cb.shape, 2))
-    out[..., 0] = cb * local[:, 0] - sb * local[:, 1]
-    out[..., 1] = sb * local[:, 0] + cb * local[:, 1]
-    return out
 
 
 def _left(v: Array) -> Array:
