@@ -3,7 +3,8 @@
 import ast
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -94,10 +95,15 @@ def imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield from imports(node)
 
 
-def upward(source: str, package: str) -> list[str]:
-    """What the source of a module of ``package`` imports from a higher stage."""
+@cache
+def imports_of(module: Path) -> tuple[tuple[int, str], ...]:
+    return tuple(imports(ast.parse((ROOT / module).read_text(encoding="utf-8"))))
+
+
+def upward(imported: Iterable[tuple[int, str]], package: str) -> list[str]:
+    """What a module of ``package`` imports from a higher stage."""
     found = []
-    for line, name in imports(ast.parse(source)):
+    for line, name in imported:
         head, _, rest = name.partition(".")
         target = rest.split(".")[0]
         if head == "linkwright" and STAGE.get(target, STAGE[package]) > STAGE[package]:
@@ -110,42 +116,46 @@ def test_every_package_has_a_stage() -> None:
 
 
 def test_an_upward_import_is_found() -> None:
-    assert upward("def late():\n    from linkwright.kinematics import motion", "structure")
-    assert upward("import linkwright.plot.curves", "metrics")
-    assert not upward("from linkwright.structure import text", "kinematics")
+    def found(source: str, package: str) -> list[str]:
+        return upward(imports(ast.parse(source)), package)
+
+    assert found("def late():\n    from linkwright.kinematics import motion", "structure")
+    assert found("import linkwright.plot.curves", "metrics")
+    assert not found("from linkwright.structure import text", "kinematics")
 
 
-@pytest.mark.parametrize("module", MODULES, ids=str)
-def test_imports_go_down(module: Path) -> None:
-    allowed = LEADS_ON.get(module.as_posix(), set())
-    found = upward((ROOT / module).read_text(encoding="utf-8"), package_of(module))
-    assert [each for each in found if not any(f": {name}" in each for name in allowed)] == []
+@pytest.mark.parametrize("package", sorted(STAGE))
+def test_imports_go_down(package: str) -> None:
+    bad = []
+    for module in (each for each in MODULES if package_of(each) == package):
+        allowed = LEADS_ON.get(module.as_posix(), set())
+        found = upward(imports_of(module), package)
+        bad += [f"{module}, {each}" for each in found if not any(f": {name}" in each for name in allowed)]
+    assert bad == []
 
 
 @pytest.mark.parametrize("module", ENGINE, ids=str)
 def test_engine_knows_no_mechanism(module: Path) -> None:
-    tree = ast.parse((ROOT / module).read_text(encoding="utf-8"))
-    own = [name for _, name in imports(tree) if name.startswith("linkwright.")]
+    own = [name for _, name in imports_of(module) if name.startswith("linkwright.")]
     assert all(name.startswith(KNOWN_TO_ENGINE) for name in own), own
 
 
 def test_dataclasses_are_those_that_start_at_once() -> None:
     """``core/dataclass.py`` says why; with the standard decorator every class costs half a millisecond at start."""
-    users = (m.as_posix() for m in MODULES if m.as_posix() != "core/dataclass.py")
-    sources = {name: (ROOT / name).read_text(encoding="utf-8") for name in users}
+    users = (module for module in MODULES if module.as_posix() != "core/dataclass.py")
     found = {
-        name
-        for name, text in sources.items()
-        if "dataclasses.dataclass" in {each for _, each in imports(ast.parse(text))}
+        str(module) for module in users if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
     }
     assert found == set()
 
 
-@pytest.mark.parametrize("module", ANALYSIS, ids=str)
-def test_analysis_imports_no_front_end(module: Path) -> None:
-    tree = ast.parse((ROOT / module).read_text(encoding="utf-8"))
-    used = {name.split(".")[0] for _, name in imports(tree)}
-    assert used & FRONT_END_PACKAGES == set()
+@pytest.mark.parametrize("package", sorted({package_of(module) for module in ANALYSIS}))
+def test_analysis_imports_no_front_end(package: str) -> None:
+    bad = []
+    for module in (each for each in ANALYSIS if package_of(each) == package):
+        used = {name.split(".")[0] for _, name in imports_of(module)}
+        bad += [f"{module}: {name}" for name in used & FRONT_END_PACKAGES]
+    assert bad == []
 
 
 def test_solving_loads_no_slow_package() -> None:

@@ -41,23 +41,45 @@ def test_everything_public_comes_with_a_star() -> None:
         assert names[name] is getattr(linkwright, name)
 
 
-@pytest.mark.parametrize(
-    "first", ["", "import linkwright.{0}", "from linkwright.{0} import *", "linkwright.{0}"]
-)
+FIRST = ("", "import linkwright.{0}", "from linkwright.{0} import *", "linkwright.{0}")
+#: Each way of the arguments in a process of its own, which has imported nothing of the package but its name.
+CALLED = """
+import inspect, os, sys, traceback, numpy
+import linkwright
+name, *ways = sys.argv[1:]
+for first in ways:
+    if (process := os.fork()) == 0:
+        try:
+            exec(first)
+            exec(f"import linkwright.{name}")
+            found = getattr(linkwright, name)
+            assert inspect.ismodule(found) and callable(found), found
+            try:
+                found(no_such_option=1)
+            except TypeError as error:
+                print(*inspect.signature(found).parameters, error, sep="|", flush=True)
+            os._exit(0)
+        except BaseException:
+            traceback.print_exc()
+            sys.stderr.flush()
+            os._exit(1)
+    assert os.waitpid(process, 0)[1] == 0, first
+"""
+
+
 @pytest.mark.parametrize("name", PACKAGES)
-def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: str, first: str) -> None:
-    """In a process of its own: the package's modules, the function's parameters and a call through the package."""
-    program = (
-        f"import linkwright\n{first.format(name)}\nimport inspect, linkwright.{name}\n"
-        f"found = linkwright.{name}\n"
-        f"assert inspect.ismodule(found) and callable(found), found\n"
-        f"print(*inspect.signature(found).parameters)\n"
-        f"try: found(no_such_option=1)\nexcept TypeError as error: print(error)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    parameters, refusal = done.stdout.splitlines()
-    assert parameters.split()[0] in {"mechanism", "result", "source", "text", "results", "motion", "machines"}
-    assert "unexpected keyword argument" in refusal or "missing" in refusal
+def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: str) -> None:
+    """The package's modules, the function's parameters and a call through the package."""
+    ways = [first.format(name) for first in FIRST]
+    command = [sys.executable, "-c", CALLED, name, *ways]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    said = done.stdout.splitlines()
+    assert len(said) == len(ways)
+    for line in said:
+        parameter, *_, refusal = line.split("|")
+        assert parameter in {"mechanism", "result", "source", "text", "results", "motion", "machines"}
+        assert "unexpected keyword argument" in refusal or "missing" in refusal
 
 
 def test_packages_and_functions_work_side_by_side() -> None:

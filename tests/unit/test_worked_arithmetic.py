@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -59,10 +60,15 @@ def reached(forces: lw.Forces) -> int:
     return int(good[len(good) // 2])
 
 
+@cache
+def gallery_page(name: str) -> tuple[lw.Forces, lw.Worked]:
+    forces = forces_of(lw.load(f"gallery:{name}"))
+    return forces, lw.worked(forces, reached(forces))
+
+
 @pytest.mark.parametrize("name", GALLERY)
 def test_gallery_comes_out_with_a_calculator(name: str) -> None:
-    forces = forces_of(lw.load(f"gallery:{name}"))
-    page = lw.worked(forces, reached(forces))
+    forces, page = gallery_page(name)
     assert reckon_lines(page) == []
     wrong, _ = against_solver(page, forces)
     assert wrong == []
@@ -107,8 +113,7 @@ def test_the_row_of_a_pair_is_put_into_the_closure_equations() -> None:
 
 @pytest.mark.parametrize("name", GALLERY)
 def test_nothing_of_the_motion_is_left_out(name: str) -> None:
-    forces = forces_of(lw.load(f"gallery:{name}"))
-    page = lw.worked(forces, reached(forces))
+    forces, page = gallery_page(name)
     _, seen = against_solver(page, forces)
     columns = forces.motion.columns()
     moving = [
@@ -121,8 +126,7 @@ def test_nothing_of_the_motion_is_left_out(name: str) -> None:
 
 @pytest.mark.parametrize("name", GALLERY)
 def test_every_joint_force_and_effort_is_found(name: str) -> None:
-    forces = forces_of(lw.load(f"gallery:{name}"))
-    page = lw.worked(forces, reached(forces))
+    forces, page = gallery_page(name)
     _, seen = against_solver(page, forces)
     for joint, held in forces.mechanism.joints.items():
         links = [link for link in held.joined if link != "frame"]
