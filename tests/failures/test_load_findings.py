@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 import linkwright as lw
+from linkwright.cli import main
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.files.model_file import loads
+from linkwright.words.sentence import in_language
 
 CRANK_ROCKER = """
 format: 1
@@ -228,3 +232,47 @@ def test_a_ray_between_points_that_coincide() -> None:
     text = CRANK_ROCKER.replace("E2: [1 m, 2 m]", "E2: [1 m, 1 m]")
     load = "{kind: force, on: coupler, at: B, normal_to: [E, E2], magnitude: 5 N}"
     assert "loads.push: the points E and E2 of coupler coincide" in refused(text, load)
+
+
+PRESS = """
+format: 1
+name: press
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 50 mm}
+  rod: {points: [A, B], length: 200 mm}
+  ram: {points: [B]}
+joints: {slide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+loads:
+  work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 100 N, phase: {PHASE}}
+"""
+
+
+@pytest.mark.parametrize("phase", ["of: ram, from: min, to: max", "moving: ram, direction: increasing"])
+def test_phase_of_a_link_that_only_slides(phase: str) -> None:
+    """A ram's angle never changes; what is meant is the displacement of its guide."""
+    with pytest.raises(ModelError) as error:
+        loads(PRESS.replace("PHASE", phase))
+    (found,) = error.value.findings
+    word = phase.partition(":")[0]
+    assert found.key == f"loads.work.phase.{word}" and ":13:" in found.where
+    assert 'the link "ram" only slides' in found.message and f"{word}: slide" in found.remedy
+    assert "只作移动" in in_language(found.message, "zh")
+
+
+@pytest.mark.parametrize(
+    ("phase", "output"), [("of: crank, from: min, to: max", "crank"), ("of: B.y, from: min, to: max", "B.y")]
+)
+def test_check_names_loads_of_what_never_reverses(
+    phase: str, output: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The model can be read, its motion found, but the load cannot act: check says so as forces do."""
+    file = tmp_path / "press.yaml"
+    file.write_text(PRESS.replace("PHASE", phase), encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+    said = capsys.readouterr().out
+    assert "loads.work.phase:" in said and f"'{output}' never reverses" in said
+    file.write_text(PRESS.replace("PHASE", "of: slide, from: min, to: max"), encoding="utf-8")
+    assert main(["check", str(file)]) == 0

@@ -7,6 +7,7 @@ from functools import partial
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
+from linkwright.fields.signals import Output
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
@@ -27,6 +28,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
     _near_points(reader, root, mechanism)
     _unlikely_inertias(reader, root, mechanism)
     _missing_inertias(reader, root, mechanism)
+    _phases_of_no_motion(reader, root, mechanism)
 
 
 def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
@@ -138,11 +140,7 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
-    sliding, grown = {"frame"}, bool(mechanism.drivers)
-    while grown:
-        pairs = [j.joined[:2] for j in mechanism.joints.values() if j.ties]
-        more = {link for pair in pairs if sliding & set(pair) for link in pair} - sliding
-        sliding, grown = sliding | more, bool(more)
+    sliding = _sliding(mechanism)
     for name, link in mechanism.links.items() if mechanism.drivers else ():
         node = _link_node(root, name)
         if not isinstance(node, MappingNode) or name in sliding or not link.mass or node.get("inertia"):
@@ -151,6 +149,37 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
         remedy = Sentence("model.add_inertia")
         at = node.get("mass") or node
         reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
+
+
+def _sliding(mechanism: Mechanism) -> set[str]:
+    """The frame and the links that cannot turn, since guides and welds tie them to it."""
+    sliding, grown = {"frame"}, True
+    while grown:
+        pairs = [j.joined[:2] for j in mechanism.joints.values() if j.ties]
+        more = {link for pair in pairs if sliding & set(pair) for link in pair} - sliding
+        sliding, grown = sliding | more, bool(more)
+    return sliding
+
+
+def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Loads that act by the angle of a link that only slides: it never reverses."""
+    sliding, loads = _sliding(mechanism), root.get("loads")
+    for name, load in mechanism.loads.items():
+        output: Output | None = getattr(getattr(load, "phase", None), "output", None)
+        if output is None or output.kind != "angle" or output.owner not in sliding:
+            continue
+        node = loads.get(name) if isinstance(loads, MappingNode) else None
+        node = node.get("phase") if isinstance(node, MappingNode) else None
+        key = "moving" if isinstance(node, MappingNode) and node.get("moving") else "of"
+        at = node.get(key) if isinstance(node, MappingNode) else None
+        guides = [joint for joint in mechanism.guides if output.owner in mechanism.joints[joint].joined]
+        message = Sentence("model.phase_of_sliding", link=output.owner)
+        remedy = (
+            Sentence("model.phase_of_guide", word=key, guide=guides[0])
+            if guides
+            else Sentence("model.phase_of_point")
+        )
+        reader.error(at, f"loads.{name}.phase.{key}", message, remedy, "no-motion")
 
 
 def _size(link: Link) -> float:

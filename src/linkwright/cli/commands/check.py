@@ -70,7 +70,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         turned, notes = ([], []) if plainly_passed(mechanism, built, TRIED) else _turned(name, mechanism)
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
-    return [*found, *turned, *_of_settings(name, mechanism), *notes], fact
+    idle = [] if turned else _never_acting(name, mechanism)
+    return [*found, *turned, *idle, *_of_settings(name, mechanism), *notes], fact
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
@@ -98,6 +99,27 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     if motion.ok.all():
         return [], notes
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
+
+
+def _never_acting(name: str, mechanism: Mechanism) -> list[Finding]:
+    """Loads whose phase the motion does not have, such as one by the stroke of an output that never reverses."""
+    from linkwright.fields.signals import SwingPhase
+
+    phases = {load: getattr(each, "phase", None) for load, each in mechanism.loads.items()}
+    swings = {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
+    if not swings:
+        return []
+    from linkwright.kinematics.solve import try_motion
+    from linkwright.kinetostatics.signals import MotionSignals
+    from linkwright.loads.phases import strokes
+
+    signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
+    for load, phase in swings.items():
+        try:
+            strokes(phase, signals)
+        except LinkwrightError as error:
+            found.append(Finding("error", name, f"loads.{load}.phase", error.sentence, code="no-motion"))
+    return found
 
 
 def _of_settings(name: str, mechanism: Mechanism) -> list[Finding]:
