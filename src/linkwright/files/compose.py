@@ -77,7 +77,9 @@ class _Composer:
         self.total = 0
         self.path: list[str] = []
 
-    def remark(self, mark: Any, message: str, remedy: str, code: str) -> None:
+    def remark(self, mark: Any, key: str, code: str, **values: object) -> None:
+        """Note a remark of the catalogue: the problem ``yaml.KEY`` and its remedy ``yaml.KEY_do``."""
+        message, remedy = (Sentence(f"yaml.{each}", **values) for each in (key, f"{key}_do"))
         self.remarks.append(Remark(mark.line, mark.column, message, remedy, code, ".".join(self.path)))
 
     def documents(self, next_event: Callable[[], Any]) -> None:
@@ -86,12 +88,7 @@ class _Composer:
             if isinstance(event, DocumentStartEvent):
                 count += 1
                 if count > 1:
-                    self.remark(
-                        event.start_mark,
-                        Sentence("yaml.second"),
-                        Sentence("yaml.second_do"),
-                        "documents",
-                    )
+                    self.remark(event.start_mark, "second", "documents")
                     raise _Stop
                 self.root = self.node(self.next(), 0)
 
@@ -102,12 +99,7 @@ class _Composer:
         if kind is AliasEvent:
             return self.alias(event)
         if depth > MAX_DEPTH:
-            self.remark(
-                event.start_mark,
-                Sentence("yaml.deep", most=MAX_DEPTH),
-                Sentence("yaml.deep_do"),
-                "depth",
-            )
+            self.remark(event.start_mark, "deep", "depth", most=MAX_DEPTH)
             raise _Stop
         if event.tag is not None:
             self.tag(event)
@@ -130,7 +122,7 @@ class _Composer:
     def tag(self, event: Any) -> None:
         if event.tag not in _HARMLESS_TAGS and event.implicit is not True:
             shown = event.tag.replace("tag:yaml.org,2002:", "!!")
-            self.remark(event.start_mark, Sentence("yaml.tag", shown=shown), Sentence("yaml.tag_do"), "tag")
+            self.remark(event.start_mark, "tag", "tag", shown=shown)
 
     def alias(self, event: Any) -> Node:
         name, start, end = event.anchor, event.start_mark, event.end_mark
@@ -138,19 +130,13 @@ class _Composer:
             node, size = self.anchors[name]
             self.grow(start, size)
             return node
-        inside = name in self.open
-        self.remark(
-            start,
-            Sentence("yaml.own_alias", name=name) if inside else Sentence("yaml.no_anchor", name=name),
-            Sentence("yaml.alias_do"),
-            "alias",
-        )
+        self.remark(start, "own_alias" if name in self.open else "no_anchor", "alias", name=name)
         return Scalar(start.line, start.column, start.index, end.index, "")
 
     def grow(self, mark: Any, size: int) -> None:
         self.total += size
         if self.total > MAX_NODES:
-            self.remark(mark, Sentence("yaml.many"), Sentence("yaml.many_do"), "size")
+            self.remark(mark, "many", "size")
             raise _Stop
 
     def scalar(self, event: Any) -> Scalar:
@@ -160,12 +146,7 @@ class _Composer:
             self.grow(start, 0)
         if unfit := UNFIT.search(text):
             shown = f"U+{ord(unfit[0]):04X}"
-            self.remark(
-                start,
-                Sentence("yaml.control", shown=shown),
-                Sentence("yaml.control_do"),
-                "control-character",
-            )
+            self.remark(start, "control", "control-character", shown=shown)
             text = UNFIT.sub("\ufffd", text)
         return Scalar(start.line, start.column, start.index, event.end_mark.index, text, not event.style)
 
@@ -200,14 +181,9 @@ class _Composer:
         if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and _nothing(value):
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
-            self.remark(key, Sentence("yaml.key"), Sentence("yaml.key_do"), "key")
+            self.remark(key, "key", "key")
         elif key.text in seen:
-            self.remark(
-                key,
-                Sentence("yaml.twice", text=key.text),
-                Sentence("yaml.twice_do", line=seen[key.text].line + 1),
-                "duplicate-key",
-            )
+            self.remark(key, "twice", "duplicate-key", text=key.text, line=seen[key.text].line + 1)
         else:
             seen[key.text] = key
             found.entries.append(Entry(key, value))
@@ -217,7 +193,7 @@ class _Composer:
         sources = value.items if isinstance(value, Sequence) else [value]
         for source in sources:
             if not isinstance(source, Mapping):
-                self.remark(source, Sentence("yaml.merge"), Sentence("yaml.merge_do"), "merge")
+                self.remark(source, "merge", "merge")
                 continue
             found.entries += [entry for entry in source.entries if entry.key.text not in have]
             have.update(entry.key.text for entry in source.entries)

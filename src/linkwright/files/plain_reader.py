@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, Severity
-from linkwright.fields.base import Field
+from linkwright.fields.base import Field, Text
 from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -18,13 +18,22 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.files.reader import Reader
 
-T = TypeVar("T")
+K = TypeVar("K", bound="Kind")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
 #: Findings about one file, at most.
 MOST_FINDINGS = 300
+
+
+class Kind(Protocol):
+    """A kind of elements that a table may be of."""
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        """The keys of the table, without ``kind``."""
+        ...
 
 
 class TooManyFindings(Exception):
@@ -165,17 +174,25 @@ class PlainReader:
         )
         return None
 
-    def registered(
-        self, table: MappingNode, place: Place, kinds: Mapping[str, T], missing: str, remedy: str
-    ) -> T | None:
-        """What the key ``kind`` of a table names; ``missing``, ``remedy``: the sentences where there is none."""
-        node = table.get("kind")
-        if node is None:
+    def of_kind(
+        self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: str, remedy: str
+    ) -> tuple[MappingNode, type[K], dict[str, Any]] | None:
+        """A table, what its key ``kind`` names, and its values by the fields of that kind, as far as they are given;
+        ``missing``, ``remedy``: the sentences where there is no kind."""
+        table = self.mapping(node, place)
+        if table is None:
+            return None
+        said = table.get("kind")
+        if said is None:
             told = Sentence(remedy, kinds=tuple(kinds))
             self.error(table, place.child("kind"), Sentence(missing), told, "missing-key")
             return None
-        word = self.word(node, place.child("kind"), kinds)
-        return None if word is None else kinds[word]
+        word = self.word(said, place.child("kind"), kinds)
+        found = None if word is None else self.table(table, place, {"kind": Text(), **kinds[word].fields()})
+        if word is None or found is None:
+            return None
+        given = {key: value for key, value in found.items() if key != "kind" and value is not None}
+        return table, kinds[word], given
 
     def table(self, node: Node, place: Place, fields: Mapping[str, Field]) -> dict[str, Any] | None:
         """The values of a mapping by its fields; unknown and missing keys are findings."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkwright.fields.base import Text
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import Place
@@ -85,15 +84,9 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
 
 def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]) -> Joint | None:
     place = Place(f"joints.{name}", name)
-    mapping = reader.mapping(node, place)
-    if mapping is None:
-        return None
-    cls = reader.registered(mapping, place, JOINTS, "model.joint_no_kind", "model.add_kind")
-    if cls is None:
-        return None
     before = reader.error_count
-    given = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
-    if given is None or reader.error_count > before:
+    found = reader.of_kind(node, place, JOINTS, "model.joint_no_kind", "model.add_kind")
+    if found is None or reader.error_count > before:
         return None
-    values = {key: value for key, value in given.items() if key != "kind" and value is not None}
+    mapping, cls, values = found
     return cls.read(Entry(reader, mapping, place, name, values, links))

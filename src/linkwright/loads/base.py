@@ -20,7 +20,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantities, Quantity, Schema, Text, Word, table_schema
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
 from linkwright.fields.references import (
     LinkName,
     LinkNames,
@@ -192,16 +192,11 @@ LOADS: Registry[type[Load]] = Registry("load_kind", "linkwright.loads", entry_po
 
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
     """The load at a node of a file, or None after findings."""
-    mapping = reader.mapping(node, place)
-    if mapping is None:
-        return None
-    cls = reader.registered(mapping, place, LOADS, "loads.no_kind", "loads.write_kind")
-    if cls is None:
-        return None
     before = reader.error_count
-    found = reader.table(mapping, place, {"kind": Text(), **cls.fields()})
-    if found is None:
+    read = reader.of_kind(node, place, LOADS, "loads.no_kind", "loads.write_kind")
+    if read is None:
         return None
+    mapping, cls, found = read
     given = {name for name, each in cls.fields().items() if mapping.get(each.key or name) is not None}
     _check_choices(reader, node, place, cls, given)
     if reader.error_count == before:
@@ -213,8 +208,7 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
         )
     if reader.error_count > before:
         return None
-    present = {key: value for key, value in found.items() if key != "kind" and value is not None}
-    return cls(name=name, **present)
+    return cls(name=name, **found)
 
 
 def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: set[str]) -> None:
