@@ -1,6 +1,6 @@
-"""``python -m tests.cluster``: two workers against one; sweeps survive kill -9 of a worker and of the whole run.
+"""``python -m tests.cluster``: two workers against one; sweeps and searches survive kill -9 at random moments.
 
-Every sweep that was disturbed must end with the same bytes as one that was not.
+Every sweep and every search that was disturbed must end with the same bytes as one that was not.
 """
 
 from __future__ import annotations
@@ -23,6 +23,28 @@ import linkwright as lw
 
 VARY = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
 NUMBERS = ["driver.effort rms", "jaw.angle range", "reaction O5 on jaw max"]
+#: A front whose designs go side by side, and teeth, which go one by one and by the cluster where one is named.
+FRONT = ["gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()), "--minimize",
+         "peak_input_torque", "flywheel", "--evaluations", "40000"]  # fmt: skip
+TEETH = """\
+format: 1
+name: Pair
+parameters: {small: 20, large: 40}
+frame: {points: {O: [0 mm, 0 mm], Q: [(small + large)*1 mm, 0 mm]}}
+links:
+  pinion: {points: {O: [0 mm, 0 mm], P: [16 mm, 0 mm]}, mass: 1 kg, inertia: 0.0002 kg·m², mass_centre: [0 mm, 0 mm]}
+  wheel: {points: {Q: [0 mm, 0 mm], W: [34 mm, 0 mm]}, mass: 4 kg, inertia: 0.0032 kg·m², mass_centre: [9 mm, 0 mm]}
+joints:
+  mesh: {kind: gear, links: [pinion, wheel], teeth: [small, large], module: 2 mm}
+driver: {turn: pinion, about: O, speed: 600 rpm}
+gravity: [0, -9.81 m/s²]
+loads: {work: {kind: torque, on: wheel, magnitude: 40 N·m}}
+optimize:
+  vary: {small: {whole: 17..60}, large: {whole: 30..90}}
+  minimize: [peak_input_torque, a + b]
+  define: {a: small, b: large}
+  evaluations: 600
+"""
 OPTIONS = {"threads_per_worker": 1, "dashboard_address": None, "processes": True}
 
 
@@ -100,14 +122,59 @@ def run_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) ->
         assert same
 
 
+def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, int]:
+    """What a search printed and wrote, and how often it was killed at a random moment and started again."""
+    folder.mkdir()
+    words = [sys.executable, "-m", "linkwright", "optimize", *words, "--json", "--state", str(folder / "state.json"),
+             "--output", str(folder / "better.yaml"), "--force"]  # fmt: skip
+    kills, begin = 0, time.perf_counter()
+    while True:
+        with (folder / "printed").open("wb") as printed:
+            run = subprocess.Popen(words, stdout=printed)
+            try:
+                wait = random.uniform(2.0, 10.0) if kills < most_kills else None
+                assert run.wait(timeout=wait) == 0
+                break
+            except subprocess.TimeoutExpired:
+                run.send_signal(signal.SIGKILL)
+                run.wait()
+                kills += 1
+    print(f"  {time.perf_counter() - begin:.1f} s", flush=True)
+    files = [folder / "printed", *sorted(folder.glob("better*.yaml"))]
+    return b"".join(each.read_bytes() for each in files), kills
+
+
+def search_dies(base: Path, rounds: int) -> None:
+    """Searches of designs side by side, and of designs one by one on a cluster, are killed and started again."""
+    model = base / "teeth.yaml"
+    model.write_text(TEETH)
+    with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster:
+        on_cluster = [str(model), "--cluster", cluster.scheduler_address]
+        wanted = {
+            "front": searched(FRONT, base / "front", 0)[0],
+            "teeth": searched([str(model)], base / "teeth", 0)[0],
+        }
+        for number in range(rounds):
+            for name, words in (("front", FRONT), ("teeth", on_cluster)):
+                found, kills = searched(words, base / f"{name} {number}", 2)
+                same = found == wanted[name]
+                told = "equal to the bit" if same else "DIFFERENT"
+                print(f"search of a {name} killed {kills} times: {told}", flush=True)
+                assert same
+
+
 def main() -> int:
-    """Runs all three."""
+    """Runs all four."""
     parser = argparse.ArgumentParser(prog="python -m tests.cluster", description=__doc__)
     parser.add_argument("--samples", type=int, default=200_000)
     parser.add_argument("--rounds", type=int, default=10)
+    parser.add_argument("--searches", action="store_true", help="searches alone")
     options = parser.parse_args()
     base = Path(tempfile.mkdtemp(prefix="linkwright-cluster-"))
     try:
+        search_dies(base, options.rounds)
+        if options.searches:
+            return 0
         speed(base, options.samples)
         swept(base / "here", options.samples)
         wanted = contents(base / "here")

@@ -93,6 +93,7 @@ def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_p
     assert part.interrupted and state.exists()
     rest = lw.optimize(press, evaluations=800, seed=3, state=state)
     assert not rest.interrupted
+    assert rest.data() == whole.data()
     assert rest.history == whole.history
     assert dict(rest.best.values) == dict(whole.best.values)
     with pytest.raises(lw.LinkwrightError, match="another problem"):

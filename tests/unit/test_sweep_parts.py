@@ -73,8 +73,11 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     here = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
     alone = lw.optimize(group, minimize="peak_input_torque", **search)
     parts = lw.sweep_parts(crank, VARY, tmp_path / "here", outputs=NUMBERS, part=256, steps=60)
-    options = {"n_workers": 1, "threads_per_worker": 2, "dashboard_address": None, "processes": False}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+    options = {"n_workers": 1, "threads_per_worker": 2, "dashboard_address": ":0", "processes": False}
+    with (
+        distributed.LocalCluster(**options) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
         with lw.on_cluster(client):
             there = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
             shared = lw.optimize(group, minimize="peak_input_torque", **search)

@@ -206,11 +206,11 @@ class _Run:
         snapshot, saved = self._kept(), time.monotonic()
         try:
             state = self._begun(snapshot)
-            snapshot = state.data()
+            snapshot = self._data(state)
             self._tell(state)
             while state.evaluations < self.most and not idle(state):
                 generation(self.task, state)
-                snapshot = state.data()
+                snapshot = self._data(state)
                 if self.path is not None and time.monotonic() - saved > SAVED:
                     self._save(snapshot)
                     saved = time.monotonic()
@@ -246,7 +246,9 @@ class _Run:
         if not kept:
             return self._fresh()
         try:
-            return resumed(self.task, kept)
+            state = resumed(self.task, kept)
+            self.task.measures.evaluations = int(kept["measured"])
+            return state
         except (ValueError, KeyError, TypeError):
             raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
 
@@ -282,6 +284,10 @@ class _Run:
         least = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
         found = np.abs(judged.goals[:, goal])
         return np.maximum(np.where(np.isfinite(found), found, 1.0), least)
+
+    def _data(self, state: State) -> dict[str, Any]:
+        """A state as plain data, with the number of designs measured for it."""
+        return {**state.data(), "measured": self.task.measures.evaluations}
 
     def _save(self, snapshot: dict[str, Any]) -> None:
         assert self.path is not None

@@ -83,7 +83,7 @@ def in_turn(
         return future
 
     futures = [given(number) for _, number in zip(range(room), left, strict=False)]
-    waiting = dask.as_completed(futures)
+    waiting = dask.as_completed(futures, loop=client.loop)
     try:
         for future in waiting:
             number = numbers.pop(future)
