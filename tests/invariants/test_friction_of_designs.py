@@ -10,6 +10,7 @@ from tests.reference.random_mechanisms import random_mechanism
 import linkwright as lw
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.one_by_one import OneByOne
+from linkwright.study.prepared import Prepared
 
 STEPS = 48
 
@@ -79,6 +80,42 @@ def test_random_mechanisms_with_friction_equal_single_designs(seed: int) -> None
     machine = rubbing(lw.loads(text), 0.08, 0.004)
     joint = next(name for name in machine.joints if f"{name}.friction" in machine.dimensions())
     compare(machine, f"{joint}.friction", [1.0, 0.3, 1.4])
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "at_once"),
+    [
+        ("jaw_crusher_sixbar", "toggle.length", True),
+        ("shaper_quick_return", "slot.friction", True),
+        ("toggle_press", "driver.speed", False),  # another law of the driver
+        ("excavator", "stick.mass", False),  # too near its change points between two positions
+    ],
+)
+def test_prepared_machines_with_friction_are_those_solved_alone(
+    name: str, address: str, at_once: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Joint forces, friction and effort, without solving any machine by itself where that is said."""
+    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
+    prepared = lw.prepare(machine, vary=[address])
+    alone = [
+        lw.solve_forces(machine.with_dimensions({address: factor * machine.dimension(address)}))
+        for factor in (1.0, 0.995)
+    ]
+    if at_once:
+        monkeypatch.setattr(Prepared, "_solve_alone", lambda *_: pytest.fail("solved by itself"))
+    for expected in alone:
+        found = prepared.solve({address: expected.motion.mechanism.dimension(address)})
+        largest = max(np.abs(expected.reaction(n, on=j.joined[-1])).max() for n, j in machine.joints.items())
+        for term in expected.solver.friction.terms:
+            size, wanted = found.fields[term.field], expected.fields[term.field]
+            np.testing.assert_allclose(size, wanted, rtol=0, atol=1e-11 * largest)
+            near = expected.reaction(term.joint, on=term.b)
+            np.testing.assert_allclose(
+                found.reaction(term.joint, on=term.b), near, rtol=0, atol=1e-11 * largest
+            )
+        for driver in machine.drivers:
+            effort = expected.driver_effort(driver)
+            np.testing.assert_allclose(found.driver_effort(driver), effort, rtol=1e-10, atol=1e-11 * largest)
 
 
 def differences(machine: lw.Mechanism, names: list[str], value: Callable[[lw.Forces], float]) -> list[float]:

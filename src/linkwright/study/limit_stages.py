@@ -215,10 +215,10 @@ def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
     """Whether every output falls at this position just where it lies between the limits ``max`` and ``min``, with
     positions on both ways; on a limit its rate may have either sign."""
     motion, logic = traced.solver.motion, traced.solver.motion.trace.logic
-    (driver,) = traced.mechanism.drivers
-    sense, step = sign(motion.trace.parameter(f"{driver}.speed")), motion.trace.parameter(STEP)
     found: Mask = True
     for output in outputs:
+        (driver,) = traced.mechanism.drivers
+        sense, step = sign(motion.trace.parameter(f"{driver}.speed")), motion.trace.parameter(STEP)
         highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))
         way = turned(sense * (motion.trace.position("input") - highest))
         length = turned(sense * (lowest - highest))

@@ -185,12 +185,14 @@ def is_near(row: Floats) -> bool:
 
 
 class _Followed:
-    """Loads that a compiled program traces, with what finds their limit positions before."""
+    """Loads and friction that a compiled program traces, with what finds limit positions before."""
 
     def __init__(self, traced: Traced, loads: AlongInput) -> None:
         self.traced, self.loads = traced, loads
         self.tables = loads.tables
-        self.fields = tuple(f"load:{name}" for name in sorted(loads.names))
+        rubbing = traced.forces.programs.friction
+        self.friction = {} if rubbing is None else rubbing.sizes
+        self.fields = (*(f"load:{name}" for name in sorted(loads.names)), *self.friction)
         self.known = {**constants(traced), **loads.constants}
         self._own = threading.local()
 
@@ -204,20 +206,22 @@ class _Followed:
         if not fields or prepared.backend == "numpy" or not available() or plain.solver.motion.next_states:
             return cls(plain, nothing)
         loads = along_input(plain, vary, fields) or nothing
-        if loads.rubbing:
-            return cls(plain, nothing)
         return cls(with_loads(plain, loads), loads)
 
     @cached_property
     def sizes(self) -> dict[str, Scalar]:
         """Their magnitudes, by the names of the fields that forces know them by."""
         motion = self.traced.solver.motion
-        return {name: traced_magnitude(motion, name.removeprefix("load:")) for name in self.fields}
+        loads = {f"load:{name}": traced_magnitude(motion, name) for name in sorted(self.loads.names)}
+        return {**loads, **self.friction}
 
     @cached_property
     def sound(self) -> Mask:
-        """Whether every load has a value, and limit positions are those that the rates have."""
+        """Whether every load has a value, limit positions are those of the rates, and the friction is certain."""
         found = agree(self.traced, self.loads.outputs)
+        rubbing = self.traced.forces.programs.friction
+        if rubbing is not None:
+            found = self.traced.solver.motion.trace.logic("and", found, rubbing.certain)
         for name in self.loads.fallible:
             has = absolute(self.sizes[f"load:{name}"]) < inf
             found = self.traced.solver.motion.trace.logic("and", found, has)
