@@ -149,35 +149,27 @@ def _common_dimension(
     bare = any(isinstance(node, Number) and node.dimension == units.NONE for node in nodes)
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE
-    raise QuantityError(
-        Sentence(f"model.cannot_be_{word}", right=units.name_of(right), left=units.name_of(left)),
-        Sentence("model.same_dimension"),
-        column=column,
-        code="wrong-dimension",
-    )
+    values = {"right": units.name_of(right), "left": units.name_of(left)}
+    raise _wrong(f"cannot_be_{word}", column, Sentence("model.same_dimension"), **values)
+
+
+def _wrong(key: str, column: int, remedy: str = "", **values: object) -> QuantityError:
+    """The error ``model.KEY`` of the catalogue about a dimension, with its remedy, else ``model.KEY_do``."""
+    told = remedy or Sentence(f"model.{key}_do")
+    return QuantityError(Sentence(f"model.{key}", **values), told, column=column, code="wrong-dimension")
 
 
 def _power_dimension(
     base: Node, exponent: Node, kinds: Mapping[str, units.Dimension], column: int
 ) -> units.Dimension:
     if dimension_of(exponent, kinds) != units.NONE:
-        raise QuantityError(
-            Sentence("model.exponent_unit"),
-            Sentence("model.plain_number"),
-            column=column,
-            code="wrong-dimension",
-        )
+        raise _wrong("exponent_unit", column)
     kind = dimension_of(base, kinds)
     if kind == units.NONE:
         return units.NONE
     power = exponent.operand if isinstance(exponent, Negative) else exponent
     if not isinstance(power, Number):
-        raise QuantityError(
-            Sentence("model.exponent_no_number"),
-            Sentence("model.write_the_number"),
-            column=column,
-            code="wrong-dimension",
-        )
+        raise _wrong("exponent_no_number", column)
     return units.times(units.NONE, kind, power.value if power is exponent else -power.value)
 
 
@@ -198,12 +190,7 @@ def _call_dimension(
     allowed = (units.NONE, _ANGLE) if function in _FROM_ANGLE else (units.NONE,)
     if kind not in allowed:
         needed = Sentence(f"nouns.a_{'angle' if function in _FROM_ANGLE else 'dimensionless'}")
-        raise QuantityError(
-            Sentence("model.taken_of", function=function, kind=units.name_of(kind), needed=needed),
-            Sentence("model.divide_same"),
-            column=column,
-            code="wrong-dimension",
-        )
+        raise _wrong("taken_of", column, function=function, kind=units.name_of(kind), needed=needed)
     return _ANGLE if function in _TO_ANGLE else units.NONE
 
 

@@ -233,11 +233,7 @@ class _Parser:
             found = _TOKEN.match(self.text, position)
             if found is None or found.lastgroup is None:
                 column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
-                raise self._error(
-                    Sentence("model.no_part", text=self.text[column]),
-                    Sentence("model.use_in_expressions"),
-                    column,
-                )
+                raise self._fault("no_part", column, text=self.text[column])
             token = found.group(found.lastgroup)
             tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
             position = found.end()
@@ -245,6 +241,11 @@ class _Parser:
 
     def _error(self, message: str, remedy: str, column: int, code: str = "expression") -> ExpressionError:
         return ExpressionError(message, remedy, self.text, column, code)
+
+    def _fault(self, key: str, column: int, code: str = "expression", **values: object) -> ExpressionError:
+        """The error ``model.KEY`` of the catalogue with its remedy ``model.KEY_do``."""
+        problem, remedy = (Sentence(f"model.{each}", **values) for each in (key, f"{key}_do"))
+        return self._error(problem, remedy, column, code)
 
     def whole(self) -> Node:
         tree = self._binary(0)
@@ -261,7 +262,7 @@ class _Parser:
     def _binary(self, binding: int) -> Node:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise self._error(Sentence("model.too_deep"), Sentence("model.split_it"), 0)
+            raise self._fault("too_deep", 0)
         left = self._powers(self._prefix())
         while True:
             kind, token, column = self.tokens[self.at]
@@ -299,7 +300,7 @@ class _Parser:
 
     def _close(self, opened: int) -> None:
         if self.tokens[self.at][1] != ")":
-            raise self._error(Sentence("model.open_parenthesis"), Sentence("model.add_parenthesis"), opened)
+            raise self._fault("open_parenthesis", opened)
         self.at += 1
 
     def _number(self, token: str, column: int) -> Node:
@@ -313,11 +314,7 @@ class _Parser:
         )
         if name not in units.UNITS and not turning:
             if name in self.variables:
-                raise self._error(
-                    Sentence("model.no_sign", token=token, name=name),
-                    Sentence("model.write_product", token=token, name=name),
-                    place,
-                )
+                raise self._fault("no_sign", place, token=token, name=name)
             error = units.unknown_unit(name)
             raise self._error(error.message, error.remedy, place, "unknown-unit")
         factor, dimension = self._unit("rev" if turning else name)
@@ -361,12 +358,7 @@ class _Parser:
             return False
         if self.text[column] == "*":
             if name in self.variables and name != "t":
-                raise self._error(
-                    Sentence("model.unit_and_parameter", name=name),
-                    Sentence("model.tell_unit", name=name),
-                    place,
-                    "ambiguous",
-                )
+                raise self._fault("unit_and_parameter", place, "ambiguous", name=name)
             return False
         tight = place == column + 1 and self.text[column - 1] != " "
         return tight or name not in self.variables
@@ -407,11 +399,8 @@ class _Parser:
             arguments.append(self._binary(0))
         self._close(column)
         if len(arguments) != ARITY[name]:
-            raise self._error(
-                Sentence("model.argument_count", name=name, needed=ARITY[name], given=len(arguments)),
-                Sentence("model.separate_arguments"),
-                column,
-            )
+            needed, given = ARITY[name], len(arguments)
+            raise self._fault("argument_count", column, name=name, needed=needed, given=given)
         return Call(name, tuple(arguments), column)
 
 

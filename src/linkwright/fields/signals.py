@@ -261,9 +261,7 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     parts = [values[word] for word in PARTS if values.get(word) is not None]
     if len(parts) > 1:
         words = tuple(part.word for part in parts)
-        reader.error(
-            node, place, Sentence("model.several_parts", words=words), Sentence("model.keep_one"), "choice"
-        )
+        reader.finding(node, place, "several_parts", "choice", words=words)
         return None
     return SwingPhase(values["of"], values["from"], values["to"], *parts)
 

@@ -40,7 +40,7 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     """The drivers by name; a single one is named ``driver``."""
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
-        reader.error(several, "drivers", Sentence("model.both_drivers"), Sentence("model.keep_one"), "choice")
+        reader.finding(several, "drivers", "both_drivers", "choice")
     found: dict[str, Driver] = {}
     if one is not None:
         _add(reader, found, joints, one, "driver", Place("driver", "driver"))
@@ -71,13 +71,7 @@ def _add(
             driver.link,
             driver.relative_to,
         }:
-            reader.error(
-                node,
-                place,
-                Sentence("model.same_coordinate", name=other.name),
-                Sentence("model.remove_one"),
-                "duplicate",
-            )
+            reader.finding(node, place, "same_coordinate", "duplicate", name=other.name)
     found[name] = driver
 
 
@@ -90,7 +84,7 @@ def _read_driver(
     before = reader.error_count
     turns, slides = mapping.get("turn") is not None, mapping.get("slide") is not None
     if turns and slides:
-        reader.error(node, place, Sentence("model.turn_and_slide"), Sentence("model.keep_one"), "choice")
+        reader.finding(node, place, "turn_and_slide", "choice")
         return None
     rotary = not slides
     way = TURN_FIELDS if rotary else SLIDE_FIELDS
@@ -138,13 +132,7 @@ def _read_law(
     key = chosen[0]
     foreign = [name for each in laws.values() for name in each if name in given and name not in laws[key]]
     for name in foreign:
-        reader.error(
-            node.get(name),
-            place.child(name),
-            Sentence("model.does_not_go", name=name, key_=key),
-            Sentence("model.remove_it"),
-            "choice",
-        )
+        reader.finding(node.get(name), place.child(name), "does_not_go", "choice", name=name, key_=key)
     if foreign or given.get(key) is None:
         return None
     return LAWS[key].from_values(given, rotary, reader.values)

@@ -10,7 +10,6 @@ from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
-from linkwright.words.sentence import Sentence
 
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
@@ -71,13 +70,7 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
         if name in joints and joint.kind != IMPLIED:
             reader.finding(entry.key, f"joints.{name}", "pin_has_name", "duplicate", name=name)
         elif name in links:
-            reader.error(
-                entry.key,
-                f"joints.{name}",
-                Sentence("model.link_has_name", name=name),
-                Sentence("model.rename_one"),
-                "duplicate",
-            )
+            reader.finding(entry.key, f"joints.{name}", "link_has_name", "duplicate", name=name)
         joints[name] = joint
     return joints
 

@@ -184,12 +184,8 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     geometry, coordinates, lengths = placed
     for point, position in (given.get("also") or {}).items():
         if point in coordinates:
-            reader.error(
-                node.get("also"),
-                place.child("also"),
-                Sentence("model.point_given_twice", point=point),
-                Sentence("model.remove_one"),
-                "duplicate",
+            reader.finding(
+                node.get("also"), place.child("also"), "point_given_twice", "duplicate", point=point
             )
         coordinates[point] = position
     _coincident(reader, node, place, coordinates)
