@@ -49,10 +49,6 @@ class Tape(HigherPair):
             "radii": Quantities("length", count=2, required=True, doc="their radii [a, b]"),
         }
 
-    def written(self):
-        lists = {key: list(getattr(self, key)) for key in ("links", "centres")}
-        return {**lists, "carrier": self.carrier, "radii": self.radii}
-
     def dimensions(self):
         return {f"{self.name}.radii.{k}": radius for k, radius in enumerate(self.radii)}
 
