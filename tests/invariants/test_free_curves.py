@@ -15,6 +15,7 @@ from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.moves import with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure, turned_paths
+from linkwright.synthesis.free_curve.search import Search
 from linkwright.synthesis.free_curve.target import (
     MIDDLE,
     Target,
@@ -215,6 +216,17 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
     reach = max(np.abs(each - size * middle).max() for each in places.values()) / (size * radius)
     assert reach <= 6.0
     assert found.best.values["size"] == pytest.approx(reach, rel=2e-3)
+
+
+@pytest.mark.parametrize("joints", [6, 8, 11])
+def test_a_search_has_every_kind_of_linkage_that_its_joints_allow(joints: int) -> None:
+    target = Target(FOUR, False, math.radians(20), 6.0)
+    found = Search(target, joints, 1.2, 3).run()
+    assert max(each.joints for each in found) <= joints
+    assert {each.links for each in found} >= {6: {4, 6}, 8: {4, 6, 8}, 11: {4, 6, 8}}[joints]
+    for each in found:
+        least = node_paths(each.nodes, each.x, np.linspace(0, 2 * np.pi, 721))[1]
+        assert least > math.sin(math.radians(10)) ** 2
 
 
 def _transmission(places: dict, links: dict) -> list[float]:

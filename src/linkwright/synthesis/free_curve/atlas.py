@@ -46,8 +46,13 @@ PARTS, WHOLE = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
 #: First point and number of a part's steps; with the image it lies on and the turn of the picture.
 Part = tuple[int, int]
 Laid = tuple[Part, bool, float]
-#: Joints of each level; numbers of dyads in its atlas, with the structures of each and the draws of each structure.
-LEVELS = ((5, ((1, 1, 40000),)), (8, ((2, 100, 960),)), (10, ((3, 300, 400), (4, 200, 300))))
+#: Joints of each atlas; numbers of dyads in it, with the structures of each and the draws of each structure.
+LEVELS = (
+    (5, ((1, 1, 40000),)),
+    (8, ((2, 100, 960),)),
+    (10, ((3, 300, 400), (4, 200, 300))),
+    (8, ((3, 200, 400),)),
+)
 EDITION = 4
 
 

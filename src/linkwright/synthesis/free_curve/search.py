@@ -2,10 +2,10 @@
 
 A level lets many starts from its atlas descend a little, the best of them on, and keeps a pool of good designs of
 different structure that err in different places. Until its share of the time is over, an attempt shakes a member of
-the pool, or hangs one more dyad on a member of the pools below, parts joints while there is room, and descends. A
-pool soon turns about what it has found, so all levels begin again in rounds, from other starts; at last the designs
-of all rounds go on together. The best are polished at fine positions, with the penalties weighted so that the demands
-hold.
+the pool, or hangs one more dyad on a member of the pools below, parts joints while there is room, and descends.
+Eight-bars of 8 joints are a level of their own beside the six-bars. A pool soon turns about what it has found, so all
+levels begin again in rounds, from other starts; at last the designs of all rounds go on together. The best are
+polished at fine positions, with the penalties weighted so that the demands hold.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import field, replace
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,13 +29,27 @@ from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
 from linkwright.synthesis.free_curve.target import COARSE, FINE, Target
 
-#: Most joints of a four-bar, six-bar, eight-bar and of any linkage; of each level, and its part of the time.
+#: Most joints of a four-bar, six-bar, eight-bar and of any linkage.
 JOINTS = (5, 8, 10, 12)
-LEVELS = {5: 1.0, 7: 2.0, 8: 2.5, 9: 3.0, 10: 3.5, 12: 8.0}
+
+
+class Level(NamedTuple):
+    """Most joints, number of its atlas, its part of the time, and whether its linkages grow from none with fewer."""
+
+    joints: int
+    atlas: int | None
+    part: float
+    apart: bool = False
+
+
+SIX_BARS = 1
+#: Eight-bars of 8 joints have a pool apart from six-bars, as in one pool each would crowd out the other.
+LEVELS = (
+    Level(5, 0, 0.7), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0), Level(8, 3, 2.5, apart=True),
+    Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
+)  # fmt: skip
 #: Starts from an atlas; those that descend on, and further on; how many begin together.
 STARTS, HALVED, CHOSEN, SOME = 4000, 500, 50, 200
-#: Number of the atlas by most joints.
-ATLASES = {5: 0, 6: 1, 7: 1, 8: 1, 9: 2, 10: 2}
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
@@ -100,6 +115,13 @@ def _same(a: Design, b: Design) -> bool:
     return abs(a.value - b.value) < near
 
 
+def _largest(pools: dict[Level, Pool], level: Level, fewer: int, numbers: int) -> list[Pool]:
+    """Pools of the ``numbers`` largest numbers of joints, at least ``fewer`` below those of a level."""
+    joints = {each.joints for each in pools if each.joints <= level.joints - fewer and not level.apart}
+    found = sorted(joints)[-numbers:]
+    return [pool for each, pool in pools.items() if each.joints in found and pool.designs]
+
+
 @dataclass
 class Search:
     """One search for a target.
@@ -122,18 +144,22 @@ class Search:
 
     def run(self) -> list[Design]:
         """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
-        limits = [each for each in LEVELS if each < self.joints] + [self.joints]
+        levels = [each for each in LEVELS if each.joints <= self.joints]
+        if levels[-1].joints < self.joints:
+            levels.append(Level(self.joints, SIX_BARS if self.joints == 6 else None, LEVELS[-1].part))
         self.begin, self.draw = time.perf_counter(), np.random.default_rng(self.seed)
-        self.best = {most: Pool() for most in limits}
+        self.best = {level: Pool() for level in levels}
         with ThreadPoolExecutor(cores()) as self.workers:
             try:
                 self._rounds()
-                self._level(limits[-1], self.best, self.begin + ENDED * self.seconds)
+                last = [level for level in levels if level.joints == self.joints]
+                for level, end in zip(last, np.linspace(MERGED, ENDED, len(last) + 1)[1:], strict=True):
+                    self._level(level, self.best, self.begin + float(end) * self.seconds)
                 return [
                     each
-                    for most in limits
-                    if most in JOINTS or most == self.joints
-                    for each in self._polished(self.best[most])
+                    for level, pool in self.best.items()
+                    if level.joints in (*JOINTS, self.joints)
+                    for each in self._polished(pool)
                 ]
             except KeyboardInterrupt:
                 found = [each for pool in self.best.values() for each in pool.designs[:4]]
@@ -143,48 +169,44 @@ class Search:
 
     def _rounds(self) -> None:
         """As many rounds as the time holds, after the atlases have been looked up."""
-        used = {ATLASES[most] for most in self.best if most in ATLASES}
+        used = {level.atlas for level in self.best if level.atlas is not None}
         self.matches = {
-            level: atlas(level).matches(self.target) if level else atlas(level).nearest(self.target)
-            for level in used
+            each: atlas(each).matches(self.target) if each else atlas(each).nearest(self.target)
+            for each in used
         }
         over = (time.perf_counter() - self.begin) / self.seconds
-        rounds = max(1, round(self.seconds * cores() / (ROUND * sum(self._parts()))))
+        rounds = max(1, round(self.seconds * cores() / (ROUND * sum(level.part for level in self.best))))
         times = np.linspace(over, max(over, MERGED), rounds + 1)
         for number in range(rounds):
             self._round(number, times[number], times[number + 1])
 
     def _round(self, number: int, begin: float, end: float) -> None:
         """All levels once, from starts of the atlases that no round had before."""
-        pools: dict[int, Pool] = {}
-        parts = np.cumsum(self._parts())
-        for most, part in zip(self.best, parts / parts[-1], strict=True):
-            before = [pools[limit].designs[:10] for limit in pools][-1:]
-            pool = pools[most] = Pool()
+        pools: dict[Level, Pool] = {}
+        parts = np.cumsum([level.part for level in self.best])
+        for level, part in zip(self.best, parts / parts[-1], strict=True):
+            fewer = _largest(pools, level, 1, 1)
+            pool = pools[level] = Pool()
             over = self.begin + (begin + (end - begin) * part) * self.seconds
             try:
-                for each in self._starts(number, most, over) if most in ATLASES else []:
+                for each in self._starts(number, level, over):
                     pool.add(each)
-                for each in before[0] if before else []:
-                    pool.add(each)
-                self._level(most, pools, over)
+                for one in fewer:
+                    for each in one.designs[:10]:
+                        pool.add(each)
+                self._level(level, pools, over)
             finally:
                 for each in pool.designs:
-                    self.best[most].add(each)
+                    self.best[level].add(each)
 
-    def _parts(self) -> list[float]:
-        """Parts of the time of all levels."""
-        return [LEVELS.get(most, LEVELS[12]) for most in self.best]
-
-    def _level(self, most: int, pools: dict[int, Pool], end: float) -> None:
+    def _level(self, level: Level, pools: dict[Level, Pool], end: float) -> None:
         """Attempts until the time is over."""
-        pool = pools[most]
-        below = [each for limit, each in pools.items() if limit <= most - 2 and each.designs][-2:]
+        pool, below = pools[level], _largest(pools, level, 2, 2)
 
         def work(seed: int) -> None:
             draw, stop = np.random.default_rng(seed), min(time.perf_counter() + BATCH, end)
             while time.perf_counter() < stop:
-                found = self._attempt(draw, most, pool, below)
+                found = self._attempt(draw, level.joints, pool, below)
                 with self.lock:
                     self.attempts += 1
                     pool.add(found)
@@ -195,12 +217,12 @@ class Search:
                 over = (time.perf_counter() - self.begin) / self.seconds
                 self.progress(min(over, 1.0), pool.designs[0].value)
 
-    def _starts(self, number: int, most: int, end: float) -> Iterable[Design]:
-        """Starts of an atlas with at most so many joints, after descents; half the time of the level at most."""
-        starts, half = (
-            self.matches[ATLASES[most]].designs(number, STARTS, most),
-            0.5 * (time.perf_counter() + end),
-        )
+    def _starts(self, number: int, level: Level, end: float) -> Iterable[Design]:
+        """Starts of an atlas, after descents; half the time of the level at most."""
+        if level.atlas is None:
+            return []
+        starts = self.matches[level.atlas].designs(number, STARTS, level.joints)
+        half = 0.5 * (time.perf_counter() + end)
         near: list[Design] = []
         while some := list(islice(starts, SOME)):
             near += self._each(some, lambda each: self.target.descend(each, 15, COARSE))
