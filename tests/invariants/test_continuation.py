@@ -13,11 +13,11 @@ from tests.reference.test_branches import fault
 
 import linkwright as lw
 from linkwright.kinematics.assembly import AssemblyError
+from linkwright.kinematics.between import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
 from linkwright.kinematics.continuation import Followed, Follower, _Journey
 from linkwright.kinematics.explain import branch_notes
-from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion
 from linkwright.study import iterated_groups
 

@@ -422,3 +422,27 @@ loads:
         "loads.push: its table over cylinder goes from 2 m to 4 m and does not cover what the cycle needs: "
         "1.9 m to 2 m and 4 m to 4.1 m is missing; add rows, or limit the load by a phase"
     )
+
+
+def test_positions_that_can_be_put_together_and_positions_that_are_reached() -> None:
+    """A crank of 2 m on a frame of 4 m, coupler 3.6 m, rocker 1.5 m: 2.1 m ≤ |A Q| ≤ 5.1 m leaves two stretches of
+    the turn, mirrored, of which one way reaches only one."""
+    model = lw.Model("two stretches")
+    model.frame(O1=(0, 0), O2=(4, 0))
+    model.link("crank", ["O1", "A"], length=2)
+    model.link("coupler", ["A", "B"], length=3.6)
+    model.link("rocker", ["O2", "B"], length=1.5)
+    model.drive("crank", about="O1", speed=1)
+    model.assemble(B="left")
+    mechanism, steps = model.build(), 360
+    turn = 2 * np.pi * np.arange(steps) / steps
+    away = np.hypot(4 - 2 * np.cos(turn), 2 * np.sin(turn))
+    fits = int(((away > 2.1) & (away < 5.1)).sum())
+    vary = {"coupler.length": np.array([3.6])}
+    whole, part = (
+        lw.sweep(mechanism, vary, outputs=["rocker.angular_velocity max"], steps=steps, partial=partial)
+        for partial in (False, True)
+    )
+    assert whole.assembled.tolist() == [fits] and part.assembled.tolist() == [fits // 2]
+    assert not whole.ok.any()
+    assert lw.solve_motion(mechanism, steps=steps, failures="mark").ok.sum() == fits // 2

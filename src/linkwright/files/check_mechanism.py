@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from linkwright.errors import Severity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.signals import Output
@@ -162,7 +163,9 @@ def _sliding(mechanism: Mechanism) -> set[str]:
 
 
 def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
-    """Loads that act by the angle of a link that only slides: it never reverses."""
+    """Loads that act by the angle of a link that only slides: it never reverses, so that a stroke of it is an error;
+    while it moves is never, which is odd.
+    """
     sliding, loads = _sliding(mechanism), root.get("loads")
     for name, load in mechanism.loads.items():
         output: Output | None = getattr(getattr(load, "phase", None), "output", None)
@@ -179,7 +182,8 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
             if guides
             else Sentence("model.phase_of_point")
         )
-        reader.error(at, f"loads.{name}.phase.{key}", message, remedy, "no-motion")
+        severity: Severity = "error" if key == "of" else "warning"
+        reader.error(at, f"loads.{name}.phase.{key}", message, remedy, "no-motion", severity=severity)
 
 
 def _size(link: Link) -> float:

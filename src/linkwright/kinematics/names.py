@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkwright.errors import RequestError
+from linkwright.fields.signals import Output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
@@ -47,6 +48,18 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
 def canonical(mechanism: Mechanism, link: str, point: str) -> str:
     """The one key of a point: the pin's name for a pin, else ``link.point``."""
     return point if link in mechanism.pin_links(point) else f"{link}.{point}"
+
+
+def program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...], tuple[str, str]]:
+    """Names of the program's outputs for a value (an angle as the cosine and sine of a direction), and for its two
+    rates."""
+    match output.kind:
+        case "angle":
+            return (f"e:{output.owner}.x", f"e:{output.owner}.y"), (f"w:{output.owner}", f"g:{output.owner}")
+        case "displacement":
+            return (f"s:{output.owner}",), (f"sv:{output.owner}", f"sa:{output.owner}")
+    key = f"{canonical(mechanism, *find_point(mechanism, output.owner))}.{output.kind}"
+    return (f"p:{key}",), (f"v:{key}", f"a:{key}")
 
 
 def _unknown(noun: str, name: str, known: list[str]) -> RequestError:

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import assemble
+from linkwright.kinematics.names import program_names
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.structure import Structure
 
 if TYPE_CHECKING:
+    from linkwright.fields.signals import Output
     from linkwright.mechanism.mechanism import Mechanism
 
 #: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
 NEAR = 0.02
 #: Largest step of a driver, rad or share of the size, in which a cycle is looked through.
 FINE = 0.05
+#: Ways of less than this share of the largest one, or of the size, are rounding errors.
+REVERSED = 1e-6
 
 
 def modal(motion: MotionTrace) -> list[str]:
@@ -76,7 +80,7 @@ def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bo
     """
     if len(mechanism.drivers) != 1 or mechanism.cycle is not None:
         return False
-    ((name, driver),) = mechanism.drivers.items()
+    (driver,) = mechanism.drivers.values()
     if not driver.law.constant_speed or mechanism.joints[driver.joint].coordinate != "turn":
         return False
     if mechanism.higher:
@@ -85,6 +89,29 @@ def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bo
     if motion.next_states or any("sine" in placed.facts for placed in motion.placed.values()):
         return False
     names = [each for group in modal(motion) for each in measures(motion, group)]
+    rows = _turned(mechanism, structure, motion, names, steps)
+    return rows is not None and nothing_passed(names, rows)
+
+
+def surely_reverses(mechanism: Mechanism, structure: Structure, output: Output, steps: int) -> bool:
+    """Whether an output of a machine for which :func:`plainly_passed` holds goes to and fro, as positions show."""
+    names, _ = program_names(mechanism, output)
+    rows = _turned(mechanism, structure, trace_motion(mechanism, structure), names, steps)
+    if rows is None:
+        return False
+    if output.kind == "angle":
+        c, s = rows
+        ways = [a * d - b * e for a, b, d, e in zip(c, s, [*s[1:], s[0]], [*c[1:], c[0]], strict=True)]
+    else:
+        ways = [b - a for a, b in zip(rows[0], [*rows[0][1:], rows[0][0]], strict=True)]
+    least = REVERSED * (max(ways) - min(ways))
+    return min(ways) < -least < 0.0 < least < max(ways) and max(ways) - min(ways) > REVERSED * mechanism.size
+
+
+def _turned(
+    mechanism: Mechanism, structure: Structure, motion: MotionTrace, names: Sequence[str], steps: int
+) -> list[list[float]] | None:
+    ((name, driver),) = mechanism.drivers.items()
     outputs = MotionOutputs(motion)
     program = Program.of(motion.trace, {each: outputs.value(each) for each in (*names, "outcome")})
     modes = {f"mode:{group}": sign for group, sign in assemble(mechanism, structure).modes.items()}
@@ -97,5 +124,5 @@ def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bo
         inputs = {f"cos:{name}": cos(q), f"sin:{name}": sin(q), f"turn:{name}": q}
         found.append(scalar.step(numbers, [inputs.get(each, inf) for each in program.positions])[0])
         if found[-1][-1] != 0.0:
-            return False
-    return nothing_passed(names, list(zip(*found, strict=True))[:-1])
+            return None
+    return [list(row) for row in zip(*found, strict=True)][:-1]

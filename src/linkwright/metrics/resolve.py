@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import Output
+from linkwright.kinematics.between import Between
 from linkwright.kinematics.cycle import Floats, at_times
-from linkwright.kinematics.limits import Between
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals

@@ -40,8 +40,9 @@ Counts = NDArray[np.int64]
 class Sweep(Frozen):
     """Summaries of many designs; arrays are (designs,), SI.
 
-    ``varied``: values of the varied dimensions; ``assembled``: number of positions that each design reaches, of
-    ``positions``; ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
+    ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
+    put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
+    ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
     that do not pass the whole cycle (unless ``partial`` was asked for). ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
     are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one

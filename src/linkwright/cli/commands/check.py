@@ -12,6 +12,7 @@ from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.structure import Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -67,10 +68,11 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
             "mobility": built.mobility,
             "class": built.mechanism_class,
         }
-        turned, notes = ([], []) if plainly_passed(mechanism, built, TRIED) else _turned(name, mechanism)
+        plain = plainly_passed(mechanism, built, TRIED)
+        turned, notes = ([], []) if plain else _turned(name, mechanism)
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
-    idle = [] if turned else _never_acting(name, mechanism)
+    idle = [] if turned else _never_acting(name, mechanism, built, plain)
     return [*found, *turned, *idle, *_of_settings(name, mechanism), *notes], fact
 
 
@@ -101,12 +103,19 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
 
 
-def _never_acting(name: str, mechanism: Mechanism) -> list[Finding]:
+def _never_acting(name: str, mechanism: Mechanism, built: Structure, plain: bool) -> list[Finding]:
     """Loads whose phase the motion does not have, such as one by the stroke of an output that never reverses."""
     from linkwright.fields.signals import SwingPhase
+    from linkwright.kinematics.passing import surely_reverses
 
     phases = {load: getattr(each, "phase", None) for load, each in mechanism.loads.items()}
     swings = {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
+    if plain:
+        swings = {
+            load: each
+            for load, each in swings.items()
+            if not surely_reverses(mechanism, built, each.output, TRIED)
+        }
     if not swings:
         return []
     from linkwright.kinematics.solve import try_motion

@@ -1,0 +1,134 @@
+"""A motion evaluated at times between its positions, in the same assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.change_points import Passage, closes, passages, signs
+from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import reached_modes
+from linkwright.words.sentence import Sentence
+
+Indices = NDArray[np.intp]
+
+
+class Between:
+    """A motion evaluated at times between its positions, in the same assembly, through its change points."""
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+        if motion.positions.cycle:
+            return
+        nominal = at_times(motion.mechanism, motion.time)
+        for name, (q, *_) in motion.positions.coordinates.items():
+            lawful = nominal.coordinates[name][0]
+            if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
+                raise LinkwrightError(Sentence("motion.no_way_between", name=name))
+
+    @cached_property
+    def passing(self) -> list[Passage]:
+        """Change points of the motion."""
+        motion = self.motion
+        if not motion.modes:
+            return []
+        return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.touches]
+
+    @property
+    def closes(self) -> bool:
+        """Whether the last position is followed by the first, in the same assembly."""
+        return self.motion.positions.closed and closes(self.passing)
+
+    def evaluate(self, names: tuple[str, ...], before: Indices, time: Floats) -> Floats:
+        """Outputs of the program (names, m) at times a little after the positions ``before``; NaN out of reach."""
+        motion = self.motion
+        positions = at_times(motion.mechanism, time)
+        modes = motion.modes and self._modes(positions)
+        states = self._states(positions, before)
+        return motion.solver.evaluate(names, positions, states, modes, motion.design)
+
+    def on_plain_numbers(self, names: tuple[str, ...]) -> Callable[[float], list[float]] | None:
+        """The same at one time; None where more than constant speeds and closed forms decides."""
+        motion = self.motion
+        mechanism = motion.mechanism
+        constant = all(driver.law.constant_speed is not None for driver in mechanism.drivers.values())
+        if motion.states or motion.modes or not constant:
+            return None
+        scalar = motion.solver.programs.scalar_program(names)
+        inputs, parameters = scalar.program.positions, motion.design.parameters
+        outputs = scalar.of_design([parameters[name] for name in scalar.program.parameters])
+
+        def at(time: float) -> list[float]:
+            known = at_one_time(mechanism, time)
+            return outputs([known[name] for name in inputs])
+
+        return at
+
+    @cached_property
+    def _one_way(self) -> bool:
+        """Whether the motion's modes are those of its own way, not of times that were each asked for by itself."""
+        along = signs(self.passing, self.motion.solver.assembly.modes, self.motion.steps)
+        modes = self.motion.modes
+        return along.keys() == modes.keys() and all((along[name] == modes[name]).all() for name in modes)
+
+    def _modes(self, positions: Positions) -> Mapping[str, Floats]:
+        """Signs of the groups that pass change points."""
+        if not self._one_way and (by_time := reached_modes(self.motion.solver, positions)[0]):
+            return by_time
+        return signs(self.passing, self.motion.solver.assembly.modes, self.place(positions.time))
+
+    def quality(self, before: Indices, time: Floats) -> Floats:
+        """Least quality (square of the sine of the transmission angle) of the groups that pass change points."""
+        names = tuple(dict.fromkeys(f"quality:{p.group}" for p in self.passing))
+        rows = self.evaluate(names, before, time) if names else np.ones((1, len(time)))
+        return np.asarray(rows.min(axis=0))
+
+    def place(self, time: Floats) -> Floats:
+        """Number of the position at these times, counted on in between."""
+        known = self.motion.time
+        if self.motion.positions.closed:
+            known = np.append(known, known[0] + (self.motion.positions.period or 0.0))
+        direction = 1.0 if known[-1] >= known[0] else -1.0
+        return np.asarray(np.interp(direction * time, direction * known, np.arange(float(len(known)))))
+
+    def touch(self, low: float, high: float) -> float | None:
+        """The time of a change point between two times, if there is one."""
+        ends = self.place(np.array([low, high]))
+        for p in self.passing:
+            if ends[0] - 1e-3 <= p.place <= ends[1] + 1e-3:
+                return low + (high - low) * float((p.place - ends[0]) / (ends[1] - ends[0] or 1.0))
+        return None
+
+    def _states(self, positions: Positions, before: Indices) -> dict[str, Floats]:
+        if not self.motion.states:
+            return {}
+        followed = self.motion.followed
+        assert followed is not None
+        inputs = [positions.coordinates[name][0] for name in followed.follower.loops.drivers]
+        found = followed.between(self._place(positions.time), np.stack(inputs, axis=1))
+        lost = ~np.isfinite(next(iter(found.values())))
+        for k in np.flatnonzero(lost):
+            moved = self._moved(int(before[k]), float(positions.time[k]))
+            for name, row in found.items():
+                row[k] = moved[name]
+        return found
+
+    def _place(self, time: Floats) -> Floats:
+        """The same for times of any turn of a closed cycle."""
+        start, period = float(self.motion.time[0]), self.motion.positions.period
+        if not self.motion.positions.closed or not period:
+            return self.place(time)
+        sense = 1.0 if self.motion.time[-1] >= start else -1.0
+        return self.place(start + sense * ((sense * (time - start)) % period))
+
+    def _moved(self, index: int, time: float) -> dict[str, float]:
+        """States of groups without closed form, from a position to a time near it."""
+        motion = self.motion
+        assert motion.followed is not None
+        way = at_times(motion.mechanism, [float(motion.time[index]), time])
+        return motion.solver.follower(motion.design).moved(motion.followed, index, way)
