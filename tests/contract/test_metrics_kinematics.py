@@ -205,3 +205,28 @@ def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: i
     last = 1.5 / steps * (np.flatnonzero(motion.ok)[-1])
     assert 0.89 < last < 1.0
     assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5 * last, rel=1e-13)
+
+
+TURNED_PLATE = """
+format: 1
+name: plate on a pin away from its first point
+frame: {points: {O: [0.3 m, 0.1 m]}}
+links: {plate: {points: {C: [0.2 m, 0.5 m], O: [-0.1 m, 0.15 m]}}}
+driver: {turn: plate, about: O, speed: 2 rad/s}
+"""
+
+
+def test_centrodes_of_a_link_on_a_pin_are_the_pin_in_the_axes_of_either() -> None:
+    motion = lw.solve_motion(lw.loads(TURNED_PLATE), steps=5)
+    np.testing.assert_allclose(centrode(motion, "plate"), [[0.3, 0.1]] * 5, atol=1e-14)
+    np.testing.assert_allclose(centrode(motion, "plate", on="plate"), [[-0.1, 0.15]] * 5, atol=1e-14)
+
+
+def test_an_extreme_of_two_positions_is_said_to_be_a_sample() -> None:
+    for steps, exact in ((2, False), (3, True)):
+        motion = lw.solve_motion(lw.load("gallery:crank_rocker"), steps=steps)
+        found = Analysis(motion).extreme(lambda solved: solved.link("rocker").angle, "max")
+        assert found is not None and found.exact is exact
+        if not exact:  # straight: triangle of 5, 3.5 and 2.5 m, at half a turn of 10 rad/s
+            assert found.value == pytest.approx(pi - acos((25 + 6.25 - 12.25) / 25), rel=1e-12)
+            assert (found.time, found.input) == pytest.approx((pi / 10, pi), rel=1e-12)

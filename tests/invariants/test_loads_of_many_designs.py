@@ -219,3 +219,34 @@ def test_outputs_that_turn_more_than_twice_are_doubted() -> None:
         turns.append(int((rising != np.roll(rising, 1)).sum()))
     assert doubted.tolist() == [count > 2 for count in turns]
     assert {2, 4} <= set(turns)
+
+
+LEFTWARD = """
+format: 1
+name: slider-crank with a rod that points to the left
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: {A: [0 m, 0 m], B: [-0.4 m, 0 m]}}
+  piston: {points: [B]}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+drawing: {A: [0.1 m, 0 m], B: [0.5 m, 0 m]}
+driver: {turn: crank, about: O, speed: 20 rad/s}
+loads: {twist: {kind: torsion_spring, links: [frame, rod], stiffness: 5 N·m/rad, free_angle: 90 deg}}
+"""
+
+
+def test_a_spring_is_wound_from_its_free_angle_the_way_of_the_drawing() -> None:
+    """The rod stays near 180 deg, its spring is free at 90: power of the crank k (φ - π/2) φ'."""
+    angle, lengths = np.arange(24) * np.pi / 12, np.array([0.1, 0.09])
+    lean = np.arcsin(lengths[:, None] / 0.4 * np.sin(angle))
+    ratio = -lengths[:, None] / 0.4 * np.cos(angle) / np.cos(lean)
+    torque = 5.0 * (0.5 * np.pi - lean) * ratio
+    expected = np.sqrt(np.mean(torque**2, axis=1))
+    machine = lw.loads(LEFTWARD)
+    found = lw.sweep(machine, {"crank.length": lengths}, outputs=["input_torque rms"], steps=24)
+    assert found["input_torque rms"] == pytest.approx(expected, rel=1e-12)
+    alone = lw.solve_forces(machine, steps=24).input_torque
+    assert np.abs(alone) == pytest.approx(np.abs(torque[0]), abs=1e-12)
+    slope = lw.sensitivity(machine, of=["input_torque rms"], by=["loads.twist.stiffness"], steps=24)
+    assert slope.gradient("input_torque rms") == pytest.approx([expected[0] / 5.0], rel=1e-12)

@@ -301,3 +301,16 @@ def test_torsion_springs_are_differentiated(links: str, turns: bool) -> None:
     swept = lw.sweep(machine, {by[0]: [3.1, 3.3]}, outputs=["driver.effort rms"], steps=36)
     assert swept["driver.effort rms"] == pytest.approx([alone({by[0]: x}) for x in (3.1, 3.3)], rel=1e-9)
     assert (found.gradient("driver.effort rms")[0] == 0.0) == turns
+
+
+@pytest.mark.parametrize("way", ["forward", "reverse"])
+def test_what_passes_through_zero_at_a_position_keeps_its_slope_there(way: Any) -> None:
+    """y of a crank's pin is y of the frame's plus r sin θ: exactly zero at the first of eight positions."""
+    crank = lw.loads(
+        "format: 1\nname: crank\nframe: {points: {O: [0 m, 0 m]}}\n"
+        "links: {crank: {points: [O, A], length: 0.1 m}}\ndriver: {turn: crank, about: O, speed: 2 rad/s}"
+    )
+    found = sensitivity(crank, of=["A.y", "A.y mean"], by=["frame.O.y"], steps=8, way=way)
+    assert found.curve("A.y")[0] == 0.0
+    assert found.slope("A.y", "frame.O.y").tolist() == pytest.approx([1.0] * 8, rel=1e-14)
+    assert found.gradient("A.y mean") == pytest.approx([1.0], rel=1e-14)

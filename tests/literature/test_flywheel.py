@@ -82,6 +82,9 @@ def test_flywheels_of_a_machine_by_the_formula() -> None:
     assert found.own == pytest.approx(found.energy.value / (own * speed**2), rel=1e-12)
     assert found.flywheel == pytest.approx(found.energy.value / (0.05 * speed**2) - own, rel=1e-12)
     assert found.shaft_flywheel == pytest.approx(found.exact_flywheel / ratio**2, rel=1e-12)
+    on_the_crank = steady_running(forces, fluctuation=0.05)
+    assert on_the_crank.ratio == 1.0
+    assert on_the_crank.shaft_flywheel == on_the_crank.exact_flywheel == found.exact_flywheel
 
 
 def test_at_rest_the_equivalent_torque_is_the_drivers() -> None:

@@ -339,3 +339,14 @@ def test_inputs_of_two_lengths_and_missing_parameters_are_refused() -> None:
     np.testing.assert_array_equal(slopes, wanted[1])
     one, _ = gradient({"r": table[0, 0], "l": table[0, 1], "e": table[0, 2]}, INPUT, backend="numpy")
     assert one.shape == (1,) and one[0] == stroke[0]
+
+
+@pytest.mark.parametrize("blocks", [1, 2, 3])
+def test_blocks_of_designs_come_back_as_one_table(blocks: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkwright.engine.cycle._REPORT", 10 * COUNT)
+    t = Trace()
+    sums = Stage(Program.of(t, {"y": t.parameter("a") * t.position("q")}), {"y.mean": Reduction("y", "mean")})
+    table, said = np.arange(10.0 * blocks)[:, None], []
+    found = CycleProgram((sums,)).evaluate(table, INPUT, progress=lambda done, _: said.append(done))
+    assert said == [10 * k for k in range(1, blocks + 1)]
+    np.testing.assert_allclose(found["y.mean"], table[:, 0] * math.pi * (COUNT - 1) / COUNT, rtol=1e-13)

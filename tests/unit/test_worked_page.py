@@ -142,6 +142,10 @@ def test_every_kind_of_load_is_put_in() -> None:
     friction = 0.1 * 0.01 * float(lines["F_A,2"].result)
     assert abs(float(lines["M_fA2"].result)) == pytest.approx(friction, rel=1e-5)
     assert float(lines["M_lift"].result) == 7.0
+    lean = math.asin(0.25 * math.sin(0.7))  # of the rod; its rate from 0.1 cos θ ω = -0.4 cos(lean) ω_rod
+    slip = -20 * 0.25 * math.cos(0.7) / math.cos(lean) - 20
+    assert lines["M_drag"].formula == "c_drag·(ω2 - ω1)"
+    assert float(lines["M_drag"].result) == pytest.approx(0.3 * slip, rel=1e-5)
 
 
 @pytest.mark.parametrize("name", ["double_slider", "wedge", "stephenson_sixbar_triad"])

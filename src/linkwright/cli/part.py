@@ -61,7 +61,8 @@ def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
     problem = load(source)
     if source.startswith(GALLERY) and not session.json:
         title = gallery_title(source.removeprefix(GALLERY), problem.name, session.language)
-        return replace(problem, name=title)  # type: ignore[type-var]
+        if title != problem.name:  # a copy finds again what the problem has found of itself
+            return replace(problem, name=title)  # type: ignore[type-var]
     return problem
 
 

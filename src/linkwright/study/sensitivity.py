@@ -50,11 +50,11 @@ class Sensitivity(Frozen):
     mechanism: Mechanism
     by: tuple[str, ...]
     input: Floats
-    curves: Mapping[str, Floats] = field(repr=False)
-    slopes: Mapping[tuple[str, str], Floats] = field(repr=False)
+    curves: Mapping[str, Floats]
+    slopes: Mapping[tuple[str, str], Floats]
     values: Mapping[Summary, float] = field(default_factory=dict)
     gradients: Mapping[Summary, Floats] = field(default_factory=dict)
-    quantities: Mapping[str, Quantity] = field(default_factory=dict, repr=False)
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
 
     def curve(self, output: str) -> Floats:
         """An output over the positions, (n,)."""
