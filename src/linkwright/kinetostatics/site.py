@@ -126,8 +126,10 @@ class TracedSite:
 
     @property
     def heading(self) -> Scalar:
-        """Its constant rate."""
-        return self.motion.trace.parameter(f"{next(iter(self.motion.mechanism.drivers))}.speed")
+        """Its constant rate; where it has none, phases do not ask for its sign."""
+        driver = next(iter(self.motion.mechanism.drivers.values()))
+        steady = driver.law.constant_speed is not None
+        return self.motion.trace.parameter(f"{driver.name}.speed") if steady else 1.0
 
     def named(self, name: str) -> Scalar:
         """A parameter of the model, ``t``, ``input`` or an output."""

@@ -104,6 +104,14 @@ def followed(load: Load, mechanism: Mechanism) -> bool:
     return True
 
 
+def within_turn(load: Load) -> bool:
+    """Whether the formula of its phase is one of a closed turn of constant speed: by limits, or through its end."""
+    phase = getattr(load, "phase", None)
+    if isinstance(phase, InputPhase):
+        return phase.across == "angle" and phase.end < phase.start
+    return phase is not None
+
+
 def outputs_of(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
     """The outputs whose values the magnitude of a load takes."""
     given, table, phase = (getattr(load, name, None) for name in ("magnitude", "table", "phase"))

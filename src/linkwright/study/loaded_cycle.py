@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -19,8 +19,10 @@ from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joi
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.magnitude import followed
+from linkwright.loads.base import Load
+from linkwright.loads.magnitude import followed, within_turn
 from linkwright.loads.phases import TURN
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.traced import VALID, Traced
 
@@ -77,9 +79,11 @@ def with_loads(plain: Traced, known: AlongInput) -> Traced:
     )
 
 
-def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) -> AlongInput | None:
-    """The loads behind a program's inputs per position; None where some input is no load that can be traced, or the
-    cycle is no single turn of one driver of constant speed."""
+def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> AlongInput | None:
+    """The loads behind a program's inputs per position; None where some input is no load that can be traced.
+
+    Formulas of strokes hold over a single turn of one driver of constant speed.
+    """
     mechanism, given = traced.mechanism, tuple(fields)
     rubbing = any(name.startswith("friction:") for name in given)
     if rubbing:
@@ -94,7 +98,11 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
     if not names:
         return plain
     loads = [mechanism.loads[name] for name in sorted(names)]
-    if not one_turn(traced, varied) or not all(followed(load, mechanism) for load in loads):
+    if not all(followed(load, mechanism) for load in loads):
+        return None
+    if not one_turn(traced, varied) and (
+        any(map(within_turn, loads)) or _moves_phases(loads, varied, mechanism)
+    ):
         return None
     known = numbers_of_loads(loads, mechanism)
     middles = known.middles(MotionSignals(traced.nominal)) if known.angles else {}
@@ -102,6 +110,12 @@ def along_input(traced: Traced, varied: Iterable[str], fields: Iterable[str]) ->
         return None
     constants = {**known.constants, **middles, **still}
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
+
+
+def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:
+    """Whether the laws of drivers vary, which give the times, or the ends of intervals."""
+    begins = (*(f"{name}." for name in mechanism.drivers), *(f"loads.{load.name}.phase." for load in loads))
+    return any(address.startswith(begins) for address in varied)
 
 
 def _swinging(term: FrictionTerm) -> Swinging:
@@ -126,7 +140,7 @@ def friction_doubt(traced: Traced) -> Scalar:
 
 
 def loaded_cycle(
-    traced: Traced, varied: Iterable[str], names: Iterable[str], reductions: Iterable[Reduction]
+    traced: Traced, varied: Collection[str], names: Iterable[str], reductions: Iterable[Reduction]
 ) -> LoadedCycle | None:
     """The cycle program of all designs; None where the loads cannot be traced."""
     known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)

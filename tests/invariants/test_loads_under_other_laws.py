@@ -1,0 +1,100 @@
+"""Loads of many designs at once under laws and over cycles of every kind: those of each design alone."""
+
+import numpy as np
+import pytest
+from tests.unit.test_load_magnitudes import SLIDER
+
+import linkwright as lw
+from linkwright.study.one_by_one import OneByOne
+
+TO_AND_FRO, UNEVEN, SEVERAL_TURNS = (
+    'position: "2 rad*sin(3*t/(1 s))"',
+    'position: "3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
+    "speed: 10 rad/s",
+)
+LOADS = {
+    "interval": "ramp: [3 N, 18 N], phase: {input: [30 deg, 200 deg]}",
+    "expression": 'magnitude: "3 N*sin(input) + 2 N/m*B.x + 1 N*t/(1 s) + 2 N*rod/rad"',
+    "table over the input": "table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 9 N, 1 N]}",
+    "table over the time": "table: {over: time, x: [0 s, 1 s, 4 s], y: [1 N, 9 N, 1 N]}",
+    "table over an output": "table: {over: cylinder, x: [1 m, 3 m, 4.5 m], y: [1 N, 9 N, 1 N]}",
+}
+TWO_DRIVERS = """
+format: 1
+name: five-bar with two cranks
+frame: {points: {O: [0 m, 0 m], Q: [2 m, 0 m]}}
+links:
+  left: {points: [O, A], length: 1 m}
+  right: {points: [Q, B], length: 0.8 m}
+  rod: {points: [A, P], length: 3 m}
+  arm: {points: [B, P], length: 2.5 m}
+assembly: {P: left}
+drivers:
+  first: {turn: left, about: O, speed: 10 rad/s}
+  second: {turn: right, about: Q, speed: -20 rad/s}
+loads:
+  work: {kind: force, on: rod, at: P, direction: 0 deg, magnitude: "3 N*sin(input) + 2 N/m*P.y + 1 N*rod/rad"}
+"""
+
+
+def machine(law: str, load: str) -> lw.Mechanism:
+    text = SLIDER.replace("loads:", "cycle: {duration: 1.5 s}\nloads:").replace("speed: SPEED", law)
+    return lw.loads(text.replace("LOAD", f"{{kind: force, on: piston, at: B, direction: 0 deg, {load}}}"))
+
+
+def compare(mechanism: lw.Mechanism, address: str, driver: str) -> None:
+    values = mechanism.dimension(address) * np.array([1.0, 1.02, 0.97])
+    found = lw.sweep(mechanism, {address: values}, outputs=[f"{driver}.effort rms"], steps=90)
+    assert found.ok.all()
+    for k, value in enumerate(values):
+        alone = lw.solve_forces(mechanism.with_dimensions({address: float(value)}), steps=90)
+        effort = alone.driver_effort(driver)
+        assert np.ptp(effort) > 0.1
+        rms = np.sqrt(np.mean(effort**2))
+        assert found[f"{driver}.effort", "rms"][k] == pytest.approx(rms, rel=1e-12)
+
+
+@pytest.mark.parametrize("law", [TO_AND_FRO, UNEVEN, SEVERAL_TURNS])
+@pytest.mark.parametrize("load", LOADS)
+def test_designs_under_laws_of_every_kind_go_at_once(
+    load: str, law: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+    compare(machine(law, LOADS[load]), "rod.length", "driver")
+
+
+def test_designs_of_two_drivers_go_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+    for driver in ("first", "second"):
+        compare(lw.loads(TWO_DRIVERS), "arm.length", driver)
+
+
+@pytest.mark.parametrize(
+    ("law", "load", "address"),
+    [
+        (UNEVEN, LOADS["interval"], "loads.work.phase.input.1"),
+        (SEVERAL_TURNS, "magnitude: 3 N, phase: {of: B.x, from: max, to: min}", "rod.length"),
+        (SEVERAL_TURNS, "ramp: [3 N, 18 N], phase: {input: [200 deg, 30 deg]}", "rod.length"),
+    ],
+)
+def test_what_moves_with_the_cycle_is_that_of_single_designs_as_well(
+    law: str, load: str, address: str
+) -> None:
+    compare(machine(law, load), address, "driver")
+
+
+def test_an_objective_under_a_law_of_the_time_has_its_gradient() -> None:
+    """Central differences of designs solved alone."""
+    mechanism = machine(UNEVEN, LOADS["expression"])
+    objective = lw.objective(mechanism, "input_torque rms", vary=["rod.length", "crank.length"], steps=90)
+    value, gradient = objective(objective.start)
+
+    def alone(address: str, factor: float) -> float:
+        changed = mechanism.with_dimensions({address: factor * mechanism.dimension(address)})
+        return float(np.sqrt(np.mean(lw.solve_forces(changed, steps=90).input_torque ** 2)))
+
+    assert value == pytest.approx(alone("rod.length", 1.0), rel=1e-12)
+    for address, slope in zip(("rod.length", "crank.length"), gradient, strict=True):
+        size = 2e-5 * mechanism.dimension(address)
+        difference = (alone(address, 1.0 + 1e-5) - alone(address, 1.0 - 1e-5)) / size
+        assert slope == pytest.approx(difference, rel=1e-7)
