@@ -264,3 +264,23 @@ def test_sizes_of_wheels(
     chain = name == "chain_drive"
     assert found.pressure_angle == (None if chain else pytest.approx(ALPHA))
     assert found.involute == (module is not None and len(found.links) == len(radii))
+
+
+def test_a_path_that_a_cycle_runs_three_times_counts_once() -> None:
+    """z = 48 e^(3 i u) + 20 e^(-2 i u) mm, u from 0 to 2π: a trochoid of order 5 that winds thrice about the sun.
+
+    Area by Green's theorem π (3·48² - 2·20²); (3 + 2)(3 - 1) nodes, as of every such curve without loops (Wunderlich,
+    Ebene Kinematik); length by quadrature. A cycle, 24 turns of the sun, runs it three times.
+    """
+    found = lw.metrics(lw.solve_motion(lw.load("gallery:planetary_two_inputs"), steps=360))
+    u = np.linspace(0.0, 2 * np.pi, 4000, endpoint=False)
+    speed = np.abs(3 * 0.048 * np.exp(3j * u) - 2 * 0.020 * np.exp(-2j * u))
+    wanted = {
+        "coupler_curve_area": np.pi * (3 * 0.048**2 - 2 * 0.020**2),
+        "coupler_curve_length": 2 * np.pi * float(speed.mean()),
+        "double_point": 10.0,
+        "cusp": 0.0,
+    }
+    for name, value in wanted.items():
+        rows = [row.value for row in found if row.metric == name]
+        assert rows == pytest.approx([value] * 3, rel=1e-9), name

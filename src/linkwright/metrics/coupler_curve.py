@@ -36,7 +36,8 @@ Spot = tuple[float, float]
 @dataclass(frozen=True)
 class CouplerCurve:
     """Closed path of a point: ``length`` m, ``area`` m² (counter-clockwise positive, loops with their sign),
-    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once."""
+    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once. A
+    path that is run several times over a cycle, as by a planet over the turns of its train, counts once."""
 
     point: str
     length: float
@@ -70,16 +71,39 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
         raise LinkwrightError(Sentence("metrics.path_open", point=point, name=motion.mechanism.name))
     track = motion.point(point)
     position, velocity = track.position[analysis.once], track.velocity[analysis.once]
-    period = motion.positions.period or 0.0
+    rounds = _rounds(analysis, point, position)
+    period, once = (motion.positions.period or 0.0) / rounds, len(position) // rounds
+    position, velocity = position[:once], velocity[:once]
     speed = np.hypot(*velocity.T)
     sense = np.sign(motion.time[-1] - motion.time[0])
     area = 0.5 * float(np.mean(cross(position, velocity))) * period * float(sense)
     length = float(np.mean(speed)) * period
-    doubles = tuple(_doubles(analysis, point, position, length)) if length > 0 else ()
+    doubles = tuple(_doubles(analysis, point, position, length, period)) if length > 0 else ()
     return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)), position)
 
 
-def _doubles(analysis: Analysis, point: str, path: Floats, length: float) -> Iterator[tuple[Spot, Spot]]:
+def _rounds(analysis: Analysis, point: str, path: Floats) -> int:
+    """How many times a cycle runs the same curve, as far as its positions divide into so many."""
+    count, size = len(path), float(np.ptp(path, axis=0).max())
+    begin, step = analysis.motion.time[0], analysis.motion.time[1] - analysis.motion.time[0]
+    for rounds in range(count // 3, 1, -1) if size else ():
+        shift, rest = divmod(count, rounds)
+        if rest or np.abs(path[shift] - path[0]).max() > SAME * size:
+            continue
+        if np.abs(path - np.roll(path, shift, axis=0)).max() > SAME * size:
+            continue
+        between = begin + step * (np.array([0.0, shift]) + 0.37)
+        if (
+            analysis.resolver.possible
+            and np.ptp(analysis.resolver.motion(between).point(point).position, axis=0).max() <= SAME * size
+        ):
+            return rounds
+    return 1
+
+
+def _doubles(
+    analysis: Analysis, point: str, path: Floats, length: float, period: float
+) -> Iterator[tuple[Spot, Spot]]:
     """Crossings of the polygon, sharpened to those of the curve by Newton steps in both times."""
     places = np.array(crossings(path))
     if not len(places) or not analysis.resolver.possible:
@@ -95,7 +119,6 @@ def _doubles(analysis: Analysis, point: str, path: Floats, length: float) -> Ite
             )
         times = times + np.where(np.isfinite(change), np.clip(change, -abs(step), abs(step)), 0.0)
     position, _ = _pairs(analysis, point, times)
-    period = analysis.motion.positions.period or 0.0
     apart = np.abs(times[:, 1] - times[:, 0]) % period
     met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
     found: list[Spot] = []
