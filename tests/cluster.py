@@ -25,7 +25,7 @@ VARY = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank
 NUMBERS = ["driver.effort rms", "jaw.angle range", "reaction O5 on jaw max"]
 #: A front whose designs go side by side, and teeth, which go one by one and by the cluster where one is named.
 FRONT = ["gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()), "--minimize",
-         "peak_input_torque", "flywheel", "--evaluations", "40000"]  # fmt: skip
+         "peak_input_torque", "flywheel", "--evaluations", "120000"]  # fmt: skip
 TEETH = """\
 format: 1
 name: Pair
@@ -132,7 +132,7 @@ def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, in
         with (folder / "printed").open("wb") as printed:
             run = subprocess.Popen(words, stdout=printed)
             try:
-                wait = random.uniform(2.0, 10.0) if kills < most_kills else None
+                wait = random.uniform(1.0, 6.0) if kills < most_kills else None
                 assert run.wait(timeout=wait) == 0
                 break
             except subprocess.TimeoutExpired:

@@ -61,6 +61,8 @@ def test_whole_numbers_and_catalogues(press: Path) -> None:
     }
     found = lw.optimize(press, vary=vary, evaluations=300)
     assert dict(found.best.values) == pytest.approx({"crank.length": 0.033, "rod.length": 0.170})
+    listed = lw.optimize(press, vary=vary | {"crank.length": "45, 20, 33, 28 mm"}, evaluations=300)
+    assert dict(listed.best.values) == dict(found.best.values)
     vary = {"ram.mass": {"whole": "3.5..9 kg"}}
     whole = lw.optimize(press, vary=vary, minimize="m", keep={}, define={"m": "ram.mass"})
     assert whole.best.values["ram.mass"] == 4.0
@@ -208,6 +210,23 @@ def test_tolerances_worst_case_and_yield(press: Path) -> None:
     assert plain.best.made is not None and plain.best.made < 0.6
 
 
+def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
+    tolerance = {"crank.length": "0.5 mm", "rod.length": "1 mm"}
+    worst = lw.optimize(press, tolerance=tolerance, robust="worst")
+    # 2 (r - 0.5 mm) = 60 mm and (r + 0.5 mm) / (l - 1 mm) = 0.2 in the corner, which samples come near to
+    assert worst.best.values["crank.length"] == pytest.approx(0.0305, abs=2e-5)
+    assert 0.155 < worst.best.values["rod.length"] < 0.15601 and worst.best.made is not None
+    assert worst.best.made >= 0.99 and "exact gradients" not in worst.text()
+    most = lw.optimize(press, tolerance=tolerance, robust="yield", **{"yield": 0.9})
+    assert most.best.made is not None and most.best.made >= 0.9 - 2 / 512
+    assert most.best.numbers["r + l"] < worst.best.numbers["r + l"]
+    with pytest.raises(
+        lw.OptimizeError
+    ) as caught:  # no machine reaches 161 mm: the nearest has the largest crank
+        lw.optimize(press, tolerance=tolerance, robust="yield", keep={"stroke guide": "at least 161 mm"})
+    assert caught.value.nearest.best.values["crank.length"] > 0.079
+
+
 def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     start = lw.load("gallery:crank_rocker")
     known = {"crank.length": 1.04, "coupler.length": 3.45, "rocker.length": 2.52}
@@ -315,6 +334,7 @@ def test_hypervolume_and_crowding_in_closed_form() -> None:
         ({"vary": {"crank.length": "20..20 mm"}}, "equal bounds"),
         ({"keep": {"stroke guide": "more than 2"}}, "at least 40 deg"),
         ({"keep": {"stroke guide": "at least 2 kg"}}, "length"),
+        ({"keep": {"stroke guide": "90..50 mm"}}, "falls from 90 mm to 50 mm"),
         ({"minimize": "nothing at all"}, "nothing"),
         ({"minimise": "r"}, "minimize"),
         ({"robust": "worst"}, "needs tolerance"),

@@ -39,7 +39,7 @@ from linkwright.optimisation.front import Scale, nearest, picked, spread
 from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, SearchInterrupted, hypervolume
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
-from linkwright.optimisation.task import Judged, Task
+from linkwright.optimisation.task import CHECKED, Judged, Task
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
@@ -52,6 +52,8 @@ SLOW, SAVED = 400, 2.0
 SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 15, 0.1
 #: Designs that are polished in the end for each objective; places along a front.
 POLISHED, FRONT = 3, 48
+#: Generations with many samples of the tolerances in the end, and how far in the cube these begin from the others.
+SURER, KICK = 25, 0.01
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
 LAST, NEAR = 90, 0.03
 #: The same where designs go one by one: designs for each objective, places along a front, steps.
@@ -217,7 +219,7 @@ class _Run:
                 self._tell(state)
             if self.path is not None:
                 self._save(snapshot)
-            return state, self._polished(state.judged)
+            return state, self._polished(self._sure(state))
         except KeyboardInterrupt:
             if not snapshot and not self.task.measures.judged:
                 raise
@@ -293,6 +295,18 @@ class _Run:
         assert self.path is not None
         judged = [*self.task.measures.judged.items()]
         write_whole(self.path, json.dumps({"problem": self.digest, "judged": judged, **snapshot}).encode())
+
+    def _sure(self, state: State) -> Judged:
+        """The population, with tolerances after some more generations with as many samples as the result is checked
+        with, where one of these meets the demands."""
+        if not self.task.problem.robust or not self.task.measures.side_by_side:
+            return state.judged
+        self.task.samples = CHECKED
+        x = state.judged.x + KICK * state.draw.normal(size=state.judged.x.shape)
+        surer = State(self.task.judge(np.clip(x, 0.0, 1.0)), 0, 0, state.draw, [])
+        for _ in range(SURER):
+            generation(self.task, surer)
+        return surer.judged if (surer.judged.total == 0).any() else state.judged
 
     def _polished(self, judged: Judged) -> Judged:
         """The population with its best designs polished; of several objectives the front, evenly filled."""

@@ -239,6 +239,8 @@ class _Reading:
                     Sentence("optimize.no_bounds", address=address, given=str(value))
                 ) from None
         found = parse_range(self.mechanism, address, value)
+        if len(found.values) > 2 and not (isinstance(value, str) and ".." in value):
+            return Variable(address, found.low, found.high, np.unique(found.values), found.unit)
         _rising(found)
         if not found.low < found.high:
             raise RequestError(Sentence("optimize.bounds", address=address))

@@ -28,7 +28,8 @@ def report(found: Optimum, language: str) -> list[str]:
         ]
         lines += _front(found)
     lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
-    lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
+    if not found.problem.robust:
+        lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
     if found.best.made is not None:
         lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
     lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]

@@ -17,8 +17,9 @@ from linkwright.optimisation.problem import Demand, Problem
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
-#: Samples of the tolerances while searching and at the end; a violation below this share of a demand is none.
-SAMPLES, CHECKED, MET = 16, 512, 1e-6
+#: Samples of the tolerances while searching, where designs go one by one, and at the end; a violation below this
+#: share of a demand is none.
+SAMPLES, SAMPLES_ALONE, CHECKED, MET = 64, 16, 512, 1e-6
 #: Places between its bounds at which a variable is tried for an effect; numbers differ by less where it has none.
 PROBED, SAME = (0.0, 0.35, 1.0), 1e-9
 _SHARE = re.compile(r"^(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*%$")
@@ -56,11 +57,12 @@ class Judged:
 
 
 class Task:
-    """Evaluates designs x (N, k), 0 to 1 between the bounds of the variables."""
+    """Evaluates designs x (N, k), 0 to 1 between the bounds of the variables; ``samples`` of the tolerances each."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.measures = Measures(problem)
+        self.samples = SAMPLES if self.measures.side_by_side else SAMPLES_ALONE
         self.low = np.array([each.low for each in problem.variables])
         self.high = np.array([each.high for each in problem.variables])
         self.at_start = {
@@ -88,11 +90,11 @@ class Task:
         return columns
 
     # judging -----------------------------------------------------------------------------------------
-    def judge(self, x: Floats, samples: int = SAMPLES) -> Judged:
+    def judge(self, x: Floats) -> Judged:
         """Objectives and violations of designs."""
         columns = self.columns_of(self.place(x))
         if self.problem.robust:
-            return self._robust(x, columns, samples)
+            return self._robust(x, columns, self.samples)
         values = self.measures(columns)
         goals = np.column_stack([goal.sign * values[goal.text] for goal in self.problem.goals])
         return Judged(x, *self._finite(goals, values), values)
@@ -122,11 +124,10 @@ class Task:
                 np.column_stack([each.max(1) for each in misses]) if misses else np.zeros((len(x), 1))
             )
         else:
-            met = np.ones(next(iter(values.values())).shape, bool)
-            for each in [*(np.where(np.isnan(v), 1.0, 0.0) for v in values.values()), *misses]:
-                met &= each == 0.0
+            missed = sum(misses, np.zeros(next(iter(values.values())).shape))
+            met = (missed == 0.0) & np.isfinite([*values.values()]).all(axis=0)
             lack = np.maximum(self.problem.least_yield - met.mean(axis=1), 0.0)
-            violations = lack[:, None]
+            violations = np.where(lack > 0.0, lack + missed.mean(axis=1), 0.0)[:, None]
             goals = np.column_stack([goal.sign * values[goal.text][:, 0] for goal in self.problem.goals])
         stuck = ~np.isfinite(goals).all(axis=1) | np.isnan(violations).any(axis=1)
         goals[stuck], violations[stuck] = np.inf, np.inf
@@ -212,6 +213,8 @@ class Task:
             return Bounds(demand.text, start - within, start + within, max(within, 1e-3 * abs(start)))
         low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
         high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
+        if low > high:
+            raise QuantityError(Sentence("optimize.falling_demand", low=demand.low, high=demand.high))
         sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
         return Bounds(
             demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0

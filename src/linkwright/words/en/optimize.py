@@ -73,6 +73,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "changes.",
     "bounds": "{address} has equal bounds; give a lower and a higher one",
     "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
+    "falling_demand": "the range falls from {low} to {high}; write the lower value first",
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',
     "no_unit": '"{text}" is {need}, and "{given}" is not; write a number without a unit',
     "unit": '"{text}" is {need}, and "{given}" is not; write a value in {example}',

@@ -66,6 +66,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_effect": "{address} 不影响这里的任何一个量；请从 vary: 中去掉，或要求一个受它影响的量。",
     "bounds": "{address} 的上下限相等；请给不同的上下限",
     "demand": '"{given}" 不是要求；请写 at least 40 deg、at most 60 kN、1..2 m 或 same within 1 %',
+    "falling_demand": "范围由 {low} 降到 {high}；请先写较小的值",
     "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',
     "no_unit": '"{text}" 是{need}，而 "{given}" 不是；请写不带单位的数',
     "unit": '"{text}" 是{need}，而 "{given}" 不是；请以 {example} 给值',
