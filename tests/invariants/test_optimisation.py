@@ -124,7 +124,7 @@ def test_an_interruption_says_from_which_file_it_goes_on(
 def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first_population(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    state, judged, measured = tmp_path / "state.json", list[float](), Measures._measured
+    state, judged, measured = tmp_path / "state.json", list[float](), Measures.measured
 
     def one(self: Measures, dimensions: dict[str, float]) -> tuple[float, ...]:
         if len(judged) == 5:
@@ -136,7 +136,7 @@ def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first
         "vary": {"count": {"whole": "45..60"}}, "minimize": "count", "keep": {"peak_input_torque": "at most 15 N·m"},
     }  # fmt: skip
     whole = lw.optimize(lw.loads(GEARS), **settings, evaluations=60)
-    monkeypatch.setattr(Measures, "_measured", one)
+    monkeypatch.setattr(Measures, "measured", one)
     with pytest.raises(KeyboardInterrupt, match=r"--state .*state\.json"):
         lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
     first = judged[:]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import cached_property
+import pickle
+from collections.abc import Mapping
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -169,18 +170,15 @@ class Measures:
         new = [each for each in dict.fromkeys(designs) if each not in self.judged]
         client = current()
         if client is None or len(new) < 2:
-            self.judge_alone(tuple(columns), new)
+            for each in new:
+                self.judged[each] = self.measured(dict(zip(columns, each, strict=True)))
         else:
             self._shared(client, tuple(columns), new)
         rows = [self.judged[each] for each in designs]
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
 
-    def judge_alone(self, addresses: tuple[str, ...], designs: Sequence[tuple[float, ...]]) -> None:
-        """Numbers of designs, one after the other, kept: whole numbers and catalogues come again."""
-        for each in designs:
-            self.judged[each] = self._measured(dict(zip(addresses, each, strict=True)))
-
-    def _measured(self, dimensions: dict[str, float]) -> tuple[float, ...]:
+    def measured(self, dimensions: dict[str, float]) -> tuple[float, ...]:
+        """Numbers of one design, by its dimensions alone; NaN where it has none or does not move."""
         try:
             each = self._alternative(self.mechanism.with_dimensions(dimensions))
             found = [criterion(name).measure(each) for name in self.numbers]
@@ -191,10 +189,15 @@ class Measures:
         return tuple(np.nan if number is None else float(number.value) for number in found)
 
     def _shared(self, client: Any, addresses: tuple[str, ...], designs: list[tuple[float, ...]]) -> None:
-        """The same, a few designs at a time on a cluster."""
+        """Numbers of designs, a few of them at a time on a cluster."""
         parts = [designs[first : first + FEW] for first in range(0, len(designs), FEW)]
-        for _, found in in_turn(client, _designs, [(self.problem, addresses, part) for part in parts]):
-            self.judged |= found
+        tasks = [(self._pickled, addresses, part) for part in parts]
+        for number, found in in_turn(client, _designs, tasks):
+            self.judged |= zip(parts[number], found, strict=True)
+
+    @cached_property
+    def _pickled(self) -> bytes:
+        return pickle.dumps(self.problem)
 
     def _alternative(self, design: Mechanism) -> Alternative:
         asked = self._asked
@@ -270,12 +273,17 @@ class Measures:
 
 
 def _designs(
-    problem: Problem, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
-) -> dict[tuple[float, ...], tuple[float, ...]]:
+    pickled: bytes, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
+) -> list[tuple[float, ...]]:
     """Numbers of some designs, on a worker of a cluster."""
-    measures = Measures(problem)
-    measures.judge_alone(addresses, designs)
-    return measures.judged
+    measures = _of_problem(pickled)
+    return [measures.measured(dict(zip(addresses, each, strict=True))) for each in designs]
+
+
+@lru_cache(2)
+def _of_problem(pickled: bytes) -> Measures:
+    """Made once for all designs of a search."""
+    return Measures(pickle.loads(pickled))
 
 
 def _is_metric(name: str) -> bool:
