@@ -136,6 +136,12 @@ class MotionSignals:
         first = first + TURN * np.round((near - begin) / TURN)
         return first if self.cycle is self.motion else self._anchored(_between(self.motion, a, b), first)
 
+    def angle_of(self, a: str, b: str, near: float | None) -> Floats:
+        """The same; without ``near`` as the motion has it."""
+        if near is None:
+            return self.output(Output("angle", b, b))[0]
+        return self.angle_between(a, b, near)
+
     def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
         """The same angle, moved by whole turns next to what it is at that time of the cycle."""
         positions = self.cycle.positions

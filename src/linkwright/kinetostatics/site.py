@@ -8,6 +8,8 @@ from linkwright.fields.signals import MovingPhase, Output, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
+from linkwright.loads.formulas import output_named
+from linkwright.loads.magnitude import is_constant, magnitude, moving_of_turn, stroke_of_turn
 
 
 def limit_name(output: object, kind: str) -> str:
@@ -71,7 +73,7 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 
 
 class TracedSite:
-    """One load's view; see :class:`linkwright.loads.site.Site`.
+    """One load's view; see :class:`linkwright.loads.site.Site` and :class:`linkwright.loads.magnitude.Turning`.
 
     ``along_input``: the magnitude is traced over the input (see ``loads.magnitude``), with ``phase_known`` all but
     its phase; else one that varies is an input of the program per position.
@@ -106,8 +108,6 @@ class TracedSite:
         return self.motion.dimensions(f"loads.{self.load.name}.{field}")
 
     def magnitude(self) -> Scalar:
-        from linkwright.loads.magnitude import is_constant, magnitude
-
         if is_constant(self.load):
             return self.dimension("magnitude")
         if self.along_input:
@@ -116,12 +116,10 @@ class TracedSite:
 
     @property
     def input(self) -> Scalar:
-        """The first driver's coordinate."""
         return self.motion.trace.position("input")
 
     @property
     def rotary(self) -> bool:
-        """Whether it is an angle."""
         return next(iter(self.motion.mechanism.drivers.values())).law.rotary
 
     @property
@@ -132,58 +130,42 @@ class TracedSite:
         return self.motion.trace.parameter(f"{driver.name}.speed") if steady else 1.0
 
     def named(self, name: str) -> Scalar:
-        """A parameter of the model, ``t``, ``input`` or an output."""
         if name in self.motion.mechanism.parameters:
             return self.motion.dimensions(name)
         if name in ("t", "input"):
             return self.input if name == "input" else self.motion.trace.position("time")
-        from linkwright.loads.formulas import output_named
-
         found = output_named(name, self.motion.mechanism)
         assert found is not None
         return self.output(found)
 
     def output(self, output: Output) -> Scalar:
-        """An output; angles are continuous over the cycle."""
         return output_value(self.motion, output)
 
     def angle_between(self, a: str, b: str) -> Scalar:
-        """Angle of link b against link a."""
         return angle_between(self.motion, a, b)
 
     def known_phase(self) -> tuple[Mask, Scalar] | None:
-        """Whether the load acts, and the share of its phase, from inputs per position."""
         if not self.phase_known:
             return None
         acts, share = (self.motion.trace.field_input(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
         return acts > 0.5, share
 
     def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
-        """Whether an output goes from one limit to the other, and the share of that way."""
-        from linkwright.loads.magnitude import stroke_of_turn
-
         return stroke_of_turn(self, phase)
 
     def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
-        """The same without its ends."""
-        from linkwright.loads.magnitude import moving_of_turn
-
         return moving_of_turn(self, phase)
 
     def constant(self, field: str) -> Scalar:
-        """A number of the load that is no dimension."""
         return self.motion.trace.parameter(constant_name(self.load.name, field))
 
     def lookup(self, x: Scalar) -> Scalar:
-        """The load's table at a place."""
         return self.motion.trace.lookup(f"load:{self.load.name}", x)
 
     def limit_value(self, output: Output, kind: str) -> Scalar:
-        """An output at its limit: a number per design, found before."""
         return self.motion.trace.parameter(value_name(output, kind))
 
     def limit(self, output: Output, kind: str) -> Scalar:
-        """The input at which an output has its only ``max`` or ``min``: a number per design, found before."""
         return self.motion.trace.parameter(limit_name(output, kind))
 
     def direction(self, angle: Scalar) -> Vec:

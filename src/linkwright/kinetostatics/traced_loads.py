@@ -9,7 +9,6 @@ from math import remainder
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expression_tree import Number
 from linkwright.core.expressions import Expression
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Table
@@ -21,8 +20,7 @@ from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name, middle_name, value_name
 from linkwright.loads.base import Load
-from linkwright.loads.formulas import denominators
-from linkwright.loads.magnitude import angles_of, followed, is_constant, magnitude
+from linkwright.loads.magnitude import angles_of, divides, followed, is_constant, magnitude
 from linkwright.loads.magnitude import constants as of_load
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.mechanism.mechanism import Mechanism
@@ -76,11 +74,7 @@ class AlongInput:
         """Angles near which the angles that loads take stay; None where a link turns through."""
         found = {}
         for (a, b), near in self.angles.items():
-            angle = (
-                signals.output(Output("angle", b, b))[0]
-                if near is None
-                else signals.angle_between(a, b, near)
-            )
+            angle = signals.angle_of(a, b, near)
             low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
             if not high - low <= TURNING or (near is not None and abs(angle[0] - near) > 0.9 * np.pi):
                 return None
@@ -126,19 +120,13 @@ def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
 def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
     given = [each for each in mechanism.loads.values() if turns and not is_constant(each)]
     return numbers_of_loads(
-        [each for each in given if followed(each, mechanism) and not _divides(each) and _fits(each)],
+        [each for each in given if followed(each, mechanism) and not divides(each) and _fits(each)],
         mechanism,
     )
 
 
 #: By the loads of a mechanism.
 _traced: Recent[Mapping[str, Load], AlongInput] = Recent(64)
-
-
-def _divides(load: Load) -> bool:
-    given = getattr(load, "magnitude", None)
-    divisors = denominators(given.tree) if isinstance(given, Expression) else ()
-    return any(not isinstance(each, Number) for each in divisors)
 
 
 def _fits(load: Load) -> bool:

@@ -99,9 +99,15 @@ def followed(load: Load, mechanism: Mechanism) -> bool:
     given = getattr(load, "magnitude", None)
     if isinstance(given, Expression):
         found = [output_named(n, mechanism) for n in given.names - {*mechanism.parameters, "t", "input"}]
-        divides = any(not isinstance(each, Number) for each in denominators(given.tree))
-        return None not in found and not (found and divides)
+        return None not in found and not (found and divides(load))
     return True
+
+
+def divides(load: Load) -> bool:
+    """Whether the expression of a load divides by what is no number."""
+    given = getattr(load, "magnitude", None)
+    divisors = denominators(given.tree) if isinstance(given, Expression) else ()
+    return any(not isinstance(each, Number) for each in divisors)
 
 
 def within_turn(load: Load) -> bool:

@@ -17,7 +17,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import has_formula, outputs_of
+from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
 
 Plain = dict[str, Any]
@@ -94,15 +94,9 @@ def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> l
     """
     found: dict[str, Plain] = {}
     for load in loads:
-        pairs: list[tuple[str, str, list[Any] | None]] = [
-            ("frame", output.owner, None)
-            for output in outputs_of(load, motion.mechanism)
-            if output.kind == "angle"
-        ]
-        if load.twist is not None:
-            pairs.append((*load.twist[0], [f"loads.{load.name}.free_angle", load.twist[1]]))
-        for a, b, near in pairs:
-            found[middle_name(a, b)] = {"field": middle_name(a, b), "a": a, "b": b, "near": near}
+        for (a, b), near in angles_of(load, motion.mechanism).items():
+            begin = None if near is None else [f"loads.{load.name}.free_angle", near]
+            found[middle_name(a, b)] = {"field": middle_name(a, b), "a": a, "b": b, "near": begin}
     return [each for name, each in found.items() if name not in set(constants)]
 
 

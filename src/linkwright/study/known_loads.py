@@ -18,7 +18,7 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import InputPhase, Output
+from linkwright.fields.signals import InputPhase
 from linkwright.kinetostatics.friction import still_rates
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.run import run_forces
@@ -130,12 +130,10 @@ def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
 
 def _middles(mechanism: Mechanism, loads: Iterable[Load], signals: MotionSignals) -> dict[str, Floats]:
     """The angles that loads take, at every position."""
-    pairs = {pair: near for load in loads for pair, near in angles_of(load, mechanism).items()}
     return {
-        middle_name(a, b): signals.output(Output("angle", b, b))[0]
-        if near is None
-        else signals.angle_between(a, b, near)
-        for (a, b), near in pairs.items()
+        middle_name(a, b): signals.angle_of(a, b, near)
+        for load in loads
+        for (a, b), near in angles_of(load, mechanism).items()
     }
 
 
