@@ -58,6 +58,26 @@ def test_a_joint_is_written_as_it_was_read(kind: str) -> None:
         assert again.joints[name].joined == joint.joined
 
 
+@pytest.mark.parametrize(
+    ("pair", "sizes"),
+    [
+        ("kind: rolling, links: [one, two], carrier: base", "radii: [r, d - r]"),
+        ("kind: gear, links: [one, two], carrier: base", "teeth: [z, 2*z]"),
+        ("kind: belt, links: [one, two], carrier: base", "radii: [r/3, r/2]"),
+    ],
+)
+def test_sizes_in_lists_stay_the_expressions_that_they_are(pair: str, sizes: str) -> None:
+    """d: the distance of the centres, √(0.6² + 0.35²) m."""
+    distance = math.hypot(0.6, 0.35)
+    given = f"parameters: {{r: 250 mm, z: 20, d: {distance!r} m}}\n"
+    text = MODEL.replace("JOINTS", f"pair: {{{pair}, {sizes}}}").replace("frame:", f"{given}frame:", 1)
+    first = lw.loads(text)
+    again = lw.loads(lw.dump(first))
+    assert len(first.expressions) == 2 and again.expressions == first.expressions
+    changed = {"z": 30.0} if "z" in sizes else {"r": 0.2}
+    assert again.with_dimensions(changed).joints["pair"] == first.with_dimensions(changed).joints["pair"]
+
+
 @each
 def test_every_dimension_is_changed_alone(kind: str) -> None:
     mechanism = read(kind)

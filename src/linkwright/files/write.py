@@ -46,10 +46,11 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["drawing"] = {name: [_length(x), _length(y)] for name, (x, y) in mechanism.drawing.items()}
     data |= _drivers(mechanism.drivers, texts)
     cycle = mechanism.cycle.dimensions() if mechanism.cycle else {}
-    data["cycle"] = {
-        address.removeprefix("cycle."): texts.get(address) or _cycle_value(mechanism, address, value)
+    values = {
+        address.removeprefix("cycle."): _cycle_value(mechanism, address, value)
         for address, value in cycle.items()
     }
+    data["cycle"] = _substituted(values, "cycle", texts)
     if mechanism.gravity != (0.0, 0.0) or "gravity.x" in texts or "gravity.y" in texts:
         data["gravity"] = [
             texts.get(f"gravity.{axis}") or written_quantity(value, "acceleration")
@@ -120,11 +121,10 @@ def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
         return None
     values |= {key: 0.0 for key in fields if f"{joint.name}.{key}" in texts}
     written = {
-        key: texts.get(f"{joint.name}.{key}")
-        or (value if isinstance(value, list | str) else fields[key].written(value))
+        key: value if isinstance(value, list | str) else fields[key].written(value)
         for key, value in values.items()
     }
-    return {"kind": joint.kind, **written}
+    return {"kind": joint.kind, **_substituted(written, joint.name, texts)}
 
 
 def _drivers(drivers: Mapping[str, Driver], texts: Mapping[str, str]) -> Plain:
@@ -140,10 +140,8 @@ def _driver(driver: Driver, texts: Mapping[str, str]) -> Plain:
     if law.rotary:
         way = {"turn": driver.link, "about": driver.joint, "relative_to": driver.relative_to}
     fields, values = type(law).fields(law.rotary), law.text_values()
-    written = {
-        key: texts.get(f"{driver.name}.{key}") or fields[key].written(value) for key, value in values.items()
-    }
-    return {**way, **written}
+    written = {key: fields[key].written(value) for key, value in values.items()}
+    return {**way, **_substituted(written, driver.name, texts)}
 
 
 def _cycle_value(mechanism: Mechanism, address: str, value: float) -> Any:
