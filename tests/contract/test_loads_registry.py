@@ -426,3 +426,8 @@ def test_dimensions_can_be_changed(kind: str, keys: dict[str, Any]) -> None:
 
 def test_a_kind_from_outside_is_in_the_schema() -> None:
     assert "outside_magnet" in str(json_schema())
+
+
+def test_a_joint_of_a_load_may_turn_or_slide_where_its_kind_does_not_say() -> None:
+    assert base.joint().metadata["field"].coordinates == ("turn", "slide")
+    assert base.joint("slide").metadata["field"].coordinates == ("slide",)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
+from dataclasses import replace
 from functools import cache
 from itertools import product
 
@@ -126,6 +127,21 @@ def test_a_certificate_does_not_depend_on_the_unit_of_the_way(name: str, index: 
         assert bent == pytest.approx(known[0][1], rel=1e-9)
         assert found.certified == known[0][2].certified
         assert found.contraction == pytest.approx(known[0][2].contraction, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["triad", "slotted"])
+def test_what_a_rate_leaves_open_at_an_end_bends_the_residual_as_much_as_hermites_cubic(name: str) -> None:
+    """The cubic of a slope at one end and nothing else is t (1 - t)² h, which is largest at a third of the step."""
+    loops, a, b = ends(name, 7, 0.02)
+    off = np.zeros(len(a.rate))
+    off[: loops.n] = 1e-3 * loops.scale
+    right = _Step(loops, a, b, still(loops))
+    wrong = copy(right)
+    wrong.b = replace(b, rate=b.rate + off)
+    open_slope = wrong.A @ loops.jacobian(loops.slopes(loops.turned(b.y))) @ off[: loops.n]
+    largest = 0.02 * max(t * (1.0 - t) ** 2 for t in np.linspace(0.0, 1.0, 3001))
+    more = wrong._ends() - right._ends()
+    assert more == pytest.approx(largest * np.abs(open_slope), rel=1e-4, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", MACHINES)

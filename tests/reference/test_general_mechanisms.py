@@ -52,6 +52,16 @@ def test_ways_that_are_not_the_usual_ones(name: str, steps: int, kind: str) -> N
     assert verdict.notes["ok"] >= 4
 
 
+def test_a_first_position_more_than_half_a_turn_away_is_reached_the_long_way() -> None:
+    """The law begins 4.03 rad behind the drawing: 2.25 rad before it is the same place, but that way is barred."""
+    text = Path(__file__).with_name("faults").joinpath("other_way_round.yaml").read_text("utf-8")
+    swing = "2.7071989975245137 rad*sin(2*pi*t/(2.458 s) + 0.9846 rad)"
+    behind = 2.7071989975245137 - 2 * np.pi / np.sin(0.9846)
+    assert text.count(swing) == 1
+    verdict = judged(text.replace(swing, f"({behind} rad)*sin(2*pi*t/(2.458 s) + 0.9846 rad)"), 1)
+    assert verdict.kind == AGREES and verdict.notes["ok"] == 1, verdict.lines
+
+
 def test_everything_comes_up() -> None:
     texts = [general_case(seed).text for seed in range(300)]
     models = [lw.loads(text) for text in texts]

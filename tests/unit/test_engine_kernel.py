@@ -1,7 +1,11 @@
 """Kernels: what the compiled functions give is what Python's own arithmetic gives."""
 
+import ast
 import gc
+from concurrent.futures import ThreadPoolExecutor
 from math import cos, exp, fabs, log, sin, sqrt
+from time import sleep
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -103,3 +107,32 @@ def test_functions_keep_their_code_when_others_push_it_out_of_the_memory() -> No
     cache.forget()
     gc.collect()
     assert [kernels("series", 0.5, 8) for _ in range(100)] == [before] * 100
+
+
+def before(row: Reals, k: int) -> float:
+    there = row - k
+    return there[0]
+
+
+def test_an_address_goes_forward_only() -> None:
+    with pytest.raises(TypeError, match="an address can only be added to: row - k"):
+        Kernels([before]).text()
+
+
+def test_threads_read_kernels_one_after_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two trees made at once end in a SystemError of Python 3.11, where a collection lets another thread in."""
+    inside, most, parse = [], [], ast.parse
+
+    def watched(source: str) -> ast.Module:
+        inside.append(source)
+        sleep(0.002)
+        most.append(len(inside))
+        inside.pop()
+        return parse(source)
+
+    monkeypatch.setattr(
+        "linkwright.engine.kernel.ast", SimpleNamespace(parse=watched, FunctionDef=ast.FunctionDef)
+    )
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: Kernels([before]).trees["before"].name, range(12)))
+    assert found == ["before"] * 12 and most == [1] * 12

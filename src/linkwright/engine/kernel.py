@@ -18,6 +18,7 @@ import hashlib
 import inspect
 import math
 import textwrap
+import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -170,8 +171,14 @@ class Kernels:
         return machine_code.optimised(str(module))
 
 
+#: Python 3.11 counts the depth of a tree that it makes for all threads together, and refuses where two make one.
+_parsing = threading.Lock()
+
+
 def _tree(function: Callable[..., Any]) -> ast.FunctionDef:
-    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(function))).body
+    source = textwrap.dedent(inspect.getsource(function))
+    with _parsing:
+        (tree,) = ast.parse(source).body
     assert isinstance(tree, ast.FunctionDef)
     return tree
 

@@ -211,6 +211,8 @@ class KernelWriter(ComplexWriter):
     def _of_BinOp(self, node: ast.BinOp) -> Any:
         left, right, name = self._value(node.left), self._value(node.right), type(node.op).__name__
         if isinstance(left, _Address):
+            if name != "Add":
+                raise TypeError(f"an address can only be added to: {ast.unparse(node)}")
             return _Address(self.b.gep(left.value, [right], source_etype=left.entry), left.entry)
         if self._is_pair(left) or self._is_pair(right):
             return self._complex_operation(name, left, right)
