@@ -1,6 +1,8 @@
 """The true speed of many designs: that of steady running alone, of closed forms, and of an independent reduction."""
 
+from dataclasses import replace
 from math import pi
+from typing import Any
 
 import numpy as np
 import pytest
@@ -316,3 +318,44 @@ def test_speeds_stand_where_they_occur() -> None:
         (row,) = table[name]
         assert (row.value, row.at) == (pytest.approx(speed, rel=1e-12), pytest.approx(-angle, abs=1e-9))
     assert all(METRICS[name].on_request for name in (*OWN, *SIZED))
+
+
+def with_friction(machine: lw.Mechanism, coefficient: float, radius: float) -> lw.Mechanism:
+    """The same with friction in every pin, of a radius in m."""
+    pins: dict[str, Any] = {**machine.joints}
+    rubbing = {name: replace(pin, friction=coefficient, pin_radius=radius) for name, pin in pins.items()}
+    return replace(machine, joints=rubbing)
+
+
+def test_friction_of_pins_is_that_at_the_mean_speed() -> None:
+    """As in ``steady_running``, side by side."""
+    crusher = heavier("jaw_crusher_sixbar", 20.0)
+    rubbing = with_friction(crusher, 0.05, 0.01)
+    cycle = metric_cycle(rubbing, ["toggle.length"], ["speed_fluctuation", "exact_flywheel"])
+    assert cycle is not None
+    lengths = rubbing.dimension("toggle.length") * np.array([1.0, 1.003])
+    found = cycle.evaluate({"toggle.length": lengths})
+    assert found.certain.all()
+    for index, length in enumerate(lengths):
+        design = rubbing.with_dimensions({"toggle.length": float(length)})
+        running = steady_running(lw.solve_forces(design), fluctuation=0.02)
+        reduced = running.equivalent
+        alone = true_speed(reduced.load, reduced.inertia_at, reduced.speed)
+        assert found.values["speed_fluctuation"][index] == pytest.approx(alone.fluctuation, rel=1e-11)
+        assert found.values["exact_flywheel"][index] == pytest.approx(running.exact_flywheel, rel=1e-11)
+        power = metrics(lw.solve_forces(design), "mean_power").value("mean_power")
+        assert running.motor.mean_power == pytest.approx(power, rel=1e-12)
+    plain = steady_running(lw.solve_forces(crusher), fluctuation=0.02)
+    assert abs(found.values["exact_flywheel"][0] - plain.exact_flywheel) > 0.1
+
+
+def test_a_speed_without_gradient_is_refused_where_a_sweep_still_finds_it() -> None:
+    machine = lw.loads(PENDULUM.format(speed=30, torque=-7)).with_dimensions({"crank.inertia": 0.05})
+    for ask in (
+        lambda: lw.objective(machine, "slowest_speed", vary=["crank.inertia"]),
+        lambda: lw.sensitivity(machine, of=["slowest_speed"], by=["crank.inertia"]),
+    ):
+        with pytest.raises(lw.LinkwrightError, match="changes too suddenly for a gradient"):
+            ask()
+    found = lw.sweep(machine, {"crank.inertia": [0.05]}, outputs=["slowest_speed"])
+    assert found["slowest_speed"][0] == pytest.approx(pendulum_speeds(0.05, pi)[0], rel=1e-9)

@@ -9,7 +9,7 @@ from itertools import chain
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes
+from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes, tails
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -154,7 +154,14 @@ def equivalent(forces: Forces) -> Equivalent:
 
     edges = abs(rate) * (grid.edges - begin)
     between, slope = _inertia_and_slope(grid.motion)
-    torque = direction * _torque(grid.forces, between, slope)
+    torque = _torque(grid.forces, between, slope)
+    load, size = (
+        Piecewise(edges, direction * torque.reshape(-1, POINTS)),
+        np.abs(grid.forces.input_torque).max(),
+    )
+    if tails(load.values).max() > grid.tolerance * size:  # as where friction turns round
+        halved = grid.curve(equivalent_torque, "forces", halve=True)
+        load = Piecewise(abs(rate) * (halved.edges - begin), direction * halved.values)
     return Equivalent(
         forces=forces,
         speed=abs(rate),
@@ -162,7 +169,7 @@ def equivalent(forces: Forces) -> Equivalent:
         start=float(motion.input[0]),
         direction=direction,
         inertia_at=Piecewise(edges, between.reshape(-1, POINTS)),
-        load=TorqueCurve.from_pieces(Piecewise(edges, torque.reshape(-1, POINTS))),
+        load=TorqueCurve.from_pieces(load),
     )
 
 

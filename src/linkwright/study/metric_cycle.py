@@ -221,7 +221,7 @@ class MetricCycle:
             for name, row in zip(self._formulas.output_names, rows, strict=True):
                 values[name][first:end] = row
 
-        block = RUNNING if self._running else BLOCK
+        block = RUNNING if self.running else BLOCK
         spread_over(designs, block, cores() if threads is None else threads, work)
         return Found(values, certain)
 
@@ -327,11 +327,11 @@ class MetricCycle:
 
     @property
     def _summaries(self) -> list[Summary]:
-        apart = {*self.limited, *self._running}
+        apart = {*self.limited, *self.running}
         return [part for text, part in self.parts.items() if text not in apart]
 
     @cached_property
-    def _running(self) -> set[str]:
+    def running(self) -> set[str]:
         """The parts that the true speed gives."""
         return {text for text, part in self.parts.items() if part.kind in true_speed.KINDS}
 
@@ -415,7 +415,7 @@ class MetricCycle:
         for text, part in self.parts.items():
             if text in self.limited:
                 continue
-            if text in self._running:
+            if text in self.running:
                 weighted = (trace.field_input(f"{text} {name}") * found[name] for name in SIGNALS)
                 sums[text] = sum(weighted, start=trace.field_input(f"{text} {REST}"))
                 continue
@@ -449,7 +449,7 @@ class MetricCycle:
         part = self.parts[text]
         if text in self.limited:
             return t.parameter(self.limited[text])
-        if part.kind == "mean" or text in self._running:
+        if part.kind == "mean" or text in self.running:
             return t.parameter(text)
         if part.kind == "rms":
             return sqrt(t.parameter(text))

@@ -229,6 +229,9 @@ def of_metrics(
         raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
     for name in weights:
         refuse_obstacle(name, cycle.analysis)
+    start = {name: np.array([mechanism.dimension(name)]) for name in names}
+    if cycle.running and not cycle.evaluate(start).certain.all():
+        raise RequestError(Sentence("study.objective_speed", name=mechanism.name))
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
 

@@ -106,6 +106,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_target": "the target of a path error is a list of points [x, y] in m, and all targets have as many "
     "points",
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
+    "objective_speed": "the true speed of {name!r}, or the torque that it follows from, changes too suddenly for a "
+    "gradient, as where it almost stands still; find its numbers without one, by sweep or study",
     "objective_loads": "{name!r} has friction beside wheels, racks or cams, or (for design numbers) on a guide that "
     "is pressed from both sides, loads that divide by an output, follow a link that turns through or act against the "
     "rotation of two moving links, or phases between limit positions or design numbers over other cycles than one "

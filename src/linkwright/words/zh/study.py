@@ -92,6 +92,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_shape": "各方案的列必须是 {names}，而不是形状 {shape}",
     "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
+    "objective_speed": "“{name}”的真实速度或决定它的力矩变化过于突然（如几乎停转处），不能求梯度；"
+    "请用 sweep 或 study 求其数值",
     "objective_loads": "{name!r} 除齿轮、齿条或凸轮外还含有摩擦，或（求设计指标时）有摩擦的导路两侧交替受压，"
     "或载荷以输出为除数、取决于整转构件的转角、与两个活动构件的相对转动反向，"
     "或在原动件并非匀速转一整周的循环上用到极限位置之间的阶段或设计指标，"
