@@ -83,6 +83,16 @@ def test_what_moves_with_the_cycle_is_that_of_single_designs_as_well(
     compare(machine(law, load), address, "driver")
 
 
+@pytest.mark.parametrize("law", [UNEVEN, SEVERAL_TURNS, "speed: -10 rad/s"])
+def test_an_interval_longer_than_a_turn_is_refused_of_many_designs_too(law: str) -> None:
+    mechanism = machine(law, "magnitude: 5 N, phase: {input: [0 deg, 720 deg]}")
+    with pytest.raises(lw.LinkwrightError, match="from 0° to 720° is longer than one turn"):
+        lw.prepare(mechanism, vary=["rod.length"], steps=90).solve({"rod.length": 3.1})
+    found = lw.sweep(mechanism, {"rod.length": [3.0, 3.1]}, outputs=["input_torque rms"], steps=90)
+    assert not found.ok.any()
+    assert np.isnan(found["input_torque", "rms"]).all()
+
+
 def test_an_objective_under_a_law_of_the_time_has_its_gradient() -> None:
     """Central differences of designs solved alone."""
     mechanism = machine(UNEVEN, LOADS["expression"])

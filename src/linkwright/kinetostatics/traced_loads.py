@@ -13,7 +13,7 @@ from linkwright.core.expressions import Expression
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase
+from linkwright.fields.signals import MovingPhase, Output, SwingPhase
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
@@ -22,7 +22,7 @@ from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name,
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, divides, followed, is_constant, magnitude
 from linkwright.loads.magnitude import constants as of_load
-from linkwright.loads.phases import NEAR, TURN
+from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
 #: An angle that covers more than this is one of a link that turns.
@@ -120,19 +120,13 @@ def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
 def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
     given = [each for each in mechanism.loads.values() if turns and not is_constant(each)]
     return numbers_of_loads(
-        [each for each in given if followed(each, mechanism) and not divides(each) and _fits(each)],
+        [each for each in given if followed(each, mechanism) and not divides(each)],
         mechanism,
     )
 
 
 #: By the loads of a mechanism.
 _traced: Recent[Mapping[str, Load], AlongInput] = Recent(64)
-
-
-def _fits(load: Load) -> bool:
-    """Whether the load's interval of the input is no longer than a turn."""
-    phase = getattr(load, "phase", None)
-    return not isinstance(phase, InputPhase) or abs(phase.end - phase.start) <= TURN + NEAR
 
 
 def traced_magnitude(motion: MotionTrace, name: str) -> Scalar:

@@ -91,10 +91,16 @@ class Turning(Course, Protocol):
 def followed(load: Load, mechanism: Mechanism) -> bool:
     """Whether the magnitude of a load can be traced.
 
-    Not where a kind finds it in a way of its own, and where an expression divides by an output, which may go through
-    zero between two positions.
+    Not where a kind finds it in a way of its own, where an expression divides by an output, which may go through
+    zero between two positions, and where an interval of the input is longer than a turn.
     """
-    if not has_formula(load):
+    phase = getattr(load, "phase", None)
+    long = (
+        isinstance(phase, InputPhase)
+        and phase.across == "angle"
+        and abs(phase.end - phase.start) > TURN + NEAR
+    )
+    if long or not has_formula(load):
         return False
     given = getattr(load, "magnitude", None)
     if isinstance(given, Expression):
