@@ -5,6 +5,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solve import MotionRun
@@ -12,7 +13,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
-from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.limit_stages import constants, limit_stages, near_limits
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.traced import Traced
@@ -250,3 +251,25 @@ def test_a_spring_is_wound_from_its_free_angle_the_way_of_the_drawing() -> None:
     assert np.abs(alone) == pytest.approx(np.abs(torque[0]), abs=1e-12)
     slope = lw.sensitivity(machine, of=["input_torque rms"], by=["loads.twist.stiffness"], steps=24)
     assert slope.gradient("input_torque rms") == pytest.approx([expected[0] / 5.0], rel=1e-12)
+
+
+def test_limits_are_found_from_inputs_near_them_at_any_speed() -> None:
+    """Crank and rod in one line: sin θ = e/(l + r), and e/(l - r) half a turn on; the pin at √((l ± r)² - e²)."""
+    machine = lw.loads(MODEL.split("loads:", maxsplit=1)[0])
+    assert machine.dimension("driver.speed") == pytest.approx(4 * np.pi)
+    near = np.array([np.arcsin(0.05 / 0.9), np.pi + np.arcsin(0.05 / 0.5)])
+    traced = Traced(machine, {}, over_cycle(machine, 36))
+    output = Output("x", "piston.B", "piston.B")
+    program = near_limits(traced, [output], [output])
+    known = traced.solver.nominal.parameters
+    found = NumpyProgram(program).run(
+        [known[name] for name in program.parameters],
+        {f"near:{output}": near + np.array([0.03, -0.04])},
+        length=2,
+    )
+    rows = dict(zip(program.output_names, found, strict=True))
+    assert rows[f"limit:{output}"] == pytest.approx(near, abs=1e-12)
+    assert (rows[f"moved:{output}"] < 1e-12).all()
+    assert np.abs(rows[f"value:{output}"]) == pytest.approx(
+        np.sqrt([0.81 - 0.0025, 0.25 - 0.0025]), rel=1e-12
+    )
