@@ -6,8 +6,8 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.machine.running import SteadyRunning
-from linkwright.machine.speed import SpeedCurve, true_speed
-from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.machine.speed import SpeedCurve
+from linkwright.metrics.true_speed import steady_cycle
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
 from linkwright.plot.diagrams.picture import COLOURS
@@ -51,9 +51,7 @@ def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str
 
 def _alone(running: SteadyRunning) -> SpeedCurve | None:
     """The speed without a flywheel; None where the machine would stop within its cycle."""
-    reduced = running.equivalent
-    driver = TorqueCurve.constant(reduced.load.mean, period=reduced.period)
     try:
-        return true_speed(reduced.load, reduced.inertia_at, reduced.speed, driver=driver)
+        return steady_cycle(running.equivalent.forces)[1].curve(motor_torque=running.mean_torque)
     except LinkwrightError:
         return None
