@@ -6,6 +6,7 @@ A parallelogram copies its crank: no angular acceleration, no torque; its couple
 from __future__ import annotations
 
 from math import inf, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,3 +88,19 @@ def test_values_between_follow_each_side() -> None:
     share = np.linspace(-1.0, 1.0, 41)
     kinked = np.abs(np.sin(0.4 * NODES)) + NODES
     np.testing.assert_allclose(between(kinked, share), np.abs(np.sin(0.4 * share)) + share, atol=1e-10)
+
+
+def test_infinite_reactions_are_compared_drawn_and_reported(tmp_path: Path) -> None:
+    """Infinite is worse than anything finite and as bad as itself; pictures say ∞, scores stay numbers."""
+    files = []
+    for name, text in {"idle": MODEL, "loaded": LOADED, "more": LOADED.replace("10 N·m", "12 N·m")}.items():
+        files.append(tmp_path / f"{name}.yaml")
+        files[-1].write_text(text.replace("start: 90 deg", "start: 89.6 deg"), encoding="utf-8")
+    compared = lw.compare(files, metrics=["peak_reaction"])
+    assert compared.ranking[0].index == 0
+    assert [row.score(k) for row in compared.judged for k in range(3)] == [1.0, 0.0, 0.0]
+    both = lw.compare(files[1:])
+    assert all(0.0 <= rank.score <= 1.0 for rank in both.ranking)
+    assert "nan" not in both.text() + both.evaluation()
+    forces = lw.solve_forces(lw.solve_motion(lw.load(files[1])))
+    assert "∞" in lw.plot(forces, "reactions").svg()

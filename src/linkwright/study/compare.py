@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,9 +49,9 @@ class Row:
             return ()
         sizes = [abs(each.value) for each in self.values if each is not None]
         goal = max(sizes) if self.criterion.better == "higher" else min(sizes)
-        if max(sizes) - min(sizes) <= SAME * max(sizes):
-            return ()
-        return tuple(i for i, size in enumerate(sizes) if abs(size - goal) <= SAME * max(sizes))
+        same = SAME * max((size for size in sizes if isfinite(size)), default=0.0)
+        best = tuple(i for i, size in enumerate(sizes) if size == goal or abs(size - goal) <= same)
+        return () if len(best) == len(sizes) else best
 
     @property
     def comparable(self) -> bool:
@@ -63,9 +64,10 @@ class Row:
     def score(self, index: int) -> float:
         """1 for the best, else how near the value comes to it: best/value where lower is better, or the inverse."""
         sizes = [abs(each.value) for each in self.values if each is not None]
-        if self.criterion.better == "higher":
-            return sizes[index] / max(sizes) if max(sizes) > 0.0 else 1.0
-        return min(sizes) / sizes[index] if sizes[index] > 0.0 else 1.0
+        mine, best = sizes[index], max(sizes) if self.criterion.better == "higher" else min(sizes)
+        if mine == best:
+            return 1.0
+        return mine / best if self.criterion.better == "higher" else best / mine
 
 
 @dataclass(frozen=True)

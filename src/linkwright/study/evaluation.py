@@ -16,6 +16,8 @@ from linkwright.words.width import aligned
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison, Rank, Row
 
+#: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
+BESIDE = 1e-3
 #: Reasons given per alternative.
 REASONS = 3
 MARK = "*"
@@ -133,6 +135,9 @@ def _pivot(comparison: Comparison, say: Say) -> str:
         joint, link = each.pivot
         most, least = (each.analysis.part(f"reaction {joint} on {link} {kind}") for kind in ("max", "min"))
         force = each.forces_at(most.time).reaction(joint, on=link)[0]
+        if not np.isfinite(force).all():  # on a change point: as it is beside
+            beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
+            force = each.forces_at(beside).reaction(joint, on=link)[0]
         parts.append(
             say(
                 "compare.pivot_of",

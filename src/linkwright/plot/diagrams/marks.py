@@ -111,6 +111,11 @@ def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
         share = (x - left) / (right - left) if right > left else 0.5
         if places[-1] < places[0]:
             share = 1.0 - share
+        if np.isinf(value):
+            axes.annotate("∞" if value > 0.0 else "-∞", (x, float(value > 0.0)), (0, -4 if value > 0.0 else 4),
+                          xycoords=axes.get_xaxis_transform(), textcoords="offset points", ha="center",
+                          va="top" if value > 0.0 else "bottom", fontsize=9, color=INK, bbox=_HALO)  # fmt: skip
+            continue
         side = "left" if share < 0.12 else "right" if share > 0.88 else "center"
         axes.plot([x], [y], "o", color=curve.colour, markersize=3.6, zorder=4)
         axes.annotate(unit.text(value), (x, y), (0, 4 if above else -4), textcoords="offset points", ha=side,
