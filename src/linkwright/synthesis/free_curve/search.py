@@ -98,6 +98,8 @@ class Pool:
             if alike.get(key, 0) < most and sum(near[row][k] for k in kept) < CROWD:
                 kept.append(row)
                 alike[key] = alike.get(key, 0) + 1
+            elif each is design:
+                return
         self.designs = [order[row] for row in kept[:POOL]]
 
     @property
